@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.errors import MAX_REASON, MAX_SHOWN, InputError, one_line, shown
+from texvent.errors import MAX_REASON, MAX_SHOWN, InputError, one_line, shown, without_password
 from texvent.runtime.file_names import usable_path
 
 
@@ -34,3 +34,39 @@ def test_the_words_of_a_library_are_cut_to_one_line():
 def test_a_name_that_no_file_can_have_is_refused(name):
     with pytest.raises(InputError, match="is no file name"):
         usable_path(name)
+
+
+ADDRESSES = {
+    "rtsp://me:hidden@cam/s": "rtsp://cam/s",
+    "rtsp://me:hid@den@cam/s": "rtsp://cam/s",
+    "rtsp://me:hid/den@cam:554/s": "rtsp://cam:554/s",
+    "rtsp://me:hid?den#@cam/s": "rtsp://cam/s",
+    "rtsp://me%3Ahidden@cam.org/s": "rtsp://cam.org/s",
+    "rtsp://hidden@cam/s": "rtsp://cam/s",
+    "rtsp:/me:hidden@cam/s": "rtsp:/cam/s",
+    "RTSP://me:hidden@[::1]:5/s": "RTSP://[::1]:5/s",
+    "async:http://me:hidden@cam/s": "async:http://cam/s",
+    "http://a.org/http://me:hidden@cam/s": "http://cam/s",
+    "http://cam/s?user=me&pwd=hidden": "http://cam/s...",
+    "http://cam/s?hidden=": "http://cam/s...",
+    "http://cam/s%3Ftoken%3Dhidden": "http://cam/s...",
+    "rtsp://10.0.0.9:554/user=me_password=hidden_channel=1.sdp": "rtsp://10.0.0.9:554/user...",
+    "me:hidden@cam/s": "cam/s",
+    "me:hid/den@cam.org": "cam.org",
+    "http://cam.org:80/a@2x/b.mp4": "http://2x/b.mp4",  # the a could be a password
+    "http://cam.org/a@2x/b.mp4": "http://cam.org/a@2x/b.mp4",
+    "/data/a:b@c.mp4": "/data/a:b@c.mp4",
+    "C:/clips/a@2x.mp4": "C:/clips/a@2x.mp4",
+    "clip@2x.mp4": "clip@2x.mp4",
+}
+
+
+@pytest.mark.parametrize("address", ADDRESSES)
+def test_an_address_is_shown_without_what_it_may_hide(address: str) -> None:
+    assert without_password(address) == ADDRESSES[address]
+    assert without_password("rtsp://me:hidden") == "rtsp://..."
+    for text in (address, f"no such file: {address}; give one", shown(address)):
+        said = str(InputError(f"{text} (see https://docs.org/page#part)"))
+        assert "hidden" not in said
+        assert "den@" not in said
+        assert "https://docs.org/page#part" in said

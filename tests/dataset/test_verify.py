@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from texvent.cli.app import main
+from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.sample import npy_bytes
 from texvent.dataset.generation.shards import (
     ShardRecord,
@@ -21,7 +22,9 @@ from texvent.dataset.generation.shards import (
     write_record,
 )
 from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.verify import Findings, verify
+from texvent.errors import ConfigError
 
 
 def check(folder: Path) -> Findings:
@@ -136,3 +139,52 @@ def test_the_command_says_it_in_its_exit_code(
     assert main(["dataset", "verify", str(copied), "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["missing"] == ["esim/test-000000.tar"]
     assert main(["dataset", "verify", str(copied / "esim")]) == 2
+
+
+def test_a_shard_of_a_high_number_is_counted_and_lists_nothing(copied: Path) -> None:
+    (copied / "items.jsonl").unlink()
+    for suffix in (".tar", ".json"):
+        own = copied / "esim" / f"test-000000{suffix}"
+        own.rename(own.with_stem("test-999999999"))
+    record = copied / "esim" / "test-999999999.json"
+    record.write_text(record.read_text().replace("test-000000", "test-999999999"))
+    assert check(copied).missing == ["esim/test-000000.tar to esim/test-999999998.tar"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("members", {"x.npy": [0, 10**15]}),
+        ("members", {"x.npy": [-1, 5]}),
+        ("members", {"x.npy": [0, 10**30]}),
+        ("events", "many"),
+        ("events", 10**30),
+        ("width", 1.5),
+        ("prompt", 5),
+        ("label", ["car"]),
+        ("warnings", [1]),
+        ("boxes", {"car": [1]}),
+        ("prompt_report", {"shown": [{}]}),
+        ("key", "a/b"),
+        ("clip", ".."),
+        ("unknown", 1),
+    ],
+)
+def test_wrong_values_of_a_record_are_damage(
+    copied: Path, name: str, value: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = copied / "paper" / "train-000000.json"
+    tables = json.loads(path.read_text())
+    tables["samples"][0][name] = value
+    path.write_text(json.dumps(tables))
+    assert main(["dataset", "verify", str(copied)]) == 1
+    assert "damaged" in (said := capsys.readouterr().out) or "shorter than" in said
+    for words in (["stats"], ["preview", "-o", str(copied / "page.html")]):
+        assert main(["dataset", words[0], str(copied), *words[1:]]) in (0, 2)
+
+
+def test_a_specification_cannot_ask_for_shards_without_end() -> None:
+    tables = {"name": "n", "sources": [{"prompts": ["a car"]}], "repeats": 10**8}
+    specification = specification_from({**tables, "samples_per_shard": 1}, folder=Path())
+    with pytest.raises(ConfigError, match="100,000,000 shards are too many"):
+        Recipe.of(specification)

@@ -132,3 +132,29 @@ def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) 
     atomic.sweep(tmp_path)
     assert (target / "events").read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["recording"]
+
+
+SWEEP_ALL = """
+import sys
+from pathlib import Path
+from texvent.io import atomic
+atomic._is_dead = lambda part: True  # as in another PID namespace
+atomic.sweep(Path(sys.argv[1]))
+"""
+
+
+def test_another_pid_namespace_removes_no_part_that_is_written(tmp_path: Path) -> None:
+    import h5py
+
+    def sweep() -> None:
+        subprocess.run([sys.executable, "-c", SWEEP_ALL, str(tmp_path)], check=True)
+
+    with hidden_file(tmp_path, ".h5") as file, hidden_folder(tmp_path) as folder:
+        with h5py.File(file, "w"):  # HDF5 locks its files, too
+            sweep()
+        sweep()
+        assert file.is_file()
+        assert folder.is_dir()
+    (tmp_path / ".texvent-x-1-x.part.h5").touch()
+    sweep()
+    assert list(tmp_path.iterdir()) == []

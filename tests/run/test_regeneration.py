@@ -1,11 +1,20 @@
 from __future__ import annotations
 
+import json
+from pathlib import Path
+from typing import Any
+
+import cv2
 import numpy as np
 import pytest
+from tests.cli.running import run
 
+import texvent
 from texvent.events import EventStream
+from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.run.regeneration import render_again
+from texvent.scenes.spec.files import load_scene
 from texvent.settings.resolution import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
@@ -50,3 +59,58 @@ def test_a_part_in_time_fits_its_video_and_an_edited_one_does_not(simulation) ->
     assert render_again(events.between(50_000, 150_000).metadata) is not None
     turned = events.between(50_000, 150_000).rotate(180)
     assert render_again(turned.metadata) is None
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> dict[str, Any]:
+    """Provenance of a scene that shows a picture."""
+    cv2.imwrite(str(tmp_path / "photo.png"), np.full((8, 8, 3), 200, np.uint8))
+    scene = tmp_path / "board.toml"
+    scene.write_text(
+        '[[objects]]\nnoun = "billboard"\npicture = {kind = "file", value = "photo.png"}\n'
+    )
+    run_of = text_to_events(load_scene(scene), resolve("generate", OPTIONS))
+    facts: dict[str, Any] = json.loads(json.dumps(run_of.provenance))
+    return facts
+
+
+def test_a_scene_that_shows_files_is_drawn_for_who_asks_and_if_they_are_listed(
+    board: dict[str, Any], tmp_path: Path
+) -> None:
+    with pytest.warns(texvent.TexventWarning, match=r"shows .*png' of this machine"):
+        assert render_again(board) is None
+    assert render_again(board, with_files=True) is not None
+    for files in (None, [], [{"file": board["source"]["files"][0]["file"], "sha256": "0"}]):
+        changed = {**board, "source": {**board["source"], "files": files}}
+        assert render_again(changed, with_files=True) is None
+    cv2.imwrite(str(tmp_path / "photo.png"), np.zeros((8, 8, 3), np.uint8))
+    assert render_again(board, with_files=True) is None
+
+
+def test_a_folder_of_models_is_a_file_too_and_a_sensor_file_is_not_read(
+    simulation, tmp_path: Path
+) -> None:
+    facts = json.loads(json.dumps(simulation.provenance))
+    facts["settings"]["run"]["sensor"] = str(tmp_path / "no.toml")
+    assert render_again(facts) is not None
+    facts["settings"]["generate"]["assets"] = str(tmp_path)
+    with pytest.warns(texvent.TexventWarning, match="of this machine"):
+        assert render_again(facts) is None
+
+
+@pytest.mark.parametrize("kind", ["png", "html", "mp4"])
+def test_a_file_cannot_ask_for_more_frames_than_are_shown(
+    simulation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    facts = json.loads(json.dumps(simulation.provenance))
+    facts["settings"]["generate"].update(duration=86400.0, fps="1000000")
+    times = np.arange(1000, 100_000, 999)
+    EventStream.from_columns(
+        times % 48, times % 36, times, times % 2, size=(48, 36), metadata=facts
+    ).save(tmp_path / "long.h5")
+    drawn = []
+    at = ProceduralVideo.at
+    monkeypatch.setattr(ProceduralVideo, "at", lambda self, t: drawn.append(t) or at(self, t))
+    assert run("render", str(tmp_path / "long.h5"), "-o", str(tmp_path / f"long.{kind}")) == 0
+    assert 0 < len(drawn) <= 140
+    assert all(1000 <= t_us < 100_000 for t_us in drawn)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.scenes.spec.scene import Scene
 
@@ -177,10 +177,15 @@ def _name(where: str, value: Any) -> str | None:
     if value is None or value == "":
         return None
     name = str(value)
-    if "/" in name or "\0" in name or name.startswith(".") or len(name.encode()) > MAX_NAME_BYTES:
+    try:
+        inside(Path(), name)
+        is_usable = not ("/" in name or name.startswith(".") or len(name.encode()) > MAX_NAME_BYTES)
+    except (FileFormatError, UnicodeEncodeError):
+        is_usable = False
+    if not is_usable:
         raise FileFormatError(
             f"{where}: {shown(name)} is no name for a file; use at most {MAX_NAME_BYTES} bytes, "
-            "without / and no dot in front"
+            f"without / {' '.join(NOT_IN_NAMES)} and no dot in front"
         )
     return name
 

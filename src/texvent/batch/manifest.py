@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.samples import Sample
+from texvent.batch.identity import digest
+from texvent.batch.samples import ID_DIGITS, Sample
 from texvent.errors import ConfigError, FileFormatError, one_line
 from texvent.io.atomic import atomic_file
+from texvent.runtime.file_names import inside
 from texvent.scenes.report import PromptReport
+from texvent.settings.provenance import describe_state, is_replaced
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"
@@ -61,11 +65,35 @@ class Manifest:
             part.write_text(text, encoding="utf-8")
 
     def is_done(self, sample: Sample) -> bool:
-        """True if all files of the sample are there, as large as when they were complete."""
+        """True if all its files are there, as large as they were, and its video is the same."""
         row = self._done.get(sample.key)
-        return row is not None and all(
-            _size(self._folder / name) == size for name, size in row["files"].items()
-        )
+        if row is None or self._is_other_video(sample):
+            return False
+        return all(_size(self._folder / name) == size for name, size in row["files"].items())
+
+    def settled(self, samples: Iterable[Sample]) -> Iterator[Sample]:
+        """The samples, of which those get other keys that stand for videos of other folders."""
+        taken: dict[str, Path | None] = {}
+        for sample in samples:
+            while self._is_taken(sample, taken.get(sample.key)):
+                contents = describe_state(sample.video or "") or {}
+                key = digest([sample.key, contents.get("contents")])
+                made = f"-{sample.key[:ID_DIGITS]}"
+                end = f"-{key[:ID_DIGITS]}" if sample.name.endswith(made) else ""
+                sample = replace(sample, key=key, name=f"{sample.name.removesuffix(made)}{end}")
+            taken[sample.key] = sample.video
+            yield sample
+
+    def _is_taken(self, sample: Sample, taken: Path | None) -> bool:
+        """Whether the key of a video is that of another: in this list, or in what is done."""
+        if sample.video is None or taken is not None:
+            return taken is not None
+        other = self._done.get(sample.key, {}).get("video") != str(sample.video)
+        return other and self._is_other_video(sample)
+
+    def _is_other_video(self, sample: Sample) -> bool:
+        state = self._done.get(sample.key, {}).get("video_state")
+        return sample.video is not None and is_replaced(sample.video, state)
 
     def is_known(self, sample: Sample) -> bool:
         """True if the sample was complete once, so that what is left of it may be replaced."""
@@ -83,14 +111,24 @@ class Manifest:
         *,
         events: int,
         report: PromptReport | None = None,
+        video_state: Mapping[str, str] | None = None,
     ) -> None:
-        """Note that a sample is complete; durable before it returns."""
+        """Note that a sample is complete; durable before it returns.
+
+        Args:
+            sample: which.
+            paths: its files and folders.
+            events: their number.
+            report: of its prompt.
+            video_state: as `describe_state` gives it.
+        """
         row = {
             "key": sample.key,
             "name": sample.name,
             "seed": sample.seed,
             "prompt": sample.prompt,
             "video": None if sample.video is None else str(sample.video),
+            "video_state": video_state,
             "events": events,
             "files": {path.name: _size(path) for path in paths},
             "prompt_report": None if report is None else report.to_json(),
@@ -119,8 +157,11 @@ def _read_rows(path: Path) -> Iterator[dict[str, Any]]:
     for number, line in enumerate(lines[:-1], start=1):
         try:
             row = json.loads(line)
-            yield {**row, "key": str(row["key"]), "name": row["name"], "files": {**row["files"]}}
-        except (ValueError, TypeError, KeyError, RecursionError):
+            files = {
+                str(inside(path.parent, name).name): size for name, size in row["files"].items()
+            }
+            yield {**row, "key": str(row["key"]), "name": row["name"], "files": files}
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             if number < len(lines) - 1:
                 raise FileFormatError(
                     f"{path} line {number} is damaged; name another folder with -o"
@@ -164,5 +205,5 @@ def _value(value: Any) -> str:
 def _size(path: Path) -> int | None:
     """Bytes of a file, or of all files of a folder format; None if there is none."""
     if path.is_dir():
-        return sum(one.stat().st_size for one in path.iterdir())
+        return sum(one.stat().st_size for one in path.rglob("*") if one.is_file())
     return path.stat().st_size if path.is_file() else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.scenes.report import PromptReport
+from texvent.settings.provenance import describe_state
 from texvent.settings.resolution import Settings
 from texvent.video import Frame
 
@@ -48,6 +50,8 @@ class MadeSample:
     """Doubts, such as words that are not understood."""
     report: PromptReport | None
     """Report on the words of its prompt; None where the generator gives none."""
+    video_state: Mapping[str, str] | None = None
+    """State of its video when it was read."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +81,7 @@ class SampleTask:
             nonlocal events
             events += len(packet)
 
+        state = None if sample.video is None else describe_state(sample.video)
         with warnings_to(found.append):
             if sample.video is not None:
                 simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
@@ -89,7 +94,7 @@ class SampleTask:
                 on_step=count,
             )
         report = PromptReport.of_metadata(simulation.video.metadata)
-        return MadeSample(events, tuple(found), report)
+        return MadeSample(events, tuple(found), report, state)
 
 
 def _is_own(path: Path, sample: Sample) -> bool:

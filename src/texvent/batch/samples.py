@@ -148,8 +148,9 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
         what: list[object] = [entry.prompt, video, entry.name, entry.seed]
         if entry.scene is not None:
             what.append(scene_to_data(entry.scene))
-        seen[json.dumps(what)] += 1
-        key = digest([*what, seen[json.dumps(what)]])
+        same = json.dumps([*what, entry.video and str(entry.video.absolute())])
+        seen[same] += 1
+        key = digest([*what, seen[same]])
         yield Sample(
             key=key,
             name=entry.name or _made_name(entry, key),
@@ -174,12 +175,12 @@ def _made_name(entry: ListEntry, key: str) -> str:
 
 
 def _refuse_equal_names(samples: Sequence[Sample]) -> None:
-    places: dict[str, str] = {}
+    places: dict[str, tuple[str, str]] = {}
     for sample in samples:
         name = sample.name.lower()  # some file systems do not tell A from a
-        if name in places:
+        where, key = places.setdefault(name, (sample.where, sample.key))
+        is_made = sample.key == key and name.endswith(key[:ID_DIGITS])  # `Manifest.settled` does
+        if where != sample.where and not is_made:
             raise InputError(
-                f"{sample.where} and {places[name]} have one name, {shown(sample.name)}; give each "
-                "its own"
+                f"{sample.where} and {where} have one name, {shown(sample.name)}; give each its own"
             )
-        places[name] = sample.where

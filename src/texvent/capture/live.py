@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import time
 from collections.abc import Iterator
@@ -16,7 +15,7 @@ from av.video.stream import VideoStream
 from texvent.capture.decoding.pixels import PixelReader, coding_facts
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.errors import InputError
+from texvent.errors import InputError, is_address, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.media_files import only_self_contained, open_media, raise_scarcity
 from texvent.runtime.read_once import ReadOnce
@@ -120,21 +119,11 @@ class LiveFrames(FrameSource):
             raise_scarcity(error, self._name)
 
 
-def without_password(address: str) -> str:
-    """An address that can be shown and stored.
-
-    Example:
-        >>> without_password("rtsp://me:secret@camera/stream")
-        'rtsp://camera/stream'
-    """
-    return re.sub(r"(?<=://)[^/@]*@", "", address)
-
-
 def _open_live(address: str, name: str) -> InputContainer:
     try:
         if address.startswith("/dev/video"):
             return open_media(address, format="v4l2", options=OPTIONS)
-        if "://" in address:
+        if is_address(address):
             return open_media(address, timeout=TIMEOUT_S, options=OPTIONS)
         given = sys.stdin.buffer if address == STANDARD_INPUT else address
         return open_media(given, options={**OPTIONS, **only_self_contained()})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import stat
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -22,7 +21,7 @@ from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, is_address
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
@@ -133,9 +132,9 @@ class _Address:
     @property
     def is_live(self) -> bool:
         """Whether it is standard input, a network address, a pipe or a device."""
-        is_url = re.match(r"[a-z][a-z0-9+.-]*://", self.text) and "file://" not in self.text
         mode = self.path.stat().st_mode if self.path.exists() else 0
-        return self.text == "-" or bool(is_url) or stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+        is_stream = self.text == "-" or is_address(self.text)
+        return is_stream or stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
 class _Source(NamedTuple):
@@ -224,7 +223,9 @@ SOURCES = (
 
 
 def _open_address(text: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    path = usable_path(usable_path(text.removeprefix("file://")).expanduser())
+    # An address may be longer than any path.
+    name = "-" if is_address(text) else text.removeprefix("file://")
+    path = usable_path(usable_path(name).expanduser())
     address = _Address(text, path, config, given)
     return next(source for source in SOURCES if source.matches(address)).open(address)
 

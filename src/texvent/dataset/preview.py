@@ -85,6 +85,7 @@ def _card(sample: ChosenSample) -> str:
     shard, record = sample
     events = read_events(shard.path, record)
     truth = sample_truth(shard.path, record.key, record.members)
+    truth.check(events.size)
     image = base64.b64encode(preview_png(events, truth)).decode("ascii")
     seconds = record.duration_us / MICROSECONDS
     on_share = float(np.mean(events.p)) if len(events) else 0.0

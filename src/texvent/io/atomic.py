@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from texvent.errors import OutputError, shown
+from texvent.runtime.file_locks import hold_lock, is_locked, release
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
@@ -289,10 +290,12 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, f".part{suffix}")
+    lock = None
     try:
-        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
+        lock = hold_lock(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
         yield part
     finally:
+        release(lock)
         with contextlib.suppress(PermissionError):  # still open, on Windows
             part.unlink(missing_ok=True)
         _own.discard(part)
@@ -307,10 +310,14 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, suffix)
+    lock = None
     try:
         part.mkdir()
+        if CAN_SWEEP:
+            lock = hold_lock(os.open(part, os.O_RDONLY))
         yield part
     finally:
+        release(lock)
         shutil.rmtree(part, ignore_errors=True)
         _own.discard(part)
 
@@ -349,7 +356,7 @@ def sweep(folder: Path) -> None:
     with contextlib.suppress(OSError):
         for part in filter(is_hidden_part, folder.iterdir()):
             with contextlib.suppress(OSError):
-                if not part.is_symlink() and _is_dead(part):
+                if not part.is_symlink() and _is_dead(part) and not is_locked(part):
                     _remove(part)
 
 

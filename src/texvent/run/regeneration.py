@@ -7,15 +7,15 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.errors import InputError
+from texvent.errors import InputError, shown, warn
 from texvent.generate.protocol import renders_instants
 from texvent.generate.scene_input import stored_subject
-from texvent.scenes.assets.nouns import check_files
+from texvent.scenes.assets.nouns import check_files, files_of
 from texvent.settings.resolution import Settings, resolve
 from texvent.video import FrameStream, RenderableStream
 
 
-def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
+def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> FrameStream | None:
     """The video that a generated recording was simulated from, rendered again.
 
     Only generators that render any instant can do it; they also know its ground truth. The
@@ -23,11 +23,16 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
 
     Args:
         metadata: of an event file, as a run stores it.
+        with_files: whether a scene may show pictures and models that the metadata name, with their
+            digests: whoever sent the file chose them, and the result shows them.
 
     Returns:
         The video, not rendered before it is iterated; None where the recording was not made by
         such a generator, was made by another version, or was edited since (cropped, moved in
         time), so that the video would not fit. A part in time fits.
+
+    Warns:
+        TexventWarning: the scene shows files, and is not rendered.
     """
     name, tables = metadata.get("generator"), metadata.get("settings")
     if not (isinstance(name, str) and isinstance(tables, Mapping)):
@@ -41,19 +46,38 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     generator_class = GENERATORS.load(name)
     if not renders_instants(generator_class):
         return None
-    options = {**tables.get("run", {}), **tables.get("generate", {})}
     try:
-        settings = resolve("generate", options)
-        facts = metadata.get("source")
-        check_files(facts.get("files") if isinstance(facts, Mapping) else None)
-        seed = _video_seed(facts, settings)
-        generator = generator_class(settings.source, seed=seed, size=settings.size)
+        settings, facts = _settings(tables), metadata.get("source")
         subject = stored_subject(metadata)
-        video = None if subject is None else generator.generate(subject)
-    except InputError:
+        if subject is None:
+            return None
+        files = files_of(subject, getattr(settings.source, "assets", None))
+        if files and not with_files:
+            warn(
+                f"the scene is not drawn beside the events: it shows {shown(files[0])} of this "
+                "machine, as the event file says; --video files draws it if they are as they were"
+            )
+            return None
+        listed = facts.get("files") if isinstance(facts, Mapping) else None
+        check_files(listed)
+        generator = generator_class(
+            settings.source, seed=_video_seed(facts, settings), size=settings.size
+        )
+        video = generator.generate(subject)
+    except (InputError, TypeError, ValueError):
         # Any program can write metadata: a prompt that is no scene does not make events invalid.
         return None
+    if video.metadata.get("files", []) != (listed or []):
+        return None  # a file that is not listed, with its digest
     return video if isinstance(video, RenderableStream) else None
+
+
+def _settings(tables: Mapping[str, Any]) -> Settings:
+    """Settings of the video that a file states; options that read files of their own are left."""
+    run = {name: one for name, one in tables.get("run", {}).items() if name in ("seed", "sensor")}
+    if "." in str(run.get("sensor")):
+        del run["sensor"]
+    return resolve("generate", {**run, **tables.get("generate", {})})
 
 
 def _is_changed(metadata: Mapping[str, Any]) -> bool:

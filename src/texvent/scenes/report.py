@@ -121,8 +121,17 @@ class PromptReport:
 
     @classmethod
     def from_json(cls, facts: Mapping[str, Any]) -> PromptReport:
-        """The report that `to_json` wrote."""
+        """The report that `to_json` wrote.
+
+        Raises:
+            ValueError: it is something else.
+        """
         pairs = facts.get("substituted", ())
+        words = [word for name in _LISTS for word in facts.get(name, ())]
+        if not all(
+            isinstance(word, str) for word in [*words, *(v for p in pairs for v in p.values())]
+        ):
+            raise ValueError("a report holds lists of words")
         return cls(
             substituted=tuple(Substitution(one["said"], one["shown"]) for one in pairs),
             **{name: tuple(facts.get(name, ())) for name in _LISTS},

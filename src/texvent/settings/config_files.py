@@ -11,6 +11,7 @@ from texvent._registry import suggest
 from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
 from texvent.runtime.file_names import usable_path
+from texvent.runtime.yaml_text import load_yaml
 
 Command = Literal["generate", "simulate"]
 TABLES = ("run", "generate", "capture", "interpolate", "simulate")
@@ -90,12 +91,7 @@ def _options_of_run(path: Path, command: Command | None) -> dict[str, Any]:
 
 def _parse(path: Path, text: str) -> Any:
     if path.suffix.lower() in (".yaml", ".yml"):
-        import yaml  # only a YAML config needs it
-
-        try:
-            return yaml.safe_load(text) or {}
-        except yaml.YAMLError as error:
-            raise ValueError(error) from error
+        return load_yaml(text) or {}
     if path.suffix.lower() == ".toml":
         return tomllib.loads(text)
     raise ValueError(f"its name must end in .toml, .yaml or .yml, not {shown(path.suffix)}")

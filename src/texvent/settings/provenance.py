@@ -110,3 +110,41 @@ def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
             file.seek(max(END_BYTES, size - END_BYTES))
             digest.update(file.read(END_BYTES))
     return digest.hexdigest()
+
+
+def describe_state(source: str | Path) -> dict[str, str] | None:
+    """Facts of a file or folder that tell later whether it was replaced; None: there is none.
+
+    `seen` is known at once, from names, sizes and times of change; `contents` is read.
+    """
+    files = _files_of(Path(source))
+    if not files:
+        return None
+    contents = []
+    for path in files:
+        status = path.stat()
+        found = _file_fingerprint(str(path.absolute()), status.st_size, status.st_mtime_ns)
+        contents.append((path.name, found))
+    return {"seen": _seen(files), "contents": hashlib.sha256(repr(contents).encode()).hexdigest()}
+
+
+def is_replaced(source: str | Path, state: Any) -> bool:
+    """Whether a file or folder holds something else than when `describe_state` described it.
+
+    One that is gone, or was not described, was not replaced.
+    """
+    files = _files_of(Path(source))
+    if not files or not isinstance(state, Mapping) or state.get("seen") == _seen(files):
+        return False
+    now = describe_state(source)
+    return now is not None and now["contents"] != state.get("contents")
+
+
+def _files_of(path: Path) -> list[Path]:
+    inside = sorted(path.iterdir()) if path.is_dir() else [path]
+    return [one for one in inside if one.is_file()]
+
+
+def _seen(files: list[Path]) -> str:
+    listing = [(one.name, one.stat().st_size, one.stat().st_mtime_ns) for one in files]
+    return hashlib.sha256(repr(listing).encode()).hexdigest()

@@ -17,12 +17,12 @@ from typing import Any
 
 import h5py
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize
 from texvent.transform.packets import map_packets, move_events, note_edit
 
@@ -140,8 +140,8 @@ def _read_map(path: Path) -> Calibration:
 
 def _read_kalibr(path: Path, text: bytes, camera: str | None) -> Calibration:
     try:
-        cameras: Any = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:
+        cameras: Any = load_yaml(text)
+    except ValueError as error:
         raise FileFormatError(f"{path} is not a calibration: {one_line(error)}") from error
     found = cameras.items() if isinstance(cameras, dict) else ()
     names = [name for name, facts in found if isinstance(facts, dict) and "intrinsics" in facts]

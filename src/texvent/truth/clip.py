@@ -40,7 +40,15 @@ class ClipTruth:
     @cached_property
     def facts(self) -> Mapping[str, Any]:
         """Parts, times, classes and instances; nothing where no truth is stored."""
-        facts: Mapping[str, Any] = json.loads(self.read_file("json")).get("truth", {})
+        try:
+            facts: Mapping[str, Any] = json.loads(self.read_file("json")).get("truth", {})
+            for name in ("times_us", "box_times_us"):
+                np.array(facts.get(name, ()), np.int64)
+            named = [one for of in ("classes", "instances") for one in facts.get(of, {}).items()]
+            texts = [*facts.get("parts", ()), *(name for number, name in named if int(number) >= 0)]
+        except (ValueError, TypeError, AttributeError, KeyError, OverflowError) as error:
+            raise FileFormatError(f"{self.where} is damaged ({one_line(error)})") from error
+        self._refuse(not all(isinstance(one, str) for one in texts), "its truth has no names")
         return facts
 
     @property

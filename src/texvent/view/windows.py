@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.represent.slices import slice_windows
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.video import MICROSECONDS, Frame, FrameStream, RenderableStream, frame_time_us
 from texvent.view.drawing.canvas import Image
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.panels import (
@@ -24,6 +25,10 @@ from texvent.view.drawing.panels import (
     PanelLayout,
     annotations_at,
 )
+from texvent.view.page.sample import STRIP_FRAMES
+
+MOST_DRAWN = 2 * STRIP_FRAMES
+"""Frames of a scene that are drawn for a page."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,6 +212,34 @@ def compose_window(
     )
 
 
+@runtime_checkable
+class DrawnFrames(RenderableStream, Protocol):
+    """Frames at `frame_time_us` of their rate, each drawn by itself: a rendered scene."""
+
+    def from_frame(self, first: int) -> Iterator[Frame]:
+        """The frames from number `first` on."""
+        ...
+
+
+def _last_frame(video: DrawnFrames, t_us: int) -> int:
+    """Number of the last frame that is not after `t_us`, else of the first."""
+    fps, last = video.fps or Fraction(1), (video.frame_count or 1) - 1
+    number = min(max(0, int((t_us + 1) * fps / MICROSECONDS)), last)
+    return number - 1 if number and frame_time_us(number, fps) > t_us else number
+
+
+def _shown(video: DrawnFrames, extent: tuple[int, int] | None) -> range:
+    """Numbers of the frames that a page is given of a scene: all of its part, or every 2ⁿ-th."""
+    first, last = 0, (video.frame_count or 1) - 1
+    if extent is not None:
+        first, last = (_last_frame(video, t_us) for t_us in (extent[0], extent[1] - 1))
+    return range(first, last + 1, 1 << ((last - first) // MOST_DRAWN).bit_length())
+
+
+def _draw(video: DrawnFrames, number: int) -> Frame:
+    return replace(video.at(frame_time_us(number, video.fps or Fraction(1))), is_source=True)
+
+
 class SourceOverlay:
     """Frames of the source video and its ground truth, shown beside and over the events.
 
@@ -238,6 +271,14 @@ class SourceOverlay:
         if self.frames is None:
             yield from windows
             return
+        if isinstance(self.frames, DrawnFrames):
+            # Only what is shown is drawn: the file that says the rate may come from anybody.
+            number, drawn = -1, None
+            for window in windows:
+                if number != (number := _last_frame(self.frames, window.start_us)):
+                    drawn = frame_image(_draw(self.frames, number))
+                yield replace(window, image=drawn)
+            return
         coming = iter(self.frames)
         shown = next(coming, None)
         following = next(coming, None)
@@ -249,11 +290,18 @@ class SourceOverlay:
             image = _image(shown) if image is None else image
             yield replace(window, image=image)
 
+    def step_during(self, extent: tuple[int, int] | None) -> int:
+        """Every so many frames of a scene are shown: a page keeps fewer of them still."""
+        return _shown(self.frames, extent).step if isinstance(self.frames, DrawnFrames) else 1
+
     def frames_during(self, extent: tuple[int, int] | None) -> Iterator[Frame]:
         """The frames shown from start to stop, µs; a video may be longer than the events.
 
         The first is the last frame that is not after the start. Without an extent, all frames.
         """
+        if isinstance(self.frames, DrawnFrames):
+            yield from (_draw(self.frames, number) for number in _shown(self.frames, extent))
+            return
         earlier: Frame | None = None
         for frame in self.frames or ():
             if extent is not None and frame.t_us >= extent[1]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import sys
 import time
@@ -133,6 +134,61 @@ def test_videos_of_a_folder_are_samples(folder, capsys):
     previews = ("--sensor", "48x36", "--interpolate", "none")
     assert run("batch", "clips", "-o", "clips", *previews) == 3
     assert "among the files of the input" in capsys.readouterr().err
+
+
+FLAT = ("--fps", 30, "--interpolate", "none", "--noise", "none", "--previews", "none")
+
+
+def write_video(path: Path, seed: int) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    np.save(path, np.random.default_rng(seed).integers(0, 255, (4, 12, 16), dtype=np.uint8))
+
+
+def counts(folder: Path) -> list[int]:
+    return sorted(len(texvent.load(path)) for path in folder.glob("*.h5"))
+
+
+def test_another_video_or_another_content_is_not_taken_for_done(folder, capsys):
+    for seed, name in enumerate("abc"):
+        write_video(folder / name / "x" / "v.npy", seed)
+    expected = {}
+    for name in "abc":
+        assert run("batch", f"{name}/x/v.npy", "-o", f"alone-{name}", *FLAT) == 0
+        (expected[name],) = counts(folder / f"alone-{name}")
+    assert len(set(expected.values())) == 3
+    a, b = ("a/x/v.npy", "b/x/v.npy")
+    for order in ((a,), (b,), (b, a), (a, b)):
+        assert run("batch", *order, "-o", "out", *FLAT) == 0
+    assert counts(folder / "out") == sorted(expected[name] for name in "ab")
+    said = capsys.readouterr().err
+    assert "kept     2 of 2 samples, done before" in said
+    (folder / "c/x/v.npy").replace(folder / "a/x/v.npy")
+    assert run("batch", a, b, "-o", "out", *FLAT) == 0
+    assert counts(folder / "out") == sorted(expected[name] for name in "bc")
+    os.utime(folder / "a/x/v.npy", (1, 1))
+    capsys.readouterr()
+    assert run("batch", a, b, "-o", "out", *FLAT) == 0
+    assert "kept     2 of 2 samples, done before" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("harm", ["gone", "empty"])
+def test_every_file_and_folder_of_a_sample_is_made_again(folder, harm, capsys):
+    (folder / "p.csv").write_text("prompt,name\na red car drives left,car\n")
+    words = ("batch", "p.csv", "-o", "out", *QUICK, "--previews", "png", "--truth", "depth,boxes")
+    words = (*words, "--format", "atis")
+    assert run(*words) == 0
+    names = sorted(path.name for path in (folder / "out").glob("car*"))
+    assert names == ["car.bin", "car.bin.json", "car.events.png", "car.truth"]
+    before = {name: (folder / "out" / name) for name in names}
+    for path in before.values():
+        inside = sorted(one for one in path.rglob("*") if one.is_file()) or [path]
+        if harm == "empty":
+            inside[-1].write_bytes(b"")
+        else:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        assert run(*words) == 0
+        assert all(one.exists() for one in before.values())
+        assert inside[-1].stat().st_size > 0
 
 
 def test_several_processes_make_the_same_files(folder, capsys):

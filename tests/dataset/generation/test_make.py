@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import shutil
 import tarfile
 from pathlib import Path
@@ -22,9 +23,11 @@ from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import events_of, npy_column
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
-from texvent.errors import ConfigError, FileFormatError, OutputError
+from texvent.errors import ConfigError, FileFormatError, OutputError, TexventWarning
+from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.settings.resolution import resolve
@@ -200,6 +203,52 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     assert digests(whole) == digests(folder)
 
 
+def test_shards_of_a_replaced_video_are_made_again_and_no_others(tmp_path: Path) -> None:
+    recipe, folder = clips_recipe(tmp_path, clips=4), tmp_path / "out"
+    make(recipe, folder)
+    before, clip = digests(folder), tmp_path / "clips/0.npy"
+    os.utime(clip, (1, 1))
+    assert not find_work(recipe, folder).todo
+    content = np.load(clip)
+    np.save(clip, content[::-1])
+    with pytest.warns(TexventWarning, match=r"clips/0\.npy was replaced since"):
+        make(recipe, folder)
+    after = digests(folder)
+    changed = {Path(name).name for name in after if after[name] != before[name]}
+    assert len(changed) == 1
+    assert not find_work(recipe, folder).todo
+    clip.unlink()  # what is made needs no video
+    assert not find_work(recipe, folder).todo
+
+
+def test_videos_of_folders_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    for number, name in enumerate(("a/x", "b/x", "c/x")):
+        (tmp_path / name).mkdir(parents=True)
+        np.save(tmp_path / name / "v.npy", np.full((4, 12, 16), number % 2 * 80, np.uint8))
+    tables = {"name": "n", "sources": [{"videos": ["*/x/v.npy"]}], "options": {"fps": 30}}
+    recipe = Recipe.of(specification_from(tables, folder=tmp_path))
+    assert [Path(one.video or "").parts[-3] for one in recipe.items.all] == ["a", "b"]
+    assert recipe.items.duplicates == 1
+
+
+@pytest.mark.parametrize("harm", ["tar", "json", "cut", "nothing"])
+def test_a_shard_without_its_file_or_record_is_made_again(
+    cars: Path, tmp_path: Path, harm: str
+) -> None:
+    folder = shutil.copytree(cars, tmp_path / "cars")
+    shard = folder / "paper" / "train-000000.tar"
+    if harm == "cut":
+        shard.write_bytes(shard.read_bytes()[:-1])
+    elif harm != "nothing":
+        shard.with_suffix(f".{harm}").unlink()
+    work = find_work(load_recipe(folder), folder)
+    assert [one.shards[0].path for one in work.todo] == [Path("paper/train-000000.tar")] * (
+        harm != "nothing"
+    )
+    make(load_recipe(folder), folder)
+    assert digests(folder) == digests(cars)
+
+
 @pytest.mark.parametrize("kept", ["all", "noise"])
 def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: str) -> None:
     clip = np.zeros((12, 24, 32), np.uint8)
@@ -238,6 +287,17 @@ def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
     assert esim.samples[0].clip == record.samples[0].key
     make(recipe_of(**few), tmp_path / "pool", ProcessEngine(2))
     assert digests(tmp_path / "pool") == digests(folder)
+
+
+@pytest.mark.parametrize("start_us", [-5, 0, 2**32 - 10, 2**40])
+@pytest.mark.parametrize("last_us", [20, 2**33])
+def test_events_keep_their_times_wherever_a_clip_begins(start_us: int, last_us: int) -> None:
+    times = [start_us, start_us + 7, start_us + last_us]
+    events = EventStream.from_columns([1, 2, 3], [0] * 3, times, [0, 1, 1], size=(8, 6))
+    clip = sample.SimulatedClip(events, start_us, last_us, 3)
+    members = sample.sample_members(clip, {}, class_number=None, preview=True)
+    columns = {name: npy_column(memoryview(members[f"{name}.npy"])) for name in "xytp"}
+    assert events_of(columns, events.size).t.tolist() == times
 
 
 def test_options_that_would_change_the_video_belong_to_all() -> None:

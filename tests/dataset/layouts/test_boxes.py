@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
-from texvent.dataset.layouts.boxes import ClassList, boxes_at
-from texvent.errors import ConfigError
+from texvent.dataset.layouts.boxes import LABEL_RECORD, ClassList, boxes_at, records_of
+from texvent.errors import ConfigError, InputError
 
 
 def places(boxes: np.ndarray) -> list[tuple[float, ...]]:
@@ -49,3 +49,10 @@ def test_classes_gather_and_the_others_go() -> None:
     for text, said in wrong.items():
         with pytest.raises(ConfigError, match=said):
             ClassList.parse(text)
+
+
+def test_times_below_0_do_not_become_late_ones() -> None:
+    boxes = crossing_boxes()
+    boxes["t"][0] = -1
+    with pytest.raises(InputError, match="a box at -1 µs cannot be held"):
+        records_of(boxes, LABEL_RECORD)

@@ -25,6 +25,7 @@ from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.render import RenderConfig, render_events
 
 AUTOMATIC = "auto"
+WITH_FILES = "files"
 NO_VIDEO = "none"
 
 
@@ -39,8 +40,9 @@ class ShownEventsOptions(EventRangeOptions):
     }
 
     video: str = AUTOMATIC
-    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
-    the embedded generator made the file."""
+    """Source video to show: a file, an image folder, none, auto or files. Auto renders the scene
+    again if the embedded generator made the file; files also a scene that shows pictures or models
+    of this machine, which are those that the event file names: for your own files."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -54,13 +56,13 @@ class ShownEventsOptions(EventRangeOptions):
         """
         if self.video == NO_VIDEO:
             return None
-        if self.video == AUTOMATIC:
-            rendered = render_again(events.metadata)
+        if self.video in (AUTOMATIC, WITH_FILES):
+            rendered = render_again(events.metadata, with_files=self.video == WITH_FILES)
             return rendered if rendered is not None and rendered.size == events.size else None
         if not Path(self.video).exists():
             raise InputError(
-                f"no such video: {self.video}; give a file, a folder of images, {AUTOMATIC} or "
-                f"{NO_VIDEO}"
+                f"no such video: {self.video}; give a file, a folder of images, {AUTOMATIC}, "
+                f"{WITH_FILES} or {NO_VIDEO}"
             )
         return open_frames(self.video, CaptureConfig(), size=events.size)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import itertools
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -105,6 +106,7 @@ def run(arguments: Sequence[str]) -> int:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)
     manifest = Manifest(plan.folder)
+    samples = tuple(manifest.settled(samples))
     if output.dry_run:
         return _describe(plan, samples, manifest)
     if not is_of_videos:
@@ -230,6 +232,13 @@ def _note(plan: BatchPlan, manifest: Manifest, outcome: Outcome, progress: Progr
     sample, made = outcome.task.sample, outcome.result
     for text in made.warnings:
         say_warning(f"{sample.where}: {text}")
-    paths = plan.files_of(sample).paths
-    manifest.add(sample, paths, events=made.events, report=made.report)
-    progress.announce(f"made     {paths[0]}, {made.events:,} events")
+    files = plan.files_of(sample)
+    beside = plan.folder.glob(f"{glob.escape(files.events.name)}.*")  # formats without metadata
+    manifest.add(
+        sample,
+        [*files.outputs, *sorted(beside)],
+        events=made.events,
+        report=made.report,
+        video_state=made.video_state,
+    )
+    progress.announce(f"made     {files.events}, {made.events:,} events")

@@ -11,6 +11,7 @@ from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import print_settings, run_source
+from texvent.errors import without_password
 
 DESCRIPTION = """Turn a video into the events that an event camera would have recorded.
 
@@ -48,5 +49,5 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    subject = "standard input" if own.source == "-" else Path(own.source).stem
+    subject = "standard input" if own.source == "-" else Path(without_password(own.source)).stem
     return run_source(own.source, settings, output, prompt=own.prompt, subject=subject)

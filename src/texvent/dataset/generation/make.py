@@ -11,7 +11,7 @@ from typing import Any
 
 from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.batch.prompts import refuse_prompts
-from texvent.dataset.generation.make_shard import is_complete, make_together
+from texvent.dataset.generation.make_shard import find_replaced, is_complete, make_together
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
     VIDEOS,
@@ -22,7 +22,7 @@ from texvent.dataset.generation.recipe import (
 from texvent.dataset.generation.shards import FAILED, ShardRecord
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, OutputError, TexventError, shown
+from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
 from texvent.io.atomic import sweep
 from texvent.runtime.progress import ProgressOption, open_progress
 
@@ -102,6 +102,10 @@ def find_work(
             if number % parts != which - 1:
                 continue
             record = is_complete(recipe, folder, shard)
+            replaced = None if record is None else find_replaced(recipe, shard, record)
+            if replaced is not None:
+                warn(f"{replaced} was replaced since; {shard.path}, made of it, is made again")
+                record = None
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
                 place = number if renders else (stage, number)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import tempfile
 import time
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import replace
 from functools import partial
@@ -48,6 +48,7 @@ from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
+from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
@@ -97,10 +98,11 @@ def _make_shard(
 ) -> Generator[None]:
     """Make a shard and add its record to `records`; pauses after every clip."""
     path, seconds = folder / shard.path, 0.0
-    old = read_record(path) if retry_failed else None
+    old = is_complete(recipe, folder, shard) if retry_failed else None
     kept = {one.key: one for one in old.samples if one.status != FAILED} if old else {}
     path.parent.mkdir(parents=True, exist_ok=True)
     samples: list[SampleRecord] = []
+    inputs = {name: describe_state(name) for name in _inputs_of(recipe, shard)}
     with atomic_file(path, overwrite=True) as part:
         with part.open("wb") as file, tempfile.TemporaryDirectory() as scratch:
             writer = TarShardWriter(file)
@@ -123,6 +125,7 @@ def _make_shard(
         # not stand beside a new file, which may be as long.
         record_path(path).unlink(missing_ok=True)
     record = ShardRecord(
+        inputs=inputs,
         name=shard.name,
         split=shard.split,
         variant=shard.variant,
@@ -148,6 +151,18 @@ def is_complete(recipe: Recipe, folder: Path, shard: Shard) -> ShardRecord | Non
     if record is None or record.identity != recipe.identity or not path.is_file():
         return None
     return record if path.stat().st_size == record.bytes else None
+
+
+def find_replaced(recipe: Recipe, shard: Shard, record: ShardRecord) -> str | None:
+    """A video of samples that did not fail, or its labels, replaced since; None: there is none."""
+    names = _inputs_of(recipe, shard, {one.clip for one in record.samples if one.status == FAILED})
+    return next((name for name in names if is_replaced(name, record.inputs.get(name))), None)
+
+
+def _inputs_of(recipe: Recipe, shard: Shard, without: Collection[str] = ()) -> list[str]:
+    clips = recipe.clips_of(shard) if recipe.items.are_videos else ()
+    items = [clip.item for clip in clips if clip.key not in without]
+    return list(dict.fromkeys(name for one in items for name in (one.video, one.boxes) if name))
 
 
 def _keep(path: Path, record: SampleRecord, writer: TarShardWriter) -> SampleRecord:

@@ -14,7 +14,7 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.batch.manifest import describe_differences
-from texvent.dataset.generation.shards import EXTENSION
+from texvent.dataset.generation.shards import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
@@ -220,7 +220,7 @@ def read_recipe(folder: Path) -> Recipe:
         )
     try:
         lines = StringIO(path.read_text(encoding="utf-8"))
-        items = tuple(Item(**json.loads(line)) for line in lines)
+        items = tuple(Item(**read_json(line)) for line in lines)
         specification = specification_from(facts["specification"], folder=Path())
     except (OSError, ValueError, TypeError, KeyError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
@@ -245,7 +245,7 @@ def read_facts(folder: Path) -> Mapping[str, Any]:
     """
     path = folder / SPECIFICATION_FILE
     try:
-        facts = json.loads(path.read_text(encoding="utf-8"))
+        facts = read_json(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"{folder} holds no data set of texvent (no {path.name})") from error
     except (ValueError, RecursionError) as error:

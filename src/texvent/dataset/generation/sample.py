@@ -276,8 +276,9 @@ def preview_png(events: EventStream, truth: ClipTruth) -> bytes:
 
     start = 0
     if len(events):
-        bins = np.bincount((events.t - events.t[0]) // PREVIEW_US)
-        start = int(events.t[0]) + int(bins.argmax()) * PREVIEW_US
+        # No array of all bins: a clip may pause for days.
+        bins, sizes = np.unique((events.t - events.t[0]) // PREVIEW_US, return_counts=True)
+        start = int(events.t[0]) + int(bins[sizes.argmax()]) * PREVIEW_US
     counts = count_events(events.cut(start, start + PREVIEW_US))
     image = draw_events(counts, get_palette(DEFAULT_PALETTE))
     if "boxes" in truth.parts:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import functools
 import io
 import json
+import os
+import re
 import tarfile
+import types
+import typing
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from texvent.errors import FileFormatError, one_line
+from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import atomic_file
+from texvent.scenes.report import PromptReport
+from texvent.truth.boxes import SIZE_CLASSES
 
 MADE, FILTERED, FAILED = "made", "filtered", "failed"
 LAYOUT = 1
@@ -72,6 +79,8 @@ class ShardRecord:
     samples: tuple[SampleRecord, ...]
     seconds: float
     """Working time, s."""
+    inputs: Mapping[str, Any] = field(default_factory=dict)
+    """Path of a video or of its labels → its state; see `settings.provenance.describe_state`."""
     versions: Mapping[str, str] = field(default_factory=dict)
     """Package → version, of the process that made it."""
     layout: int = LAYOUT
@@ -122,22 +131,82 @@ def read_record(shard: Path) -> ShardRecord | None:
     except UnicodeDecodeError as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)}); {REMEDY}") from error
     try:
-        tables = json.loads(text)
-        samples = tuple(_sample(one) for one in tables.pop("samples"))
-        known = {one.name for one in fields(ShardRecord)}
-        return ShardRecord(samples=samples, **{k: v for k, v in tables.items() if k in known})
+        return _record(read_json(text))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)}); {REMEDY}") from error
 
 
+def read_json(content: str | bytes) -> Any:
+    """Values of a JSON text, of which every text can be written.
+
+    Raises:
+        ValueError, RecursionError: it is none, or holds half of a character.
+    """
+    text = content if isinstance(content, str) else content.decode()
+    value = json.loads(text)
+    if "\\ud" in text.lower():
+        json.dumps(value, ensure_ascii=False).encode()
+    return value
+
+
 REMEDY = "delete it, and texvent dataset make makes its shard again"
+NAME = re.compile(r"[\w-]{1,200}")
+"""Splits, variants and keys, which name files."""
+
+
+def _record(tables: Mapping[str, Any]) -> ShardRecord:
+    """A record, each value of its type: a data set may come from anybody."""
+    known = {name: one for name, one in tables.items() if name in _kinds(ShardRecord)}
+    samples = tuple(_sample(one) for one in tables["samples"])
+    _check_kinds(ShardRecord, known, names=("name", "split", "variant"))
+    if known["name"].rpartition("-")[0] != known["split"]:
+        raise ValueError(f"{shown(known['name'])} is no shard of split {shown(known['split'])}")
+    if not all(isinstance(one, str) for one in known.get("versions", {}).values()):
+        raise ValueError("versions are texts")
+    return ShardRecord(**{**known, "samples": samples})
 
 
 def _sample(tables: Mapping[str, Any]) -> SampleRecord:
-    members = {name: (int(begin), int(size)) for name, (begin, size) in tables["members"].items()}
-    return SampleRecord(
-        **{**tables, "members": members, "warnings": tuple(tables.get("warnings", ()))}
-    )
+    _check_kinds(SampleRecord, tables, names=("key", "clip", "status"))
+    members = {name: (begin, size) for name, (begin, size) in tables["members"].items()}
+    boxes, warnings = tables.get("boxes") or {}, tuple(tables.get("warnings", ()))
+    if any(len(sizes) != len(SIZE_CLASSES) for sizes in boxes.values()):
+        raise ValueError(f"boxes have {len(SIZE_CLASSES)} sizes")
+    counts = [one for some in (*members.values(), *boxes.values()) for one in some]
+    if not all(type(one) is int and 0 <= one < 2**63 for one in counts):
+        raise ValueError("a place or count is no whole number")
+    if not all(isinstance(one, str) for one in warnings):
+        raise ValueError("warnings are texts")
+    if tables.get("prompt_report") is not None:
+        PromptReport.from_json(tables["prompt_report"])
+    return SampleRecord(**{**tables, "members": members, "warnings": warnings})
+
+
+def _check_kinds(record: type, tables: Mapping[str, Any], names: Sequence[str]) -> None:
+    """Refuse values of other types than a record's fields, and `names` that are none.
+
+    Raises:
+        ValueError, KeyError: see above; or a field is unknown.
+    """
+    kinds = _kinds(record)
+    for name, value in tables.items():
+        if type(value) not in kinds[name] or (type(value) is int and not -(2**63) <= value < 2**63):
+            raise ValueError(f"{name} is {shown(value)}")
+    for name in names:
+        if not NAME.fullmatch(tables[name]):
+            raise ValueError(f"{name} is {shown(tables[name])}")
+
+
+@functools.cache
+def _kinds(record: type) -> dict[str, set[type]]:
+    """Field → types that its value may have in JSON."""
+    of_json: dict[Any, set[type]] = {tuple: {list}, Mapping: {dict}, float: {int, float}}
+    kinds: dict[str, set[type]] = {}
+    for name, hint in typing.get_type_hints(record).items():
+        parts = typing.get_args(hint) if type(hint) is types.UnionType else (hint,)
+        origins = [typing.get_origin(one) or one for one in parts]
+        kinds[name] = {kind for one in origins for kind in of_json.get(one, {one})}
+    return kinds
 
 
 EXTENSION = ".tar"
@@ -187,8 +256,9 @@ def read_part(shard: Path, begin: int, size: int) -> bytes:
     """
     try:
         with shard.open("rb") as file:
-            file.seek(begin)
-            content = file.read(size)
+            is_there = begin + size <= os.fstat(file.fileno()).st_size
+            file.seek(begin if is_there else 0)
+            content = file.read(size if is_there else 0)
     except OSError as error:
         raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
     if len(content) < size:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, InputError, shown
 
 Boxes = NDArray[Any]
 """Records of `texvent.truth.boxes.BOX_RECORD` in time order."""
@@ -73,7 +73,16 @@ def _moved(near: Boxes, far: Boxes, share: float) -> Boxes:
 
 
 def records_of(boxes: Boxes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
-    """The boxes as records of another order or type, by the names of their fields."""
+    """The boxes as records of another order or type, by the names of their fields.
+
+    Raises:
+        InputError: their times cannot be held.
+    """
+    if len(boxes) and dtype["t"].kind == "u" and boxes["t"].min() < 0:
+        raise InputError(
+            f"a box at {boxes['t'].min()} µs cannot be held, for times of the layout begin at 0; "
+            "let its video begin there"
+        )
     records = np.empty(len(boxes), dtype)
     for name in dtype.names or ():
         records[name] = boxes[name]

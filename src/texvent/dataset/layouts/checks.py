@@ -56,7 +56,8 @@ def _samples(dataset: StoredDataset, variant: str) -> Iterator[SampleRecord]:
 def _check_labels(dataset: StoredDataset, layout: Layout) -> None:
     names: dict[str, str] = {}
     for label in dataset.labels if layout.needs_classes else ():
-        other = names.setdefault(folder_name(label), label)
+        # Some file systems do not tell A from a.
+        other = names.setdefault(folder_name(label).casefold(), label)
         if other != label:
             raise InputError(
                 f"classes {other!r} and {label!r} would share the folder {folder_name(label)}; "

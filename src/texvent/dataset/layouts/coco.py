@@ -21,6 +21,7 @@ import numpy as np
 from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.represent.event_frame import count_events
+from texvent.runtime.file_names import inside
 from texvent.truth.boxes import CocoFile, open_coco
 
 WINDOW_US = 50_000
@@ -47,7 +48,7 @@ def _images(sample: LayoutSample) -> Iterator[tuple[str, int]]:
 
 
 def _write_annotations(
-    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]
+    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...], overwrite: bool
 ) -> None:
     names = dict(enumerate(classes, start=FIRST_CLASS))
     numbers = count(1)
@@ -55,8 +56,8 @@ def _write_annotations(
         files: dict[str, CocoFile] = {}
         for sample in samples:
             if sample.split not in files:
-                path = folder / sample.split / "annotations.json"
-                part = stack.enter_context(atomic_file(path, overwrite=True))
+                path = inside(folder, f"{sample.split}/annotations.json")
+                part = stack.enter_context(atomic_file(path, overwrite=overwrite))
                 context = open_coco(part, classes=names, info={})
                 files[sample.split] = stack.enter_context(context)
             for name, t_us in _images(sample):

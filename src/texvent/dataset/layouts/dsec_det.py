@@ -33,6 +33,7 @@ from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, atomic_folder
+from texvent.runtime.file_names import inside
 
 TRACK_RECORD = np.dtype(
     [
@@ -87,11 +88,13 @@ def write_dsec_events(path: Path, events: EventStream, times_us: NDArray[np.int6
         file["t_offset"] = np.int64(first)
 
 
-def _write_splits(folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]) -> None:
+def _write_splits(
+    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...], overwrite: bool
+) -> None:
     splits: dict[str, list[str]] = {}
     for sample in samples:
         splits.setdefault(sample.split, []).append(sample.key)
-    with atomic_file(folder / SPLIT_FILE, overwrite=True) as part:
+    with atomic_file(inside(folder, SPLIT_FILE), overwrite=overwrite) as part:
         part.write_text(yaml.safe_dump(splits, sort_keys=False), encoding="utf-8")
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.io.atomic import atomic_file
 from texvent.io.files import save
+from texvent.runtime.file_names import inside
 
 EVALUATION = ("val", "valid", "validation", "test", "testing")
 """Names of splits that N-ImageNet knows as val."""
@@ -27,6 +28,7 @@ def _write_lists(
     folder: Path,
     samples: Iterable[LayoutSample],
     classes: tuple[str, ...],
+    overwrite: bool,
     *,
     are_absolute: bool,
 ) -> None:
@@ -36,7 +38,8 @@ def _write_lists(
         place = str(folder.absolute() / sample.place) if are_absolute else sample.place
         lists.setdefault(sample.split, []).append(place)
     for split, places in lists.items():
-        with atomic_file(folder / name.format(split=split), overwrite=True) as part:
+        path = inside(folder, name.format(split=split))
+        with atomic_file(path, overwrite=overwrite) as part:
             part.write_text("".join(f"{place}\n" for place in places), encoding="utf-8")
 
 

@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 from texvent.dataset.generation.make_shard import StoredVideos
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import prepare_clip
+from texvent.dataset.generation.shards import SampleRecord, ShardRecord
+from texvent.dataset.reading.stored_events import read_sample_facts
 from texvent.dataset.specification.clips import clip_settings
+from texvent.errors import FileFormatError, InputError
 from texvent.pipeline import fit_to_sensor
+from texvent.settings.provenance import is_replaced
 from texvent.video import FrameStream
 
 
@@ -37,19 +41,28 @@ def write_frames(frames: FrameStream, folder: Path) -> NDArray[np.int64]:
 
 
 @contextmanager
-def clip_frames(recipe: Recipe, folder: Path, shard: Shard, key: str) -> Iterator[FrameStream]:
+def clip_frames(
+    recipe: Recipe, folder: Path, shard: Shard, record: ShardRecord, sample: SampleRecord
+) -> Iterator[FrameStream]:
     """Frames of a clip at the size of its events.
 
     Args:
         recipe: of the data set.
         folder: of the data set.
         shard: that its sample is in.
-        key: of the clip.
+        record: of the shard.
+        sample: that shows the clip.
 
     Raises:
+        InputError: its video, or a file that its scene shows, is not the one of its events.
         TexventError: the video cannot be read or made.
     """
-    clip = next(one for one in recipe.clips_of(shard) if one.key == key)
+    clip = next((one for one in recipe.clips_of(shard) if one.key == sample.clip), None)
+    if clip is None:
+        raise FileFormatError(f"sample {sample.key} shows a clip that is not of {shard.path}")
+    name = clip.item.video
+    if name is not None and is_replaced(name, record.inputs.get(name, {"seen": ""})):
+        raise InputError(f"{name} is not the video that the events of {sample.key} are of")
     settings = clip_settings(
         recipe.specification,
         recipe.variants[shard.variant],
@@ -58,8 +71,23 @@ def clip_frames(recipe: Recipe, folder: Path, shard: Shard, key: str) -> Iterato
         is_stored=recipe.stores_videos,
     )
     if not recipe.stores_videos:
-        yield prepare_clip(recipe, clip, settings).video
+        video = prepare_clip(recipe, clip, settings).video
+        if name is None:
+            _check_files(video, folder / shard.path, sample)
+        yield video
         return
     with tempfile.TemporaryDirectory() as scratch:
         stored = StoredVideos(folder, replace(shard, variant=VIDEOS), Path(scratch))
         yield fit_to_sensor(stored.open(clip), settings)
+
+
+def _check_files(video: FrameStream, path: Path, sample: SampleRecord) -> None:
+    """Refuse a scene that shows other files than it did; the data set may be somebody else's.
+
+    Raises:
+        InputError: see above.
+    """
+    source = read_sample_facts(path, sample).get("source")
+    listed = source.get("files") if isinstance(source, dict) else None
+    if video.metadata.get("files", []) != (listed or []):
+        raise InputError(f"the files that the scene of {sample.key} shows are not as they were")

@@ -17,6 +17,7 @@ from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
 from texvent.dataset.reading.stored_events import read_events, sample_truth
 from texvent.errors import InputError, shown
+from texvent.runtime.file_names import MAX_NAME_BYTES
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD
 
@@ -32,7 +33,7 @@ def folder_name(label: str) -> str:
         'fire_truck_red'
     """
     name = re.sub(r"[^\w.-]+", "_", label).strip("._")
-    if not name:
+    if not name or len(name.encode()) > MAX_NAME_BYTES:
         raise InputError(f"class {shown(label)} cannot name a folder; give it another name")
     return name
 
@@ -68,7 +69,8 @@ class Samples:
         frames = None
         if self.recipe is not None:
             place_of = Shard(record.variant, record.split, int(record.name.rpartition("-")[2]))
-            frames = partial(clip_frames, self.recipe, self.dataset.folder, place_of, sample.clip)
+            folder = self.dataset.folder
+            frames = partial(clip_frames, self.recipe, folder, place_of, record, sample)
         return LayoutSample(
             key=sample.key,
             split=split,

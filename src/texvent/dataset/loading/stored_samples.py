@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -17,8 +16,8 @@ from texvent.dataset.generation.shards import read_members
 from texvent.dataset.loading.index import MEMBERS, Choice, Index, choose, read_index
 from texvent.dataset.loading.targets import check_targets, targets_of
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_columns, sample_truth
-from texvent.errors import ConfigError, InputError, shown
+from texvent.dataset.reading.stored_events import read_columns, sample_facts, sample_truth
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
@@ -173,7 +172,8 @@ class StoredSamples:
         """
         number = self._checked(number)
         index, shard = self.index, int(self.index.shard[number])
-        facts = json.loads(self.members(number, ("json",)).get("json", b"{}"))
+        content = self.members(number, ("json",)).get("json", b"{}")
+        facts = sample_facts(content, f"sample {index.key[number]} of {self._shard(number)}")
         events = self.events(number)
         return StoredSample(
             key=str(index.key[number]),
@@ -322,6 +322,12 @@ class StoredSamples:
     def _class_numbers(self) -> NDArray[np.int64]:
         """Number of each label of the index."""
         numbers = {label: number for number, label in enumerate(self.labels)}
+        unknown = sorted({*filter(None, self.index.labels)} - {*numbers})
+        if unknown:
+            raise FileFormatError(
+                f"{self.folder} is damaged: class {shown(unknown[0])} of a sample is none of its "
+                "labels; run texvent dataset verify"
+            )
         known = [NO_CLASS if label is None else numbers[label] for label in self.index.labels]
         return np.array(known, np.int64)
 

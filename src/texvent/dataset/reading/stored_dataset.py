@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -18,9 +19,13 @@ from texvent.dataset.generation.shards import (
     ShardRecord,
     read_record,
 )
-from texvent.errors import FileFormatError, InputError, shown
+from texvent.dataset.specification.specification import check_name
+from texvent.errors import FileFormatError, InputError, one_line, shown
 
-SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>\d{6,})\.(tar|json)")
+SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>[0-9]{6,})\.(tar|json)")
+
+LONGEST_GAP = 1000
+"""Missing shards in a row that are named one by one."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +65,13 @@ class StoredDataset:
         """
         dataset = cls(folder, read_facts(folder))
         try:
-            dataset.name, dataset.variants, dataset.splits, dataset.identity  # noqa: B018
-        except (KeyError, TypeError, AttributeError) as error:
-            raise FileFormatError(f"{folder / 'specification.json'} is damaged") from error
+            dataset.name, dataset.identity, dataset.labels, dataset.box_classes  # noqa: B018
+            for name in (*dataset.variants, *dataset.splits):
+                check_name("a variant or split", name)
+        except (KeyError, TypeError, AttributeError, ValueError) as error:
+            raise FileFormatError(
+                f"{folder / 'specification.json'} is damaged ({one_line(error)})"
+            ) from error
         return dataset
 
     @property
@@ -157,7 +166,7 @@ class StoredDataset:
         there = {shard.place for shard in self.shards(*variants)}
         expected = self.expected()
         if expected is None:
-            return sorted(_numbered_until_last(there) - there)
+            return _gaps(there)
         return sorted(one for one in expected - there if one.partition("/")[0] in variants)
 
     def check_variant(self, name: str | None) -> str:
@@ -179,14 +188,16 @@ class StoredDataset:
         return name
 
 
-def _numbered_until_last(places: set[str]) -> set[str]:
-    """All places with the same or a lower number than one that is there."""
-    last: dict[str, int] = {}
+def _gaps(places: set[str]) -> list[str]:
+    """Places with a lower number than one that is there; of a long gap, its first and its last."""
+    numbers: dict[str, list[int]] = {}
     for place in places:
         stem, _, number = place.removesuffix(EXTENSION).rpartition("-")
-        last[stem] = max(last.get(stem, 0), int(number))
-    return {
-        f"{stem}-{number:06d}{EXTENSION}"
-        for stem, highest in last.items()
-        for number in range(highest + 1)
-    }
+        numbers.setdefault(stem, [-1]).append(int(number))
+    found = []
+    for stem, there in numbers.items():
+        for before, after in itertools.pairwise(sorted(there)):
+            ends = (before + 1, after - 1) if after - before > LONGEST_GAP else ()
+            listed = [f"{stem}-{n:06d}{EXTENSION}" for n in ends or range(before + 1, after)]
+            found += [" to ".join(listed)] if ends else listed
+    return sorted(found)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.generation.shards import SampleRecord, read_members, read_part
+from texvent.dataset.generation.shards import SampleRecord, read_json, read_members, read_part
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -127,14 +126,21 @@ def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:
         FileFormatError: the shard is cut off or changed.
     """
     content = read_members(shard, sample.members, ("json",)).get("json", b"")
+    return sample_facts(content, f"sample {sample.key} of {shard}")
+
+
+def sample_facts(content: bytes, where: str) -> dict[str, Any]:
+    """The facts in a .json of a sample; `where` is its name in messages.
+
+    Raises:
+        FileFormatError: it is damaged.
+    """
     try:
-        facts = json.loads(content)
-    except ValueError as error:
-        raise FileFormatError(
-            f"{shard}: sample {sample.key} is damaged ({one_line(error)})"
-        ) from error
+        facts = read_json(content)
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"{where} is damaged ({one_line(error)})") from error
     if not isinstance(facts, dict):
-        raise FileFormatError(f"{shard}: the facts of sample {sample.key} are no table")
+        raise FileFormatError(f"{where} is damaged: its facts are no table")
     return facts
 
 

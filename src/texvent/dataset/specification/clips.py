@@ -23,6 +23,9 @@ from texvent.run.prepare import check_run
 from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve
 
+MOST_SHARDS = 1_000_000
+"""Of a variant."""
+
 
 @dataclass(frozen=True, slots=True)
 class Clip:
@@ -54,6 +57,12 @@ class Clips:
         self._seed = specification.seed
         self._repeats = specification.repeats
         self._items = _share_out(specification, items)
+        shards = sum(-(-count // specification.samples_per_shard) for count in self.counts.values())
+        if shards > MOST_SHARDS:
+            raise ConfigError(
+                f"{shards:,} shards are too many for a folder, which holds {MOST_SHARDS:,}; set a "
+                "larger samples_per_shard"
+            )
         for split, share in specification.splits.items():
             if share > 0 and not self._items[split]:
                 raise ConfigError(

@@ -23,6 +23,7 @@ from texvent.dataset.specification.specification import (
 from texvent.errors import ConfigError, InputError, shown
 from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
 from texvent.scenes.spec.scene import Scene
+from texvent.settings.provenance import describe_state
 
 MAX_ITEMS = 10_000_000
 KEY_DIGITS = 16
@@ -92,6 +93,7 @@ def read_items(specification: Specification) -> Items:
     duplicates = 0
     for source in specification.sources:
         for item in _items_of(source, specification):
+            item = _told_apart(item, found.get(item.key))
             if item.key in found:
                 duplicates += 1
                 continue
@@ -110,6 +112,16 @@ def read_items(specification: Specification) -> Items:
             f"{labelled} of {len(items.all)} prompts or videos have a label; give all one, or none"
         )
     return items
+
+
+def _told_apart(item: Item, other: Item | None) -> Item:
+    """An item with a key of its own, if it is another video in a folder of the same name."""
+    if other is None or item.video is None or other.video in (None, item.video):
+        return item
+    own, others = describe_state(item.video), describe_state(str(other.video))
+    if own is None or others is None or own["contents"] == others["contents"]:
+        return item
+    return replace(item, key=digest([item.key, own["contents"]])[:KEY_DIGITS])
 
 
 def _items_of(source: SampleSource, specification: Specification) -> Iterator[Item]:

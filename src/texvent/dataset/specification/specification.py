@@ -108,7 +108,7 @@ class Variant:
     """Options that replace those of the data set."""
 
     def __post_init__(self) -> None:
-        _check_name("variant", self.name)
+        check_name("variant", self.name)
         check_range(f"seeds of variant {self.name}", self.seeds, 1, 1_000_000)
 
 
@@ -180,7 +180,7 @@ class Specification:
     learned generators are."""
 
     def __post_init__(self) -> None:
-        _check_name("name", self.name)
+        check_name("name", self.name)
         if not self.sources:
             raise ConfigError("the data set has no sources; give at least one")
         check_range("seed", self.seed, 0, 2**63 - 1)
@@ -214,7 +214,12 @@ class Specification:
         return dict(classes) if isinstance(classes, Mapping) else {one: one for one in classes}
 
 
-def _check_name(what: str, name: Any) -> None:
+def check_name(what: str, name: Any) -> None:
+    """Refuse a name of which no folder or file can be called.
+
+    Raises:
+        ConfigError: it is none.
+    """
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ConfigError(
             f"{what} is {shown(name)}; use letters, digits, _ and -, at most 64 of them"
@@ -239,7 +244,7 @@ def _check_truth_names(truth: tuple[str, ...], classes: Any) -> None:
 
 def _check_splits(splits: Mapping[str, float], sources: tuple[SampleSource, ...]) -> None:
     for name, share in splits.items():
-        _check_name("split", name)
+        check_name("split", name)
         check_range(f"share of split {name}", share, 0.0, 1.0)
     if not math.isclose(sum(splits.values()), 1.0, abs_tol=1e-6):
         raise ConfigError(f"the shares of splits add up to {sum(splits.values()):g}; make it 1")

@@ -21,6 +21,7 @@ from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
 from texvent.scenes.scene import Shape
+from texvent.scenes.spec.scene import Scene
 
 _UNITS = ((20.0, 0.01), (1000.0, 0.001))
 """Longest side of a file above which its unit is taken to be this many metres: cm, mm."""
@@ -239,6 +240,18 @@ def list_files(description: SceneDescription, nouns: Mapping[str, Noun]) -> list
         if one.picture is not None and one.picture.kind == "file":
             files.add(Path(one.picture.value))
     return [describe_file(path) for path in sorted(files)]
+
+
+def files_of(subject: str | Scene, assets: Path | None = None) -> list[str]:
+    """Pictures and models that a scene names, and the folder of its models; nothing is read."""
+    objects = subject.objects if isinstance(subject, Scene) else ()
+    pictures = [
+        one.picture.value
+        for one in objects
+        if one.picture is not None and one.picture.kind == "file"
+    ]
+    models = [one.model for one in objects if one.model is not None]
+    return [*map(str, (*pictures, *models)), *([] if assets is None else [str(assets)])]
 
 
 def check_files(described: Any) -> None:

@@ -1,0 +1,48 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import InputError
+from texvent.runtime.yaml_text import load_yaml
+from texvent.settings.config_files import read_config
+from texvent.transform.undistort import read_calibration
+
+
+def doubling(form: str, levels: int = 40) -> str:
+    """Each level names the one before twice."""
+    lines = ["a0: &a0 {x: 1}"]
+    lines += [f"a{n}: &a{n} " + form.format(f"*a{n - 1}") for n in range(1, levels)]
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (doubling("{{<<: [{0}, {0}]}}"), "aliases stand for"),
+        (doubling("[{0}, {0}]"), "aliases stand for"),
+        (doubling("{{x: {0}, y: {0}}}"), "aliases stand for"),
+        ("a: &a [*a]", "aliases stand for"),
+        ("[" * 5000, "nested too deeply"),
+        ("fps: 3\nfps: 4", "'fps' is named twice"),
+        ("a: [", "expected the node content"),
+        ("a: 2001-99-99", "month must be"),
+    ],
+)
+def test_yaml_of_any_origin_is_read_or_refused_at_once(tmp_path: Path, text: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        load_yaml(text)
+    path = tmp_path / "cams.yaml"
+    path.write_text(text)
+    for read in (read_config, read_calibration):
+        with pytest.raises(InputError):
+            read(path)
+
+
+def test_aliases_and_merge_keys_are_read() -> None:
+    text = "base: &b {seed: 3, fps: 24}\nown: {<<: *b, fps: 30}\nlist: [*b, *b]"
+    found = load_yaml(text)
+    assert found["own"] == {"seed": 3, "fps": 30}
+    assert found["list"] == [{"seed": 3, "fps": 24}] * 2
+    assert load_yaml("") is None
