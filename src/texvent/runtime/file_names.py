@@ -6,10 +6,12 @@ import os
 import re
 from pathlib import Path
 
-from texvent.errors import InputError, shown
+from texvent.errors import HIDDEN, FileFormatError, InputError, shown
 
 MAX_NAME_BYTES, MAX_PATH_BYTES = 255, 4095
 """Bytes of one name and of a whole path on Linux."""
+NOT_IN_NAMES = '\\:*?"<>|'
+"""Characters that names cannot have on every system."""
 
 
 IMAGE_EXTENSIONS = frozenset(
@@ -45,6 +47,25 @@ def usable_path(path: str | Path) -> Path:
             f"{shown(str(path))} is no file name: it is longer than {MAX_NAME_BYTES} bytes"
         )
     return Path(path)
+
+
+def inside(folder: Path, place: str) -> Path:
+    """The path of a file in a folder, made of words of a file that somebody may have sent.
+
+    Raises:
+        FileFormatError: it would be the folder itself or lie outside, by `..`, by links or as an
+            absolute path, or a part of it is no name on some system.
+    """
+    path = folder / place
+    is_name = all(
+        part and not part.isspace() and part not in (".", "..") for part in place.split("/")
+    )
+    if not is_name or HIDDEN.search(place) or set(place) & set(NOT_IN_NAMES):
+        raise FileFormatError(f"{shown(place)} names no file inside a folder; nothing is put there")
+    usable_path(path)
+    if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
+        raise FileFormatError(f"{path} leads out of {folder}; nothing is put there")
+    return path
 
 
 def natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:
