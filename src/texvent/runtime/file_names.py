@@ -10,8 +10,8 @@ from texvent.errors import HIDDEN, FileFormatError, InputError, shown
 
 MAX_NAME_BYTES, MAX_PATH_BYTES = 255, 4095
 """Bytes of one name and of a whole path on Linux."""
-NOT_IN_NAMES = '\\:*?"<>|'
-"""Characters that names cannot have on every system."""
+NOT_IN_NAMES = '\\:*?"<>|' if os.name == "nt" else "\\"
+"""Characters that no name of a file has."""
 
 
 IMAGE_EXTENSIONS = frozenset(

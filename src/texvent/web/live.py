@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from texvent.errors import ConfigError, InputError, TexventError, one_line
+from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
 from texvent.event_camera import EventCamera
 from texvent.events import EventStream
 from texvent.settings.provenance import describe_run
@@ -249,7 +249,8 @@ class LiveEvents:
 
 def _reported(error: Exception, recording: Recording | None = None) -> TexventError:
     """An error in one line, with the place of the events that it could not spoil."""
-    kept = f"; its events until then are in {recording.copy}" if recording else ""
-    if isinstance(error, TexventError):
-        return type(error)(f"{error}{kept}")
-    return TexventError(f"{type(error).__name__}: {one_line(error)}{kept}")
+    is_own = isinstance(error, TexventError)
+    text = str(error) if is_own else f"{type(error).__name__}: {one_line(error)}"
+    if recording is not None:
+        return OutputError(f"{text}; its events until then are in {recording.copy}")
+    return error if isinstance(error, TexventError) else TexventError(text)
