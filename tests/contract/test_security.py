@@ -19,5 +19,5 @@ PROMISES = [
 def test_every_promise_names_tests_that_exist(promise, tests):
     named = re.findall(r"`([^`]+)`", tests)
     assert named
-    assert [one for one in named if not any((ROOT / one).parent.glob(Path(one).name))] == []
+    assert [one for one in named if not (ROOT / one).exists()] == []
     assert promise.strip().endswith((".", ")"))

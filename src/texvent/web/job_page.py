@@ -11,7 +11,6 @@ import json
 import shutil
 import subprocess
 import sys
-import tempfile
 import threading
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -20,7 +19,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS, SIMULATORS
 from texvent.config import RunConfig
-from texvent.io.atomic import hidden_folder
+from texvent.io.atomic import temporary_folder
 from texvent.sensor import SENSORS
 from texvent.web.server import HTML, NOTHING_POLICY, Answer, Gets, PageServer, page_text
 
@@ -139,9 +138,7 @@ class JobServer(PageServer):
         gets = {"/job": self._state, **gets}
         posts = {"/run": lambda values: self.begin(*_command(values)), "/stop": self._stop}
         with self._ended as ended:
-            # Those that servers left which were killed are removed.
-            self.folder = ended.enter_context(hidden_folder(Path(tempfile.gettempdir())))
-            self.folder.chmod(0o700)
+            self.folder = ended.enter_context(temporary_folder())
             super().__init__(page_html(), gets, posts, port=port)
             self._ended = ended.pop_all()
 

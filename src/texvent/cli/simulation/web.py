@@ -5,19 +5,17 @@ from __future__ import annotations
 import contextlib
 import signal
 import sys
-import tempfile
 import threading
 import webbrowser
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.io.atomic import hidden_folder
+from texvent.io.atomic import temporary_folder
 from texvent.web.job_page import JobServer
 from texvent.web.server import PageServer
 
@@ -68,9 +66,7 @@ def serve(server: PageServer, options: PageOptions) -> int:
                 sys.stdout.flush()
             if options.browser:
                 # By a file: the words that start a browser are shown to every user.
-                folder = stack.enter_context(hidden_folder(Path(tempfile.gettempdir())))
-                folder.chmod(0o700)
-                page = folder / "open.html"
+                page = stack.enter_context(temporary_folder()) / "open.html"
                 page.write_text(LEAD.format(server.entry), encoding="utf-8")
                 webbrowser.open(page.as_uri())
             try:
