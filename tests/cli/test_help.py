@@ -59,6 +59,12 @@ def test_help_all_shows_every_option_in_its_section(show, command):
     assert all(flag in said for flag in (*MATTER, "--max-intermediate", "--no-detect-cuts"))
 
 
+@pytest.mark.parametrize("flag", ["--help", "-h"])
+def test_a_prompt_may_be_a_flag_of_help(capsys, flag):
+    assert main(["generate", "--dry-run", "--", flag]) == 2
+    assert "nothing in the prompt was understood" in capsys.readouterr().err
+
+
 def test_help_of_a_section_shows_that_section_alone(show):
     said = show("simulate", "--help", "interpolate")
     assert "--max-intermediate" in said

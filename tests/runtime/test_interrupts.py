@@ -2,6 +2,9 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import sys
+import threading
+import weakref
 
 import pytest
 
@@ -42,6 +45,27 @@ def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
     assert caught.value.number == signal.SIGTERM
     with pytest.raises(SystemError, match="another"), raise_interrupted():
         raise SystemError("another")
+
+
+@pytest.mark.parametrize("runs_on", [True, False])
+def test_an_interrupt_that_meets_a_callback_is_not_lost(runs_on: bool) -> None:
+    class Referent:
+        pass
+
+    def work() -> None:
+        referent = Referent()
+        callback = weakref.ref(referent, lambda _: signal.raise_signal(signal.SIGTERM))
+        del referent
+        assert callback() is None
+        if runs_on:
+            threading.Event().wait(60)
+            pytest.fail("the interrupt was dropped")
+
+    before = sys.unraisablehook
+    with pytest.raises(Interrupted) as caught, raise_interrupted():
+        work()
+    assert caught.value.number == signal.SIGTERM
+    assert sys.unraisablehook is before
 
 
 @pytest.mark.parametrize("number", ENDING)

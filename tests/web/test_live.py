@@ -7,17 +7,20 @@ import queue
 import signal
 import sys
 import time
-import urllib.request
+import urllib.error
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.cli.running import refused
+from tests.cli.running import refused, run
+from tests.web.opened import open_entry
 
 import texvent
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError, OutputError
+from texvent.errors import InputError, OutputError, TexventError
+from texvent.event_camera import EventCamera
+from texvent.io.block_writer import BlockWriter
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 from texvent.web.live import LiveEvents
@@ -106,28 +109,119 @@ def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source,
     assert [path.name for path in tmp_path.iterdir()] == ["a.raw"]
 
 
-def test_ctrl_c_completes_the_recording(tmp_path, spawn):
+def test_every_event_shown_outlives_the_process_and_a_full_disk(source, tmp_path, monkeypatch):
+    live = LiveEvents(source, {"simulator": "esim"})
+    for number in range(3):
+        step(live, source, number)
+    live.record(tmp_path / "a.h5", "hdf5")
+    for number in (3, 4):
+        shown = step(live, source, number)
+        kept = texvent.load(tmp_path / "a.h5.unfinished.npy")  # as a kill would leave it now
+        last = kept.t >= 10_000 * (number - 3)
+        assert np.array_equal(kept.t[last] + 20_000, shown.t)
+        assert all(
+            np.array_equal(getattr(kept, name)[last], getattr(shown, name)) for name in "xyp"
+        )
+    assert (kept.size, kept.metadata["simulator"]) == ((16, 12), "esim")
+
+    def full(self, packet):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(BlockWriter, "append", full)
+    shown = step(live, source, 5)
+    state = live.describe()
+    assert (state["recording"], state["state"]) == (None, "running")
+    assert state["error"].endswith(f"until then are in {tmp_path}/a.h5.unfinished.npy")
+    assert len(texvent.load(tmp_path / "a.h5.unfinished.npy")) == len(kept) + len(shown)
+    with pytest.raises(OutputError, match="a recording that broke off; keep it by texvent convert"):
+        live.record(tmp_path / "a.h5", "hdf5")
+    with pytest.raises(OutputError, match="the disk is full"):
+        live.close()
+
+
+@pytest.mark.parametrize("part", ["reading", "simulating"])
+def test_any_error_ends_the_events_with_one_line(source, monkeypatch, part):
+    def fail(*_):
+        raise ZeroDivisionError("of a library")
+
+    monkeypatch.setattr(*((Fed, "__iter__") if part == "reading" else (EventCamera, "step")), fail)
+    live = LiveEvents(source, {"simulator": "esim"})
+    source.feed(0)
+    live._threads[0].join()
+    state = live.describe()
+    assert (state["state"], state["error"]) == ("ended", "ZeroDivisionError: of a library")
+    with pytest.raises(TexventError, match="ZeroDivisionError: of a library"):
+        live.close()
+
+
+def begin_live(spawn, folder):
+    """The command, recording a.aedat4 since it sees events, and a function that asks its page."""
     words = [sys.executable, "-m", "texvent.cli.app", "live", str(CLIP), "--no-browser"]
-    command = spawn(words, stdout=-1, text=True, cwd=tmp_path)
-    address = command.stdout.readline().strip()
-    state = {"state": "starting"}
+    command = spawn(words, stdout=-1, text=True, cwd=folder)
+    ask, state = open_entry(command.stdout.readline().strip()), {"state": "starting"}
     while state["state"] == "starting":
-        state = json.loads(urllib.request.urlopen(f"{address}next", timeout=120).read())
-    body = json.dumps({"file": "a.aedat4", "format": "aedat4"}).encode()
-    urllib.request.urlopen(f"{address}record", body)
-    time.sleep(0.5)
+        state = json.loads(ask("next").read())
+    ask("record", json.dumps({"file": "a.aedat4", "format": "aedat4"}).encode())
+    frames = json.loads(ask("next").read())["frames"]
+    while json.loads(ask("next").read())["frames"] < frames + 20:
+        pass
+    return command
+
+
+def test_ctrl_c_completes_the_recording(tmp_path, spawn):
+    command = begin_live(spawn, tmp_path)
     command.send_signal(signal.SIGINT)
     assert command.wait(60) == 0
     assert len(texvent.load(tmp_path / "a.aedat4")) > 0
     assert [path.name for path in tmp_path.iterdir()] == ["a.aedat4"]
 
 
+def test_a_kill_leaves_the_recording_to_convert(tmp_path, spawn, capsys):
+    command = begin_live(spawn, tmp_path)
+    command.kill()
+    command.wait()
+    kept = tmp_path / "a.aedat4.unfinished.npy"
+    assert run("convert", kept, tmp_path / "a.aedat4") == 0
+    stored = texvent.load(tmp_path / "a.aedat4")
+    assert (stored.size, len(stored) > 0) == ((320, 180), True)
+
+
+@pytest.mark.parametrize(
+    "name", ["../a.h5", "/tmp/a.h5", "link/a.h5", "a" * 5000, "a\0b", "", 3, ".."]
+)
+def test_recordings_stay_below_the_folder(source, tmp_path, name):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "link").symlink_to(tmp_path)
+    with LiveServer(LiveEvents(source, {"simulator": "esim"}), "camera", tmp_path / "in") as page:
+        for number in range(3):
+            step(page._live, source, number)
+        ask = open_entry(page.entry)
+        with pytest.raises(urllib.error.HTTPError) as refusal:
+            ask("record", json.dumps({"file": name, "format": "hdf5"}).encode())
+        assert refusal.value.code == 400
+        assert len(refusal.value.read()) < 300
+        assert page._live.describe()["recording"] is None
+    assert [path.name for path in tmp_path.rglob("*.h5*")] == []
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1e308", "-1e308", "1e999", "x"])
+def test_odd_numbers_of_a_page_give_json(source, number):
+    with LiveServer(LiveEvents(source, {"simulator": "esim"}), "camera", Path()) as page:
+        for one in range(5):
+            step(page._live, source, one)
+        answer = open_entry(page.entry)(f"next?arrived_s={number}&drawn_us={number}").read()
+        assert json.loads(answer, parse_constant=pytest.fail)["latency_ms"] == []
+
+
 def test_bad_input_is_one_line(capsys, source):
     assert "no such camera: /dev/video77" in refused(capsys, "live", "/dev/video77")
     assert "unknown simulator 'nosuch'" in refused(capsys, "live", CLIP, "--simulator", "nosuch")
-    with LiveServer(LiveEvents(source, {}), "camera") as page:
+    assert "nosuch does not exist" in refused(capsys, "live", "--folder", "nosuch", codes=(3,))
+    assert "nobody who knows the address" in refused(capsys, "live", CLIP, "-q", "--no-browser")
+    with LiveServer(LiveEvents(source, {}), "camera", Path()) as page:
         source.feed(0)
-        ask = [urllib.request.urlopen(f"{page.address}next?drawn_us={n}").read() for n in (-1, 0)]
-        assert ["t_us" in json.loads(answer) for answer in ask] == [True, False]
+        ask = open_entry(page.entry)
+        answers = [ask(f"next?drawn_us={n}").read() for n in (-1, 0)]
+        assert ["t_us" in json.loads(answer) for answer in answers] == [True, False]
         port = page.address.rstrip("/").rpartition(":")[2]
         assert f"port {port}: " in refused(capsys, "live", CLIP, "--port", port)

@@ -1,4 +1,4 @@
-"""The local page, asked over HTTP as its script asks it, and as an attacker would."""
+"""The local page, asked over HTTP as its script asks it, and as strangers would."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import contextlib
 import http.client
 import json
 import os
+import select
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -14,10 +16,12 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from tests.web.opened import open_entry
 
 import texvent
+from texvent.web import server as server_module
 from texvent.web.job_page import Job, JobServer, page_html
-from texvent.web.server import CALL_BYTES
+from texvent.web.server import CALL_BYTES, MOST_CONNECTIONS
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3"}
@@ -31,9 +35,10 @@ def page():
 
 
 def ask(page, path="/", method="GET", body=None, **headers):
-    """Status, headers and body of an answer."""
+    """Status, headers and body of an answer; with the server's cookie, if no other is given."""
     connection = http.client.HTTPConnection(urlsplit(page.address).netloc, timeout=60)
-    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    headers = {"cookie": f"{page.cookie}={page.token}", **headers}
+    named = {name.replace("_", "-"): value for name, value in headers.items() if value is not None}
     with contextlib.suppress(BrokenPipeError):  # refused before all of the body was sent
         connection.request(method, path, body=body, headers=named)
     answer = connection.getresponse()
@@ -116,6 +121,39 @@ def test_other_host_names_are_refused_so_that_no_dns_answer_opens_the_page(page,
     assert ask(page, "/run", "POST", "{}", host=host)[0] == 421
 
 
+@pytest.mark.parametrize("method", ["GET", "POST", "HEAD", "OPTIONS", "PUT"])
+def test_nobody_without_the_token_learns_or_does_anything(page, method):
+    paths = [*page.gets, *page.posts, "/nosuch"]
+    with JobServer() as other:
+        cookies = [None, "", f"{page.cookie}=", f"{page.cookie}={page.token[:-1]}", "=;;\xff=\xe9"]
+        cookies += [f"{page.cookie}={other.token}", f"{other.cookie}={page.token}"]
+        for cookie in cookies:
+            for path in [
+                *paths,
+                f"/?token={other.token}",
+                "/?token=%ff%00",
+                f"/job?token={page.token}",
+            ]:
+                status, headers, body = ask(page, path, method, "{}", cookie=cookie)
+                assert status == (403 if method in ("GET", "POST") else 501)
+                assert "Set-Cookie" not in headers
+                assert page.token.encode() not in body
+                if status == 403:
+                    assert b"open the address that texvent printed when it started" in body
+    assert page.job is None
+
+
+def test_the_printed_address_leaves_a_cookie_and_leads_on(page):
+    status, headers, body = ask(page, "/?" + urlsplit(page.entry).query, cookie=None)
+    assert (status, headers["Location"], body) == (303, "/", b"")
+    cookie, *limits = headers["Set-Cookie"].split("; ")
+    assert limits == ["Path=/", "HttpOnly", "SameSite=Strict"]
+    assert headers["Referrer-Policy"] == "no-referrer"
+    foreign = f"a=b; {page.cookie}=old; {cookie}"  # of other servers of this machine
+    for _ in range(2):
+        assert b"Make events" in ask(page, cookie=foreign)[2]
+
+
 def test_localhost_is_a_name_of_the_page(page):
     port = urlsplit(page.address).port
     assert ask(page, host=f"localhost:{port}")[0] == 200
@@ -138,7 +176,12 @@ def test_other_pages_cannot_start_a_job(page, headers):
 
 
 def test_a_link_from_another_page_opens_the_page(page):
-    assert ask(page, sec_fetch_site="cross-site", sec_fetch_mode="navigate")[0] == 200
+    entry = "/?" + urlsplit(page.entry).query
+    link = {"sec_fetch_site": "cross-site", "sec_fetch_mode": "navigate"}
+    status, headers, _ = ask(page, entry, cookie=None, **link)
+    assert (status, headers["Refresh"]) == (200, "0; url=/")  # a redirection would lose the cookie
+    assert ask(page, entry, cookie=None, **{**link, "sec_fetch_mode": "no-cors"})[0] == 403
+    assert ask(page, **link)[0] == 200
     assert ask(page, "/job", sec_fetch_site="cross-site", sec_fetch_mode="no-cors")[0] == 403
     assert ask(page, "/events", sec_fetch_site="cross-site", sec_fetch_mode="navigate")[0] == 403
 
@@ -159,6 +202,39 @@ def test_bodies_are_bounded_before_they_are_read(page):
     assert not list(page.folder.iterdir())
 
 
+@pytest.mark.parametrize("prompt", ["a\0b", "\ud800", "--help", "-h"])
+def test_odd_prompts_are_prompts(page, prompt):
+    assert "usage:" not in generate(page, prompt)[1]
+
+
+@pytest.mark.parametrize("body", [b'{"prompt": 1e999}', b"\xff", b'{"video": {"a": []}}', b"null"])
+def test_odd_values_get_an_answer(page, body):
+    assert ask(page, "/run", "POST", body)[0] in (200, 400)
+    assert ask(page, "/stop", "POST", "")[0] == 200
+
+
+def test_connections_that_send_nothing_or_slowly_do_not_keep_the_page_from_its_user(
+    page, monkeypatch
+):
+    monkeypatch.setattr(server_module, "READ_S", 0.3)
+    place = urlsplit(page.address)
+    with contextlib.ExitStack() as stack:
+        silent = [
+            stack.enter_context(socket.create_connection((place.hostname, place.port), 60))
+            for _ in range(3 * MOST_CONNECTIONS)
+        ]
+        assert ask(page, "/job")[0] == 200
+        for _ in range(500):  # each byte comes soon, the whole never
+            if select.select(silent[-1:], [], [], 0.02)[0]:
+                break
+            silent[-1].send(b"A")
+        else:
+            pytest.fail("the server waits for ever")
+        for one in silent:
+            with contextlib.suppress(ConnectionError):
+                assert one.recv(1) == b""
+
+
 def test_every_answer_forbids_foreign_content(page):
     for path in ("/", "/job", "/nosuch"):
         headers = ask(page, path)[1]
@@ -174,12 +250,42 @@ def test_the_command_serves_the_page_and_leaves_nothing(tmp_path):
     environment = {**os.environ, "TMPDIR": str(tmp_path)}
     server = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment)
     address = server.stdout.readline().strip()
-    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)
-    connection.request("GET", "/")
-    assert b"Make events" in connection.getresponse().read()
-    connection.close()
-    assert list(tmp_path.glob("texvent-app-*"))
+    assert b"Make events" in open_entry(address)("").read()
+    (folder,) = tmp_path.iterdir()
+    assert folder.stat().st_mode & 0o077 == 0
     server.send_signal(signal.SIGTERM)
     assert server.wait(timeout=60) == 0
     server.stdout.close()
-    assert not list(tmp_path.glob("texvent-app-*"))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_killed_server_takes_its_job_along_and_the_next_removes_its_files(tmp_path, spawn):
+    words = [sys.executable, "-m", "texvent.cli.app", "app", "--no-browser"]
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    killed = spawn(words, stdout=-1, text=True, env=environment)
+    address = killed.stdout.readline().strip()
+    values = {**SCENE, "duration": "100", "prompt": "a secret dog runs"}
+    open_entry(address)("run", json.dumps(values).encode())
+    (job,) = children(killed.pid)
+    commands = b" ".join(Path(f"/proc/{one}/cmdline").read_bytes() for one in (job, killed.pid))
+    assert b"secret" not in commands
+    assert urlsplit(address).query.removeprefix("token=").encode() not in commands
+    killed.kill()
+    killed.wait()
+    while is_alive(job):
+        time.sleep(0.05)
+    spawn(words, stdout=-1, text=True, env=environment).stdout.readline()
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def children(process):
+    """Processes that a process has started."""
+    threads = Path(f"/proc/{process}/task").glob("*/children")
+    return [int(one) for thread in threads for one in thread.read_text().split()]
+
+
+def is_alive(process):
+    try:
+        return b") Z" not in Path(f"/proc/{process}/stat").read_bytes()
+    except OSError:
+        return False

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import gc
 import importlib
-import io
-import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -14,6 +12,11 @@ from importlib import metadata
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
+from texvent.cli.standard_streams import (
+    allow_any_text,
+    open_standard_streams,
+    refusal_of_output,
+)
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs, remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
@@ -109,12 +112,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         Exit code: 0, or the `exit_code` of the error (2 for bad input), or 128 + n after signal n.
     """
-    _allow_any_text()
-    if arguments is None:
-        # Imports and kernels leave few cycles: looking for them took 7 % of the first run.
-        gc.set_threshold(50_000, 20, 50)
-        return _run(sys.argv[1:], is_process=True)
-    return _run(list(arguments))
+    if arguments is not None:
+        allow_any_text()
+        return _run(list(arguments))
+    open_standard_streams()
+    allow_any_text()
+    # Imports and kernels leave few cycles: looking for them took 7 % of the first run.
+    gc.set_threshold(50_000, 20, 50)
+    code = _run(sys.argv[1:], is_process=True)
+    refusal = refusal_of_output()
+    if refusal is None:
+        return code
+    say(f"error: standard output cannot be written: {refusal}; files that were asked for are kept")
+    return code or OutputError.exit_code
 
 
 def _run(words: list[str], *, is_process: bool = False) -> int:
@@ -133,10 +143,6 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         number = getattr(interrupt, "number", signal.SIGINT)
         say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
         return 128 + number
-    except BrokenPipeError:
-        # The reader of the output (head, less) has ended: end without a message, as is usual.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except MemoryError:
         say("error: memory ran out; use smaller frames, or close other programs")
         return TexventError.exit_code
@@ -144,18 +150,6 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         where = f" ({error.filename})" if error.filename else ""
         say(f"error: the system refused{where}: {error.strerror or error}")
         return OutputError.exit_code
-
-
-def _allow_any_text() -> None:
-    """Let output that the terminal's encoding cannot show lose a character, not the run.
-
-    Help has Greek letters, which a plain C locale has not; a path may hold bytes that are not
-    UTF-8, and those are written as they are.
-    """
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            is_utf8 = stream.encoding.lower().replace("-", "") == "utf8"
-            stream.reconfigure(errors="surrogateescape" if is_utf8 else "replace")
 
 
 def _dispatch(words: list[str]) -> int:

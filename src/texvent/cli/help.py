@@ -25,7 +25,8 @@ FLAG_COLUMNS = 28
 def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
     """Section that `--help` asks for: "main", "all" or a title; None without `--help`.
 
-    A section may be misspelt. A path or a sentence behind `--help` belongs to the command.
+    A section may be misspelt. A path or a sentence behind `--help` belongs to the command, and so
+    does all behind `--`.
 
     Raises:
         ConfigError: a word that is no section, of a command that has several.
@@ -36,7 +37,8 @@ def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
         >>> asked_help(["--help", "a.mp4"], ["run", "simulate"])
         'main'
     """
-    for word, following in itertools.zip_longest(arguments, arguments[1:], fillvalue=""):
+    words = [*itertools.takewhile(lambda word: word != "--", arguments)]
+    for word, following in itertools.zip_longest(words, words[1:], fillvalue=""):
         flag, _, value = word.partition("=")
         if flag in HELP_FLAGS:
             names, word = (ALL, *sections), value or following

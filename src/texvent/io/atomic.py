@@ -15,6 +15,7 @@ import platform
 import re
 import secrets
 import shutil
+import tempfile
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -326,6 +327,14 @@ def _new_part(folder: Path, suffix: str) -> Path:
     part = folder / f"{PREFIX}{HOST}-{os.getpid()}-{secrets.token_hex(6)}{suffix}"
     _own.add(part)  # before it exists: a signal may come at any moment
     return part
+
+
+@contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """A folder that only this user can read; the next run removes it if this one is killed."""
+    with hidden_folder(Path(tempfile.gettempdir())) as folder:
+        folder.chmod(0o700)
+        yield folder
 
 
 def is_hidden_part(path: Path) -> bool:

@@ -6,6 +6,7 @@ They are Ctrl-C, SIGTERM and SIGHUP; on Windows Ctrl-C, SIGTERM and Ctrl-Break.
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -19,6 +20,8 @@ ENDING: tuple[signal.Signals, ...] = tuple(
 )
 REPEAT_S = 2.0
 """Further signals within this time are ignored: they belong to the first, which is cleaning up."""
+AGAIN_S = 0.05
+"""After this time an interrupt that Python dropped is raised again."""
 
 Handler = Callable[[int, FrameType | None], object]
 
@@ -43,7 +46,9 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
     """Raise `Interrupted` when a signal of `ENDING` arrives inside the block.
 
     A signal that the process was started to ignore, as `nohup` does with SIGHUP, stays ignored.
-    Outside the main thread, which alone receives signals, this does nothing.
+    Outside the main thread, which alone receives signals, this does nothing. Python drops an
+    exception that meets it in a callback (of a weak reference, a destructor, C code) and runs on:
+    an interrupt is then raised again.
 
     Args:
         until_exit: after an interrupt, ignore further signals: the process is about to end.
@@ -57,9 +62,14 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
             last_s, received = time.monotonic(), Interrupted(number)
             raise received
 
+    def forget() -> None:
+        nonlocal last_s
+        last_s = -REPEAT_S
+
     with _handling(interrupt, only_callable=False):
         try:
-            yield
+            with _raising_again(forget):
+                yield
         except (KeyboardInterrupt, SystemError) as error:
             # A library may catch the interrupt and raise one of its own, as Ray does.
             is_other = isinstance(error, KeyboardInterrupt)
@@ -70,6 +80,43 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
                 for number in ENDING:
                     signal.signal(number, signal.SIG_IGN)
             raise interrupted from None
+
+
+@contextmanager
+def _raising_again(forget: Callable[[], None]) -> Iterator[None]:
+    """Raise in the block, or at its end, an interrupt that Python dropped; `forget` comes first."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before, waiting = sys.unraisablehook, list[tuple[threading.Timer, Interrupted]]()
+
+    def hear(dropped: sys.UnraisableHookArgs) -> None:
+        error = dropped.exc_value
+        if not isinstance(error, Interrupted):
+            before(dropped)
+            return
+        forget()
+        timer = threading.Timer(AGAIN_S, _send_to_main_thread, (error.number,))
+        timer.daemon = True
+        waiting[:] = [(timer, error)]
+        timer.start()
+
+    sys.unraisablehook = hear
+    try:
+        yield
+        if waiting and waiting[0][0].is_alive():
+            raise waiting[0][1]
+    finally:
+        sys.unraisablehook = before
+        for timer, _ in waiting:
+            timer.cancel()
+
+
+def _send_to_main_thread(number: int) -> None:
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        signal.raise_signal(number)
 
 
 def _interrupted_in(error: BaseException) -> Interrupted | None:

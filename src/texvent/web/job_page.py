@@ -5,12 +5,12 @@ Prompts, scenes and videos may name files of this machine, as on the command lin
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import shutil
 import subprocess
 import sys
-import tempfile
 import threading
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -19,6 +19,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS, SIMULATORS
 from texvent.config import RunConfig
+from texvent.io.atomic import temporary_folder
 from texvent.sensor import SENSORS
 from texvent.web.server import HTML, NOTHING_POLICY, Answer, Gets, PageServer, page_text
 
@@ -39,7 +40,9 @@ SCENE_MARK = "[[objects]]"
 
 
 class Job:
-    """A run in a process of its own.
+    """A run in a process of its own, which ends with this one, however that ends.
+
+    Its words go through a pipe: those that start a process are shown to every user of the machine.
 
     Args:
         folder: an empty folder for its files.
@@ -55,12 +58,14 @@ class Job:
         files = "-o", str(folder / "events.h5"), "--previews", "mp4,html"
         words = command, *options, *files, "--", _operand(subject, folder)
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "texvent.cli.app", *words],
+            [sys.executable, "-m", "texvent.cli.simulation.job"],
+            stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             encoding="utf-8",
             errors="replace",
         )
+        self._send(words)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -91,10 +96,20 @@ class Job:
         path = self.folder / name
         return path if self.state == "done" and path.is_file() else None
 
+    def _send(self, words: Sequence[str]) -> None:
+        """Give the process its words; the pipe stays open as long as this process lives."""
+        with contextlib.suppress(BrokenPipeError):  # it has ended already, and says why
+            if self._process.stdin is not None:
+                self._process.stdin.write(json.dumps(words) + "\n")
+                self._process.stdin.flush()
+
     def _read(self) -> None:
         if self._process.stderr is not None:
             with self._process.stderr as lines:
                 self._lines.extend(line.rstrip() for line in lines)
+        with contextlib.suppress(BrokenPipeError):
+            if self._process.stdin is not None:
+                self._process.stdin.close()
 
 
 def _operand(subject: str, folder: Path) -> str:
@@ -118,11 +133,14 @@ class JobServer(PageServer):
         self.job: Job | None = None
         self._jobs = 0
         self._lock = threading.Lock()
+        self._ended = contextlib.ExitStack()
         gets: Gets = {path: functools.partial(self._result, path) for path in RESULTS}
         gets = {"/job": self._state, **gets}
         posts = {"/run": lambda values: self.begin(*_command(values)), "/stop": self._stop}
-        super().__init__(page_html(), gets, posts, port=port)
-        self.folder = Path(tempfile.mkdtemp(prefix="texvent-app-"))
+        with self._ended as ended:
+            self.folder = ended.enter_context(temporary_folder())
+            super().__init__(page_html(), gets, posts, port=port)
+            self._ended = ended.pop_all()
 
     def begin(self, command: str, options: list[str], subject: str) -> None:
         """Start a job, which takes the place of the one before; arguments as those of `Job`."""
@@ -139,7 +157,7 @@ class JobServer(PageServer):
         """Stop the job and the server, and delete all files."""
         self._stop({})
         super().close()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._ended.close()
 
     def _stop(self, values: Mapping[str, Any]) -> None:
         if self.job is not None:

@@ -14,15 +14,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from texvent.errors import ConfigError, InputError, OutputError, TexventError
+from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
 from texvent.event_camera import EventCamera
 from texvent.events import EventStream
-from texvent.io.block_writer import BlockWriter
-from texvent.io.files import open_writer
 from texvent.settings.provenance import describe_run
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.transfer import Transfer
 from texvent.video import MICROSECONDS, Frame, FrameStream, transfer_of
+from texvent.web.recording import Recording
 
 MEASURED_FRAMES = 300
 """Drawn frames over which latency is measured, the latest."""
@@ -30,6 +29,7 @@ COMPILING_STEPS = 2
 """First steps of an event camera, which do not count: kernels are compiled."""
 LEAVE_S = 2.0
 """How long a source that sends nothing is waited for at the end."""
+LONGEST_LATENCY_S = 3600.0
 
 
 class Shown(NamedTuple):
@@ -60,13 +60,12 @@ class LiveEvents:
             options = {**options, "transfer": "linear"}
         self._source, self._options = source, options
         self._camera = EventCamera(source.size, **options)
-        self._steps = self._arrived = self._dropped = self._lost = self._start_us = 0
+        self._steps = self._arrived = self._dropped = self._lost = 0
         self._waiting: tuple[Frame, float] | None = None
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
-        self._recording: Path | None = None
-        self._writer: BlockWriter
-        self._error: Exception | None = None
+        self._recording: Recording | None = None
+        self._error: TexventError | None = None
         self._is_over = False
         self._changed = threading.Condition(threading.RLock())
         self._stop = threading.Event()
@@ -100,8 +99,9 @@ class LiveEvents:
 
     def note_drawn(self, arrived_s: float) -> None:
         """Measure the latency of a frame that a page has drawn just now."""
-        if self._steps > COMPILING_STEPS + 1:
-            self._latencies_ms.append((time.perf_counter() - arrived_s) * 1e3)
+        latency_s = time.perf_counter() - arrived_s
+        if self._steps > COMPILING_STEPS + 1 and 0.0 <= latency_s < LONGEST_LATENCY_S:
+            self._latencies_ms.append(latency_s * 1e3)
 
     def change(self, simulator: str, contrast_threshold: float | None) -> None:
         """Use another model from the next frame on; without a threshold, its own.
@@ -127,25 +127,29 @@ class LiveEvents:
             self._refuse_recording()
             if self._state != "running" or self._shown is None:
                 raise InputError(f"no events come ({self._state}); there is nothing to record")
-            if path.exists():
-                raise OutputError(f"{path} exists already; choose another name")
-            facts = describe_run(self._camera.settings, prompt=None, source=self._source.metadata)
-            writer = open_writer(path, size=self._camera.size, metadata=facts, format=format)
-            self._writer, self._recording = writer.__enter__(), path
-            self._start_us, self._lost, self._error = self._shown.frame.t_us, 0, None
+            self._recording = Recording(
+                path,
+                size=self._camera.size,
+                metadata=describe_run(
+                    self._camera.settings, prompt=None, source=self._source.metadata
+                ),
+                format=format,
+                start_us=self._shown.frame.t_us,
+            )
+            self._lost, self._error = 0, None
 
     def stop_recording(self) -> None:
         """Complete the recording, if there is one; while an error is handled, drop its file."""
         with self._changed:
-            if self._recording is None:
+            recording, self._recording = self._recording, None
+            if recording is None:
                 return
-            self._recording = None
             try:
-                if self._lost:
-                    self._writer.add_metadata({"frames_dropped": self._lost})
-                self._writer.__exit__(*sys.exc_info())
-            except (TexventError, OSError) as error:
-                self._error = error
+                recording.close(
+                    {"frames_dropped": self._lost} if self._lost else {}, *sys.exc_info()
+                )
+            except Exception as error:  # noqa: BLE001  # of any library; the events go on
+                self._error = _reported(error, recording)
 
     def describe(self) -> dict[str, Any]:
         """State, JSON-ready."""
@@ -162,7 +166,7 @@ class LiveEvents:
                 "frames": self._arrived,
                 "dropped": self._dropped,
                 "latency_ms": np.percentile(latencies, (50, 95)).tolist() if latencies else [],
-                "recording": self._recording and str(self._recording),
+                "recording": self._recording and str(self._recording.path),
             }
 
     @property
@@ -173,7 +177,7 @@ class LiveEvents:
 
     def _refuse_recording(self) -> None:
         if self._recording is not None:
-            raise InputError(f"{self._recording} is being recorded; stop it first")
+            raise InputError(f"{self._recording.path} is being recorded; stop it first")
 
     def _read(self) -> None:
         try:
@@ -186,8 +190,8 @@ class LiveEvents:
                     self._changed.notify_all()
                 if self._stop.is_set():
                     break
-        except TexventError as error:
-            self._error = error
+        except Exception as error:  # noqa: BLE001  # of any library; the page must hear of it
+            self._error = _reported(error)
         self._end()
 
     def _play(self) -> Iterator[Frame]:
@@ -222,8 +226,8 @@ class LiveEvents:
                 with self._changed:
                     if camera is self._camera:
                         self._show(Shown(frame, events, arrived_s))
-        except TexventError as error:
-            self._error = error
+        except Exception as error:  # noqa: BLE001  # as above
+            self._error = _reported(error)
         self._stop.set()
         self._end()
         self.stop_recording()
@@ -237,8 +241,16 @@ class LiveEvents:
             self._latencies_ms.clear()
         if self._recording is not None:
             try:
-                since_start = shown.events.t - self._start_us
-                self._writer.append(replace(shown.events, t=since_start))
-            except (TexventError, OSError) as error:
-                self._error = error
+                self._recording.append(shown.events)
+            except Exception as error:  # noqa: BLE001  # as above
+                self._error = _reported(error, self._recording)
                 self.stop_recording()
+
+
+def _reported(error: Exception, recording: Recording | None = None) -> TexventError:
+    """An error in one line, with the place of the events that it could not spoil."""
+    is_own = isinstance(error, TexventError)
+    text = str(error) if is_own else f"{type(error).__name__}: {one_line(error)}"
+    if recording is not None:
+        return OutputError(f"{text}; its events until then are in {recording.copy}")
+    return error if isinstance(error, TexventError) else TexventError(text)

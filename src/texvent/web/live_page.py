@@ -14,6 +14,7 @@ from texvent._registry import SIMULATORS
 from texvent.errors import InputError
 from texvent.io.files import extension_of, writable_formats
 from texvent.represent.event_frame import event_frame
+from texvent.runtime.file_names import inside
 from texvent.view.drawing.canvas import jpeg_bytes, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.palettes import PALETTES
@@ -34,20 +35,21 @@ class LiveServer(PageServer):
     Args:
         live: the events, which end with the server.
         name: of the source.
+        folder: recordings lie in it, or in folders of it.
         port: TCP port; 0: any free one.
 
     Raises:
         InputError: the port is taken.
     """
 
-    def __init__(self, live: LiveEvents, name: str, *, port: int = 0) -> None:
+    def __init__(self, live: LiveEvents, name: str, folder: Path, *, port: int = 0) -> None:
         self._live = live
         self._asked_s = self._left_s = 0.0
         formats = {one: extension_of(one) for one in writable_formats()}
         choices = {"source": name, "simulators": SIMULATORS.names(), "formats": formats}
         posts = {
             "/change": lambda values: live.change(values["simulator"], values["threshold"]),
-            "/record": lambda values: live.record(Path(values["file"]), values["format"]),
+            "/record": lambda values: live.record(inside(folder, values["file"]), values["format"]),
             "/stop": lambda values: live.stop_recording(),
             "/leave": self._leave,
         }

@@ -1,26 +1,42 @@
-"""Server of a page: HTTP on 127.0.0.1 by the standard library, for the user of this machine.
+"""Server of a page: HTTP on 127.0.0.1 by the standard library, for the user who started it.
 
 Every address is one of a few names, so no request reaches another file. Requests that name another
-host (DNS rebinding) or come from another page are refused, and so are bodies above a bound.
+host (DNS rebinding), come from another page or do not know the server's token are refused, and so
+are bodies above a bound. A browser gets the token by the address that it opens first, and keeps it
+as a cookie.
 """
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
+import secrets
+import socket
 import sys
 import threading
+import time
 import urllib.parse
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
+from types import MappingProxyType
 from typing import Any, NamedTuple, Self, TypeAlias
 
-from texvent.errors import InputError, TexventError
+from texvent.errors import InputError, TexventError, one_line
 
 HOST = "127.0.0.1"
 CALL_BYTES = 2**16
 """Largest request."""
+READ_S, SEND_S = 10.0, 60.0
+"""How long a whole request may take to arrive, and an answer to be taken."""
+MOST_CONNECTIONS = 64
+"""Requests that are arriving; a further one ends the oldest, whoever made it."""
+NO_TOKEN = (
+    "the token of this server is missing, or is that of a server that has ended; "
+    "open the address that texvent printed when it started"
+)
 HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -74,8 +90,15 @@ class PageServer:
             reason = f"{error.strerror}; choose another port, or none"
             raise InputError(f"cannot listen on port {port}: {reason}") from error
         self._server.page = self  # type: ignore[attr-defined]
-        self.address = f"http://{HOST}:{self._server.server_port}/"
+        port = self._server.server_port
+        self.address = f"http://{HOST}:{port}/"
+        self.token, self.cookie = secrets.token_urlsafe(), f"texvent-{port}"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
+
+    @property
+    def entry(self) -> str:
+        """The address to open first, with the token: for the user's eyes alone."""
+        return f"{self.address}?token={self.token}"
 
     def is_over(self) -> bool:
         """Whether the page needs no server any more."""
@@ -96,6 +119,28 @@ class PageServer:
 class _Server(ThreadingHTTPServer):
     """The server; a connection that breaks off ends silently."""
 
+    request_queue_size = 128
+    arriving: dict[socket.socket, None]
+    """Connections whose request is not known to be the user's yet, the oldest first."""
+
+    def __init__(self, *arguments: Any) -> None:
+        self.arriving = {}
+        super().__init__(*arguments)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Answer a connection in a thread; too many end the oldest."""
+        for oldest in [*self.arriving][: len(self.arriving) + 1 - MOST_CONNECTIONS]:
+            self.arriving.pop(oldest, None)
+            with contextlib.suppress(OSError):
+                oldest.shutdown(socket.SHUT_RDWR)
+        self.arriving[request] = None
+        super().process_request(request, client_address)
+
+    def shutdown_request(self, request: Any) -> None:
+        """Close a connection."""
+        self.arriving.pop(request, None)
+        super().shutdown_request(request)
+
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Nothing of a broken connection: the terminal belongs to the command."""
         if not isinstance(sys.exception(), OSError):
@@ -105,62 +150,106 @@ class _Server(ThreadingHTTPServer):
 class _Handler(BaseHTTPRequestHandler):
     """Checks requests and hands them to the page."""
 
-    timeout = 20
-    """Longest silence of a connection, s."""
+    server: _Server
 
     @property
     def page(self) -> PageServer:
         page: PageServer = self.server.page  # type: ignore[attr-defined]
         return page
 
+    def setup(self) -> None:
+        """Read with a time limit for all of the request."""
+        super().setup()
+        self.rfile = io.BufferedReader(_Arriving(self.connection, time.monotonic() + READ_S))
+
     def do_GET(self) -> None:
         """The page, or a part of it."""
         if self._is_refused():
             return
-        path, _, query = self.path.partition("?")
+        path, query = self._path
         get = self.page.gets.get(path)
-        answer = None if get is None else get(dict(urllib.parse.parse_qsl(query)))
-        if answer is None:
-            self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
-        else:
-            self._send(answer)
+        self._answer((lambda: get(query)) if get else lambda: None)
 
     def do_POST(self) -> None:
         """An action."""
         if self._is_refused():
             return
-        action = self.page.posts.get(self.path.partition("?")[0])
+        action = self.page.posts.get(self._path[0])
         if action is None:
-            self._refuse(HTTPStatus.NOT_FOUND, "there is no such action")
+            self._answer(lambda: None)
             return
         try:
-            action(self._json())
+            values = self._json()
         except _RequestError as error:
             self._refuse(error.status, str(error))
+            return
+
+        def act() -> Answer:
+            action(values)
+            return Answer("{}")
+
+        self._answer(act)
+
+    def _answer(self, find: Callable[[], Answer | None]) -> None:
+        """Send an answer, or one line why there is none."""
+        try:
+            answer = find()
         except TexventError as error:
             self._refuse(HTTPStatus.BAD_REQUEST, str(error))
-        except (KeyError, TypeError) as error:
-            self._refuse(HTTPStatus.BAD_REQUEST, f"a value is missing or unfit: {error}")
+        except Exception as error:  # noqa: BLE001  # whatever it is, the page must not wait for ever
+            reason = f"{type(error).__name__}: {one_line(error)}"
+            self._refuse(HTTPStatus.BAD_REQUEST, f"a value is missing or unfit ({reason})")
         else:
-            self._send(Answer("{}"))
+            if answer is None:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is no such page or action")
+            else:
+                self._send(answer)
+
+    @property
+    def _path(self) -> tuple[str, dict[str, str]]:
+        path, _, query = self.path.partition("?")
+        return path, dict(urllib.parse.parse_qsl(query))
 
     def _is_refused(self) -> bool:
-        """Refuse a request that names another host or comes from another page."""
+        """Refuse a request of another host, another page, or one who does not know the token."""
         own = self.page.address.removeprefix("http://").rstrip("/")
         names = {own, own.replace(HOST, "localhost")}
         host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
-        site = self.headers.get("Sec-Fetch-Site", "none")
+        site, (path, query) = self.headers.get("Sec-Fetch-Site", "none"), self._path
         is_foreign = site not in ("none", "same-origin") and (
-            (self.command, self.path) != ("GET", "/")
-            or self.headers.get("Sec-Fetch-Mode") != "navigate"
+            (self.command, path) != ("GET", "/") or self.headers.get("Sec-Fetch-Mode") != "navigate"
         )
         if host not in names:
             self._refuse(HTTPStatus.MISDIRECTED_REQUEST, "this page answers to localhost only")
         elif is_foreign or (origin is not None and origin.removeprefix("http://") not in names):
             self._refuse(HTTPStatus.FORBIDDEN, "requests from other pages are refused")
+        elif (self.command, path) == ("GET", "/") and self._is_token(query.get("token", "")):
+            self._hand_over_token(is_followed=site in ("none", "same-origin"))
+        elif not any(map(self._is_token, self._cookies())):
+            self._refuse(HTTPStatus.FORBIDDEN, NO_TOKEN)
         else:
+            self.server.arriving.pop(self.connection, None)
             return False
         return True
+
+    def _is_token(self, text: str) -> bool:
+        return secrets.compare_digest(text.encode(), self.page.token.encode())
+
+    def _cookies(self) -> list[str]:
+        """Values of this server's cookie."""
+        pairs = (one.strip().partition("=") for one in self.headers.get("Cookie", "").split(";"))
+        return [value for name, _, value in pairs if name == self.page.cookie]
+
+    def _hand_over_token(self, *, is_followed: bool) -> None:
+        """Put the token into a cookie, and lead away from the address that shows it.
+
+        A browser that another page or file led here sends no such cookie along a redirection;
+        it does when the answer itself goes on to the page.
+        """
+        cookie = f"{self.page.cookie}={self.page.token}; Path=/; HttpOnly; SameSite=Strict"
+        on = {"Location": "/"} if is_followed else {"Refresh": "0; url=/"}
+        status = HTTPStatus.SEE_OTHER if is_followed else HTTPStatus.OK
+        self._send(Answer("", HTML), status, {"Set-Cookie": cookie, **on})
 
     def _json(self) -> dict[str, Any]:
         text = self.headers.get("Content-Length", "")
@@ -181,10 +270,16 @@ class _Handler(BaseHTTPRequestHandler):
         self.close_connection = True  # the body was not read
         self._send(Answer(text, "text/plain; charset=utf-8"), status)
 
-    def _send(self, answer: Answer, status: int = HTTPStatus.OK) -> None:
+    def _send(
+        self,
+        answer: Answer,
+        status: int = HTTPStatus.OK,
+        more: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         content, kind, policy = answer
         body = content.encode() if isinstance(content, str) else content
-        headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy}
+        headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy, **more}
+        self.connection.settimeout(SEND_S)
         self.send_response(status)
         for name, value in headers.items():
             self.send_header(name, value)
@@ -194,6 +289,22 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Nothing: the terminal belongs to the command."""
+
+
+class _Arriving(io.RawIOBase):
+    """Bytes of a connection until a moment of `time.monotonic`."""
+
+    def __init__(self, connection: socket.socket, until_s: float) -> None:
+        self._connection, self._until_s = connection, until_s
+
+    def readable(self) -> bool:
+        """It is."""
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        """The next bytes; raises TimeoutError."""
+        self._connection.settimeout(max(1e-3, self._until_s - time.monotonic()))
+        return self._connection.recv_into(buffer)
 
 
 class _RequestError(Exception):

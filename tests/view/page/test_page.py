@@ -3,6 +3,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import os
 import re
 import webbrowser
 from pathlib import Path
@@ -102,6 +103,12 @@ def test_without_a_path_the_browser_opens_a_temporary_page(
     monkeypatch.setattr(webbrowser, "open", opened.append)
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
-    page = make_events(5).show()
-    assert opened == [page.as_uri()]
-    assert page.is_relative_to(tmp_path)
+    old, foreign = make_events(5).show(), tmp_path / "texvent-view-of-another-kind"
+    foreign.write_text("a file")
+    for one in (old.parent, foreign):
+        os.utime(one, (0, 0))
+    page, again = make_events(5).show(), make_events(5).show()
+    assert opened == [one.as_uri() for one in (old, page, again)]
+    assert [one.exists() for one in (old, foreign, page, again)] == [False, True, True, True]
+    assert page.parent.parent == tmp_path
+    assert page.parent.stat().st_mode & 0o077 == 0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import tempfile
 import webbrowser
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +10,7 @@ from typing import ClassVar
 
 from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import EventRangeOptions
-from texvent.cli.notices import write_out
+from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig, check_range
@@ -22,6 +20,7 @@ from texvent.run.regeneration import render_again
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import FrameStream
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
+from texvent.view.page.writer import temporary_page
 from texvent.view.render import RenderConfig, render_events
 
 AUTOMATIC = "auto"
@@ -124,7 +123,8 @@ class ViewOptions(ShownEventsOptions):
     """Which events, and how the page is made."""
 
     out: Path | None = None
-    """Page to save (.html). Without it, a temporary page is made and opened in the browser."""
+    """Page to save (.html). Without it, a temporary page is made and opened in the browser; a later
+    view removes it when it is a day old."""
     points: int = 1_000_000
     """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
     and the page says so. A million make a page of 12 MB."""
@@ -145,7 +145,7 @@ def run_view(arguments: Sequence[str]) -> int:
         arguments, {"input": ViewOptions()}, prog="texvent view", description=VIEW
     )
     events = options.open()
-    page = options.out or Path(tempfile.mkdtemp(prefix="texvent-")) / "events.html"
+    page = options.out or temporary_page()
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         render_events(
             events,
@@ -158,5 +158,5 @@ def run_view(arguments: Sequence[str]) -> int:
     if not options.quiet:
         write_out(f"{page}\n")
     if options.out is None and not webbrowser.open(page.resolve().as_uri()):
-        sys.stderr.write("no browser could be opened; open that page yourself\n")
+        say("no browser could be opened; open that page yourself")
     return 0

@@ -11,11 +11,12 @@ from texvent.capture.open import open_frames
 from texvent.cli.options import parse_configs
 from texvent.cli.simulation.web import PageOptions, serve
 from texvent.config import CaptureConfig
+from texvent.errors import OutputError
 from texvent.web.live import LiveEvents
 from texvent.web.live_page import LiveServer
 
 DESCRIPTION = """Show a camera beside its events in the browser; change simulator and threshold, and
-record. It ends with the page, or with Ctrl-C. Only this machine can reach the page.
+record. It ends with the page, or with Ctrl-C. Only those who have the address can reach the page.
 
   texvent live
   texvent live clip.mp4 --simulator esim --sensor davis346"""
@@ -28,6 +29,7 @@ class LiveOptions:
 
     input_texts: ClassVar[tuple[str, ...]] = ("source", "sensor")
     positional: ClassVar[tuple[str, ...]] = ("source",)
+    outputs: ClassVar[tuple[str, ...]] = ("folder",)
 
     source: str = "/dev/video0"
     """Camera, stream, video or image folder. A camera is /dev/video0, a stream rtsp://...; a video
@@ -42,6 +44,14 @@ class LiveOptions:
     """What fills the time between frames: flow, blend, rife or none (fastest)."""
     config: Path | None = None
     """TOML or YAML file with more options; flags override it."""
+    folder: Path = Path()
+    """Folder of the recordings; the page writes nowhere else."""
+
+    def __post_init__(self) -> None:
+        if not self.folder.is_dir():
+            raise OutputError(
+                f"the folder {self.folder} does not exist; create it with: mkdir -p '{self.folder}'"
+            )
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -51,4 +61,4 @@ def run(arguments: Sequence[str]) -> int:
     frames = open_frames(options.source, CaptureConfig())
     live = LiveEvents(frames, {name: getattr(options, name) for name in OF_THE_CAMERA})
     name = str(frames.metadata.get("source", options.source))  # without a password
-    return serve(LiveServer(live, name, port=page.port), page)
+    return serve(LiveServer(live, name, options.folder, port=page.port), page)

@@ -1,7 +1,8 @@
-"""`texvent app`: the web page, for the user of this machine."""
+"""`texvent app`: the web page, for the user who started it."""
 
 from __future__ import annotations
 
+import contextlib
 import signal
 import sys
 import threading
@@ -13,12 +14,16 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.io.atomic import temporary_folder
 from texvent.web.job_page import JobServer
 from texvent.web.server import PageServer
 
 DESCRIPTION = """Open the web page: type a prompt or the path of a video, look at the events,
-download them. Only this machine can reach the page."""
+download them. Only those who have the address can reach the page."""
 WAIT_S = 0.5
+LEAD = """<!doctype html><meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0; url={}">"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +41,10 @@ class PageOptions:
 
     def __post_init__(self) -> None:
         check_range("port", self.port, 0, 65_535)
+        if self.quiet and not self.browser:
+            raise ConfigError(
+                "--quiet and --no-browser leave nobody who knows the address; give one of them"
+            )
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -51,12 +60,15 @@ def serve(server: PageServer, options: PageOptions) -> int:
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
     try:
-        with server:
+        with server, contextlib.ExitStack() as stack:
             if not options.quiet:
-                write_out(f"{server.address}\npress Ctrl-C to stop\n")
+                write_out(f"{server.entry}\npress Ctrl-C to stop\n")
                 sys.stdout.flush()
             if options.browser:
-                webbrowser.open(server.address)
+                # By a file: the words that start a browser are shown to every user.
+                page = stack.enter_context(temporary_folder()) / "open.html"
+                page.write_text(LEAD.format(server.entry), encoding="utf-8")
+                webbrowser.open(page.as_uri())
             try:
                 # In turns: on Windows Ctrl-C does not end a wait.
                 while not (server.is_over() or stop.wait(WAIT_S)):

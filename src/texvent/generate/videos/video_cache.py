@@ -7,12 +7,11 @@ option of the simulator finds the video again, and changing the seed does not.
 from __future__ import annotations
 
 import atexit
+import contextlib
 import dataclasses
 import functools
 import hashlib
 import json
-import shutil
-import tempfile
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import Any
 
 from texvent.errors import OutputError
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
+from texvent.io.atomic import temporary_folder
 from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.video import PixelArray
@@ -86,6 +86,6 @@ class VideoCache:
 @functools.cache
 def _scratch_folder() -> Path:
     """A folder that is removed when the process ends."""
-    folder = tempfile.mkdtemp(prefix="texvent-")
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return Path(folder)
+    ended = contextlib.ExitStack()
+    atexit.register(ended.close)
+    return ended.enter_context(temporary_folder())

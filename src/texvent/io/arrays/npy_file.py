@@ -30,9 +30,12 @@ _MAGIC = b"\x93NUMPY\x01\x00"
 
 @contextmanager
 def growing_array(
-    path: Path, *, dtype: str | np.dtype[np.void]
+    path: Path, *, dtype: str | np.dtype[np.void], is_live: bool = False
 ) -> Iterator[Callable[[NDArray[np.generic]], None]]:
-    """A .npy file, [n], to which the function given appends; a type with names makes records."""
+    """A .npy file, [n], to which the function given appends; a type with names makes records.
+
+    If it is live, the file is whole after every append, even if the process is killed.
+    """
     kind = np.dtype(dtype)
     row_count = 0
     with path.open("wb") as file:
@@ -52,6 +55,12 @@ def growing_array(
             nonlocal row_count
             file.write(np.ascontiguousarray(rows, dtype=kind).data)
             row_count += len(rows)
+            if is_live:
+                file.flush()  # the rows first: the header never promises more than there are
+                file.seek(0)
+                write_header()
+                file.flush()
+                file.seek(0, os.SEEK_END)
 
         write_header()
         yield append

@@ -44,7 +44,7 @@ from texvent.io.input_checks import (
     reporting_damage,
     stated_unit,
 )
-from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.metadata import metadata_from_json, metadata_to_json, read_sidecar
 from texvent.io.reading import ReadOptions, TimeUnit, choose
 from texvent.io.tables import TABLE_OPTIONS, find_tables
 from texvent.sensor import SensorSize
@@ -266,4 +266,5 @@ class NpyCodec(BlockReader):
         table = find_tables(path, arrays, options)[0]
         table.check(path, arrays)
         rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
-        return contents_of_rows(None, {}, already_open(rows))
+        size, metadata = read_sidecar(path)
+        return contents_of_rows(size, metadata, already_open(rows))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from typing import Self
 
@@ -26,7 +27,7 @@ PATIENCE_SECONDS = 0.5
 class ConsoleProgress:
     """Lines, and one bar per stage of longer work, on stderr.
 
-    The bar shows where stderr is a terminal.
+    The bar shows where stderr is a terminal. A full or closed stderr loses them and stops no work.
 
     Args:
         is_quiet: show nothing.
@@ -61,20 +62,23 @@ class ConsoleProgress:
     def __exit__(self, *error: object) -> None:
         if self._has_bar:
             TERMINALS.remove(self)
-        if self._is_shown:
-            self._bar.stop()
+        with contextlib.suppress(OSError):
+            if self._is_shown:
+                self._bar.stop()
 
     def announce(self, line: str) -> None:
         """Print a line."""
-        self._console.print(visible(line), markup=False, soft_wrap=True)
+        with contextlib.suppress(OSError):
+            self._console.print(visible(line), markup=False, soft_wrap=True)
 
     def advance(self, stage: str, done: int, total: int | None) -> None:
         """Move the bar of a stage."""
         if not self._has_bar or time.monotonic() - self._started < self._patience:
             return
-        if not self._is_shown:
-            self._bar.start()
-            self._is_shown = True
-        if stage not in self._tasks:
-            self._tasks[stage] = self._bar.add_task(stage, total=total)
-        self._bar.update(self._tasks[stage], completed=done, total=total)
+        with contextlib.suppress(OSError):
+            if not self._is_shown:
+                self._bar.start()
+                self._is_shown = True
+            if stage not in self._tasks:
+                self._tasks[stage] = self._bar.add_task(stage, total=total)
+            self._bar.update(self._tasks[stage], completed=done, total=total)

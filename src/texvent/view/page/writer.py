@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import html
+import shutil
 import tempfile
 import webbrowser
 from collections.abc import Mapping
@@ -22,6 +24,10 @@ from texvent.view.page import html_parts
 from texvent.view.page.html_parts import fill_template
 from texvent.view.page.sample import SAMPLE_EVENTS, FrameStrip, RateCurve, UniformSample
 from texvent.view.stills import busiest_window_png
+
+TEMPORARY = "texvent-view-"
+KEPT_S = 86_400
+"""How long a temporary page stays: it may be loaded again."""
 
 
 class PageWriter(AtomicOutput):
@@ -158,6 +164,19 @@ class PageWriter(AtomicOutput):
         return facts | version
 
 
+def temporary_page() -> Path:
+    """A path for a page that only its user can read; pages of former days are removed."""
+    root = Path(tempfile.gettempdir())
+    folder = Path(tempfile.mkdtemp(prefix=TEMPORARY, dir=root))
+    mine = folder.lstat()
+    for one in root.glob(f"{TEMPORARY}*"):
+        with contextlib.suppress(OSError):
+            status = one.lstat()
+            if status.st_uid == mine.st_uid and mine.st_mtime - status.st_mtime > KEPT_S:
+                shutil.rmtree(one)
+    return folder / "events.html"
+
+
 def show(
     events: EventStream | EventPackets, path: str | Path | None = None, *, overwrite: bool = False
 ) -> Path:
@@ -177,8 +196,7 @@ def show(
     """
     if path is not None and Path(path).suffix.lower() not in (".html", ".htm"):
         raise ConfigError(f"cannot show events in {path}; the name of a page ends in .html or .htm")
-    folder = None if path is not None else tempfile.mkdtemp(prefix="texvent-")
-    page = Path(path) if path is not None else Path(str(folder)) / "events.html"
+    page = Path(path) if path is not None else temporary_page()
     packets = (events,) if isinstance(events, EventStream) else events
     with PageWriter(
         page, size=events.size, metadata=events.metadata, overwrite=overwrite
