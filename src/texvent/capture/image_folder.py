@@ -13,8 +13,9 @@ from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels, warn_of_few_bits
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
-from texvent.errors import FileFormatError, InputError, shown
+from texvent.errors import InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, natural_key, usable_path
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -100,18 +101,8 @@ def read_image(path: Path) -> PixelArray:
         return exr_frame(path)
     import cv2  # only image folders need it here
 
-    data = np.fromfile(path, dtype=np.uint8)
     # Grey stays grey, 16-bit and float stay, alpha goes, and JPEG orientation is applied.
-    flags = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH
-    try:
-        image = cv2.imdecode(data, flags) if data.size else None
-    except cv2.error as error:
-        # OpenCV refuses some damage, such as 2^30 pixels, by its assertions.
-        raise FileFormatError(f"image {path} is damaged: OpenCV refuses it") from error
-    if image is None:
-        raise FileFormatError(
-            f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
-        )
+    image = decode_image(path, cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH)
     if image.ndim == 3:
         image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
     return usable_pixels(np.asarray(image), str(path))

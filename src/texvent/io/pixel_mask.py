@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.input_checks import existing_file
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import SensorSize
 
 EXTENSIONS = (".npy", ".png", ".txt")
@@ -57,14 +58,7 @@ def _read_array(path: Path) -> NDArray[Any]:
 def _read_image(path: Path) -> NDArray[Any]:
     import cv2  # only images need it
 
-    data = np.fromfile(path, dtype=np.uint8)
-    try:
-        image = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if data.size else None
-    except cv2.error as error:
-        raise FileFormatError(f"{path} is damaged: {one_line(error)}") from error
-    if image is None:
-        raise FileFormatError(f"{path} cannot be decoded as an image; it may be cut off or damaged")
-    return np.asarray(image)
+    return decode_image(path, cv2.IMREAD_GRAYSCALE)
 
 
 def _read_text(path: Path, size: SensorSize) -> NDArray[np.bool_]:

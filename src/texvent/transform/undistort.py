@@ -10,7 +10,7 @@ A calibration is one of
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,11 +20,13 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.event_packets import EventPackets
+from texvent.errors import FileFormatError, InputError, few, one_line, shown, warn
+from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
-from texvent.sensor import SensorSize
-from texvent.transform.packets import map_packets, move_events, note_edit
+from texvent.io.hdf5.storage import check_claims, open_hdf5
+from texvent.runtime.memory import check_claim
+from texvent.sensor import SensorSize, checked_size
+from texvent.transform.packets import move_events, note_edit
 
 ITERATIONS = 50
 """Of the fixed-point search; it stops earlier where it has settled."""
@@ -33,6 +35,12 @@ SETTLED = 1e-9
 MAX_TEXT = 65_536
 TEXT_HELP = "a calibration is nine numbers: fx fy cx cy k1 k2 p1 p2 k3"
 MODELS = ("radtan", "equidistant", "none")
+SMALLEST_SCALE = 0.01
+"""Area of a pixel in a map, and one over the largest: no rectified image is so small or large."""
+FEWEST_PIXELS = 0.01
+"""Share of the pixels that any lens leaves on the sensor."""
+USUAL_LOSS = 0.25
+"""Share of the events that may land outside before a warning is due."""
 Places = NDArray[np.float64]
 
 
@@ -54,12 +62,26 @@ class Calibration:
         """Where each pixel belongs, (x, y), rounded, [height, width, 2]; −1: nowhere.
 
         Raises:
-            InputError: the calibration is of another sensor.
+            InputError: the calibration is of another sensor, or leaves hardly a pixel.
+
+        Warns:
+            TexventWarning: its centre is far from that of the sensor.
         """
         if self.size is not None and self.size != size:
             raise InputError(f"the calibration is of a {self.size} sensor, the events are {size}")
+        middle, centre = 0.5 * np.array(size), np.array(self.intrinsics[2:])
+        if self.places is None and (np.abs(centre - middle) > 0.5 * middle).any():
+            warn(
+                f"the calibration's centre ({centre[0]:g}, {centre[1]:g}) is far from the middle "
+                f"of a {size} sensor; it may be of another sensor, or of another resolution"
+            )
         places = self._search(size) if self.places is None else self.places
-        is_found = np.asarray((np.abs(places) < 2**31).all(axis=-1))
+        is_found = np.asarray(((places > -0.5) & (places < np.array(size) - 0.5)).all(axis=-1))
+        if is_found.mean() < FEWEST_PIXELS:
+            raise InputError(
+                f"the calibration leaves {is_found.mean():.0%} of the pixels on a {size} sensor; "
+                "check its focal lengths, in pixels, and its coefficients"
+            )
         return np.where(is_found[..., None], np.rint(np.nan_to_num(places)), -1.0).astype(np.int64)
 
     def _search(self, size: SensorSize) -> Places:
@@ -109,65 +131,102 @@ def read_calibration(path: Path) -> Calibration:
         InputError: no such file, or it holds several cameras and none is named.
         FileFormatError: it is no calibration.
     """
-    camera = re.fullmatch(r"(.+):(cam\d+)", str(path))
-    path = Path(camera[1]) if camera is not None else path
+    whole, _, camera = str(path).rpartition(":")
+    if path.is_file() or not Path(whole).is_file():
+        whole, camera = str(path), ""
+    path = Path(whole)
     if not path.is_file():
         raise InputError(f"no such file: {path}; {TEXT_HELP}, Kalibr's yaml or DSEC's rectify_map")
     if h5py.is_hdf5(path):
         return _read_map(path)
     text = path.read_bytes()[:MAX_TEXT]
-    if path.suffix.lower() in (".yaml", ".yml"):
-        return _read_kalibr(path, text, None if camera is None else camera[2])
     try:
-        numbers = [float(word) for word in text.split()]
-    except ValueError as error:
+        is_kalibr = path.suffix.lower() in (".yaml", ".yml")
+        found = _read_kalibr(path, text, camera) if is_kalibr else _read_numbers(path, text)
+    except InputError:
+        raise
+    except (yaml.YAMLError, ValueError, TypeError, OverflowError, RecursionError) as error:
         raise FileFormatError(f"{path} is not a calibration: {one_line(error)}") from error
-    if len(numbers) != 9 or not np.isfinite(numbers).all() or min(numbers[:2]) <= 0:
+    numbers = (*found.intrinsics, *found.coefficients)
+    if not np.isfinite(numbers).all() or min(found.intrinsics[:2]) <= 0:
+        raise FileFormatError(
+            f"{path} is not a calibration: its numbers must be finite and its focal lengths above "
+            f"0; it holds {shown(numbers)}"
+        )
+    return found
+
+
+def _read_numbers(path: Path, text: bytes) -> Calibration:
+    numbers = [float(word) for word in text.split()]
+    if len(numbers) != 9:
         raise FileFormatError(f"{path} holds {len(numbers)} numbers; {TEXT_HELP}")
     fx, fy, cx, cy, *lens = numbers
     return Calibration((fx, fy, cx, cy), tuple(lens))
 
 
 def _read_map(path: Path) -> Calibration:
-    with h5py.File(path, "r") as file:
+    with open_hdf5(path) as file:
         stored = file.get("rectify_map")
         is_map = isinstance(stored, h5py.Dataset) and stored.ndim == 3 and stored.shape[2] == 2
         if not is_map or stored.dtype.kind != "f":
             raise FileFormatError(f"{path} is not a calibration: it has no rectify_map [H, W, 2]")
+        size = checked_size(stored.shape[1], stored.shape[0])
+        check_claims(stored, path)
+        check_claim(stored.nbytes, path, copies=4)
         places = np.asarray(stored[()], np.float64)
-    return Calibration(size=SensorSize(places.shape[1], places.shape[0]), places=places)
+    steps = [np.diff(places, axis=axis).reshape(-1, 2) for axis in (1, 0)]
+    if all(np.isfinite(one).all(axis=1).any() for one in steps):
+        _check_steps(np.array([np.nanmedian(one, axis=0) for one in steps]), path)
+    return Calibration(size=size, places=places)
 
 
-def _read_kalibr(path: Path, text: bytes, camera: str | None) -> Calibration:
-    try:
-        cameras: Any = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:
-        raise FileFormatError(f"{path} is not a calibration: {one_line(error)}") from error
-    found = cameras.items() if isinstance(cameras, dict) else ()
-    names = [name for name, facts in found if isinstance(facts, dict) and "intrinsics" in facts]
-    if not names or (camera is not None and camera not in names):
-        what = f"{camera} with intrinsics" if camera else "camera with intrinsics"
-        raise FileFormatError(f"{path} is not a calibration of Kalibr: it has no {what}")
-    if camera is None and len(names) > 1:
-        raise InputError(f"{path} holds {', '.join(names)}; choose one: {path}:{names[0]}")
-    facts = cameras[camera or names[0]]
-    model = facts.get("distortion_model", "none")
-    if facts.get("camera_model", "pinhole") != "pinhole" or model not in MODELS:
+def _check_steps(steps: NDArray[np.float64], path: Path) -> None:
+    """Refuse a map whose usual steps, [along, of], are not about a pixel, or have x and y exchanged.
+
+    A map may turn the image; only an exchange mirrors it about its diagonal.
+    """
+    scale = float(np.linalg.det(steps))
+    is_exchanged = scale < 0 and abs(steps[0, 0]) < abs(steps[0, 1])
+    if is_exchanged or not SMALLEST_SCALE < abs(scale) < 1 / SMALLEST_SCALE:
         raise FileFormatError(
-            f"{path}: {facts.get('camera_model')} with distortion {shown(model)} is not read; "
+            f"{path}: from one pixel to the next, its rectify_map moves by "
+            f"({steps[0, 0]:.3g}, {steps[0, 1]:.3g}) along a row and ({steps[1, 0]:.3g}, "
+            f"{steps[1, 1]:.3g}) along a column; it must hold x, then y, in pixels"
+        )
+
+
+def _read_kalibr(path: Path, text: bytes, camera: str) -> Calibration:
+    if any(getattr(event, "value", None) == "<<" for event in yaml.parse(text)):
+        raise FileFormatError(f"{path}: entries merged by << are not read; write them out")
+    cameras: Any = yaml.safe_load(text)
+    found = cameras.items() if isinstance(cameras, dict) else ()
+    known = {str(name): one for name, one in found if isinstance(one, dict) and "intrinsics" in one}
+    if not known or (camera and camera not in known):
+        what = f"{shown(camera)} with intrinsics" if camera else "camera with intrinsics"
+        raise FileFormatError(f"{path} is not a calibration of Kalibr: it has no {what}")
+    first = next(iter(known))
+    if not camera and len(known) > 1:
+        raise InputError(f"{path} holds {few(list(known))}; choose one: {path}:{first}")
+    facts = known[camera or first]
+    shape, model = facts.get("camera_model", "pinhole"), facts.get("distortion_model", "none")
+    if shape != "pinhole" or model not in MODELS:
+        raise FileFormatError(
+            f"{path}: {shown(shape)} with distortion {shown(model)} is not read; "
             f"texvent reads pinhole cameras with {', '.join(MODELS)}"
         )
-    try:
-        fx, fy, cx, cy = (float(value) for value in facts["intrinsics"])
-        lens = tuple(float(value) for value in facts.get("distortion_coeffs") or ())
-        sides = facts.get("resolution")
-        size = None if sides is None else SensorSize(*(int(side) for side in sides))
-    except (TypeError, ValueError) as error:
-        raise FileFormatError(f"{path} is not a calibration: {one_line(error)}") from error
-    known = () if model == "none" else lens
-    if model != "none" and len(lens) != 4:
-        raise FileFormatError(f"{path}: {model} has four coefficients, not {len(lens)}")
-    return Calibration((fx, fy, cx, cy), known, model == "equidistant", size)
+    fx, fy, cx, cy = (float(value) for value in facts["intrinsics"])
+    lens = tuple(float(value) for value in facts.get("distortion_coeffs") or ())
+    if (model == "none" and any(lens)) or (model != "none" and len(lens) != 4):
+        count = "no" if model == "none" else "four"
+        raise FileFormatError(f"{path}: {model} has {count} coefficients, not {shown(lens)}")
+    size = None
+    if (sides := facts.get("resolution")) is not None:
+        width, height = (float(side) for side in sides)
+        if not (width.is_integer() and height.is_integer()):
+            raise FileFormatError(f"{path}: the resolution is {shown(sides)}; give whole numbers")
+        size = checked_size(int(width), int(height))
+    known_lens = () if model == "none" else lens
+    return Calibration((fx, fy, cx, cy), known_lens, model == "equidistant", size)
 
 
 def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
@@ -175,16 +234,32 @@ def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
 
     Places are rounded to whole pixels, so some pixels get the events of two and some none;
     events that land outside the sensor are left out.
+
+    Raises:
+        InputError: see `Calibration.undistorted`.
+
+    Warns:
+        TexventWarning: more than `USUAL_LOSS` of the events are left out.
     """
     places = calibration.undistorted(events.size)
 
-    def move(packet: EventStream) -> EventStream:
-        moved = places[packet.y, packet.x]
-        return move_events(packet, moved[:, 0], moved[:, 1], packet.size)
+    def changed() -> Iterator[EventStream]:
+        given = kept = 0
+        for packet in events:
+            moved = places[packet.y, packet.x]
+            following = move_events(packet, moved[:, 0], moved[:, 1], packet.size)
+            given, kept = given + len(packet), kept + len(following)
+            yield following
+        if kept < (1 - USUAL_LOSS) * given:
+            warn(
+                f"{1 - kept / given:.0%} of the events land outside the sensor without their lens "
+                "and are left out; if that is too much, check the calibration"
+            )
 
     facts: dict[str, Any] = {"intrinsics": list(calibration.intrinsics)}
     facts["coefficients"] = list(calibration.coefficients)
     if calibration.is_equidistant:
         facts["model"] = "equidistant"
     facts = facts if calibration.places is None else {"map": "rectify_map"}
-    return note_edit(map_packets(events, move), events, undistort=facts)
+    moved = EventPackets(LazyPackets(changed), events.size, events.metadata)
+    return note_edit(moved, events, undistort=facts)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.input_checks import existing_file, existing_folder
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
@@ -232,9 +233,9 @@ class Truth:
     def _image(self, name: str) -> NDArray[np.uint16]:
         import cv2
 
-        pixels = cv2.imread(str(self.folder / name), cv2.IMREAD_UNCHANGED)
-        if pixels is None or pixels.dtype != np.uint16:
-            raise FileFormatError(f"{self.folder / name} is missing, or no 16-bit PNG")
+        pixels = decode_image(existing_file(self.folder / name), cv2.IMREAD_UNCHANGED)
+        if pixels.dtype != np.uint16:
+            raise FileFormatError(f"{self.folder / name} is no 16-bit PNG")
         return np.asarray(pixels if pixels.ndim == 2 else pixels[..., ::-1])
 
     def _table(self, name: str, columns: int) -> NDArray[np.float64]:
