@@ -205,7 +205,9 @@ def test_what_is_no_calibration_is_one_short_line(tmp_path: Path, form: str, tex
 def test_cameras_of_any_name_are_chosen(tmp_path: Path, names: tuple[str, str]) -> None:
     path = tmp_path / "chain.yaml"
     path.write_text("".join(KALIBR.replace("cam0", name) for name in names))
-    with pytest.raises(InputError, match=f"holds {names[0]}, {names[1]}; choose one: .*:{names[0]}"):
+    with pytest.raises(
+        InputError, match=f"holds {names[0]}, {names[1]}; choose one: .*:{names[0]}"
+    ):
         read_calibration(path)
     assert read_calibration(Path(f"{path}:{names[1]}")).is_equidistant
 

@@ -93,6 +93,8 @@ def load_mesh(path: Path, changed_ns: int) -> tuple[Mesh, Float64Array]:
         meshes = [loaded.geometry[name] for name in drawn] if is_scene else [loaded]
         triangles = sum(len(getattr(mesh, "faces", ())) for mesh in meshes)
         check_claim(triangles * TRIANGLE_BYTES, path)
+        for mesh in loaded.geometry.values() if is_scene else meshes:
+            _check_image(_image_of(getattr(getattr(mesh, "visual", None), "material", None)), path)
         parts = loaded.dump() if is_scene else [loaded]
         is_linear = path.suffix.lower() == ".glb"  # colours as numbers; OBJ and PLY have sRGB
         surfaces = [
@@ -171,7 +173,7 @@ def _surface(part: Any, is_linear: bool, path: Path) -> _Surface | None:
     if not (np.abs(vertices[corners]) < FARTHEST).all():
         raise FileFormatError(f"{path}: a coordinate is not a number below {FARTHEST:g}")
     corners = corners.astype(np.int32)
-    colour, alpha, image = _material(part.visual, is_linear, path)
+    colour, alpha, image = _material(part.visual, is_linear)
     if alpha < _CLEAR:
         return None
     colours = np.broadcast_to(np.array(colour, dtype=np.float32), (*corners.shape, 3))
@@ -190,29 +192,40 @@ def _surface(part: Any, is_linear: bool, path: Path) -> _Surface | None:
     return _Surface(vertices, corners, normals, colours, uv, image)
 
 
-def _material(visual: Any, is_linear: bool, path: Path) -> tuple[Colour, float, SurfaceImage | None]:
+def _material(visual: Any, is_linear: bool) -> tuple[Colour, float, SurfaceImage | None]:
     """Linear colour, opacity and image of a part; an image's colour is multiplied by the first."""
     material = getattr(visual, "material", None)
     if material is None:
         return _GREY, 1.0, None
-    image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
+    image = _image_of(material)
     coded = np.asarray(material.main_color, dtype=np.uint8)
     red, green, blue = (float(value) for value in _linear(coded[:3], is_linear))
     is_blended = getattr(material, "alphaMode", None) == "BLEND" or not is_linear
     alpha = float(coded[3]) / 255.0 if len(coded) > 3 and is_blended else 1.0
     if image is None:
         return (red, green, blue), alpha, None
-    surface = surface_image(light_of(_pixels(image, path)), repeats=True)
+    surface = surface_image(light_of(_pixels(image)), repeats=True)
     return (red, green, blue) if is_linear else (1.0, 1.0, 1.0), alpha, surface
 
 
-def _pixels(image: Any, path: Path) -> np.ndarray:
-    """[h, w, 3] 8-bit colours of an image of Pillow's."""
-    if image.format not in (*IMAGE_FORMATS, None):  # None: made by trimesh
+def _image_of(material: Any) -> Any:
+    """The image of a material, Pillow's, or None."""
+    return getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
+
+
+def _check_image(image: Any, path: Path) -> None:
+    """Refuse an image that is not decoded yet, if it would fill the memory or run a program."""
+    if image is None or image.format is None:  # made by trimesh
+        return
+    if image.format not in IMAGE_FORMATS:
         raise FileFormatError(
             f"{path}: an image of it is {image.format}; read are {', '.join(IMAGE_FORMATS)}"
         )
     check_claim(image.width * image.height * 4, path, copies=3)
+
+
+def _pixels(image: Any) -> np.ndarray:
+    """[h, w, 3] 8-bit colours of an image of Pillow's."""
     if image.mode.startswith("I"):  # Pillow would cut 16 bits off at 255
         grey = np.clip(np.asarray(image) // 257, 0, 255).astype(np.uint8)
         return np.repeat(grey[..., None], 3, axis=2)
