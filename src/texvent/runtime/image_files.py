@@ -22,6 +22,7 @@ _TEXT_SIZE = re.compile(
     re.DOTALL,
 )
 """Of Radiance HDR, and of PNM."""
+_JPEG_2000 = b"\xff\x4f\xff\x51"
 MOST_HEAD_BYTES = 4096
 _TIFF_TAGS = {256: "width", 257: "height", 258: "bits", 277: "channels"}
 
@@ -73,15 +74,8 @@ def _stated_bytes(data: bytes) -> int:
         width, height = struct.unpack_from("<HH", data, 6)
     elif data[8:12] == b"WEBP":
         width, height = _webp_size(data)
-    elif data[4:8] in (b"jP  ", b"ftyp"):
-        place = data.find(b"ihdr") + 4 if data[4:8] == b"jP  " else data.find(b"ispe") + 8
-        height, width = struct.unpack_from(">II", data, place)
-        if data[4:8] == b"ftyp":
-            width, height = height, width
-        bits = 16
-    elif data[:4] == b"\xff\x4f\xff\x51":
-        width, height = struct.unpack_from(">II", data, 8)
-        bits = 16
+    elif data[4:8] in (b"jP  ", b"ftyp") or data[:4] == _JPEG_2000:
+        width, height, bits = *_boxed_size(data), 16
     elif found := _TEXT_SIZE.match(data[:MOST_HEAD_BYTES]):
         width, height = int(found[1] or found[3]), int(found[2] or found[4])
         bits = 32 if found[1] else 16
@@ -115,6 +109,16 @@ def _tiff_size(data: bytes) -> tuple[int, int, int, int]:
             form = {1: "B", 3: "H", 4: "I", 16: "Q"}[kind]
             facts[_TIFF_TAGS[tag]] = struct.unpack_from(order + form, data, value)[0]
     return facts["width"], facts["height"], facts["channels"], facts["bits"]
+
+
+def _boxed_size(data: bytes) -> tuple[int, int]:
+    """Width and height of JPEG 2000, in a box or not, and of AVIF, whose boxes are alike."""
+    if data[4:8] == b"jP  ":
+        height, width = struct.unpack_from(">II", data, data.index(b"ihdr") + 4)
+    else:
+        place = 8 if data[:4] == _JPEG_2000 else data.index(b"ispe") + 8
+        width, height = struct.unpack_from(">II", data, place)
+    return width, height
 
 
 def _webp_size(data: bytes) -> tuple[int, int]:

@@ -25,6 +25,7 @@ from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.runtime.memory import check_claim
+from texvent.scenes.lens import warn_of_far_centre
 from texvent.sensor import SensorSize, checked_size
 from texvent.transform.packets import move_events, note_edit
 
@@ -69,12 +70,8 @@ class Calibration:
         """
         if self.size is not None and self.size != size:
             raise InputError(f"the calibration is of a {self.size} sensor, the events are {size}")
-        middle, centre = 0.5 * np.array(size), np.array(self.intrinsics[2:])
-        if self.places is None and (np.abs(centre - middle) > 0.5 * middle).any():
-            warn(
-                f"the calibration's centre ({centre[0]:g}, {centre[1]:g}) is far from the middle "
-                f"of a {size} sensor; it may be of another sensor, or of another resolution"
-            )
+        if self.places is None:
+            warn_of_far_centre(self.intrinsics[2:], size, "the calibration")
         places = self._search(size) if self.places is None else self.places
         is_found = np.asarray(((places > -0.5) & (places < np.array(size) - 0.5)).all(axis=-1))
         if is_found.mean() < FEWEST_PIXELS:
@@ -138,7 +135,7 @@ def read_calibration(path: Path) -> Calibration:
     if not path.is_file():
         raise InputError(f"no such file: {path}; {TEXT_HELP}, Kalibr's yaml or DSEC's rectify_map")
     if h5py.is_hdf5(path):
-        return _read_map(path)
+        return read_rectify_map(path)
     text = path.read_bytes()[:MAX_TEXT]
     try:
         is_kalibr = path.suffix.lower() in (".yaml", ".yml")
@@ -164,7 +161,12 @@ def _read_numbers(path: Path, text: bytes) -> Calibration:
     return Calibration((fx, fy, cx, cy), tuple(lens))
 
 
-def _read_map(path: Path) -> Calibration:
+def read_rectify_map(path: Path) -> Calibration:
+    """DSEC's map, which places may be NaN in.
+
+    Raises:
+        FileFormatError: the file is damaged, or the map is no map of pixels.
+    """
     with open_hdf5(path) as file:
         stored = file.get("rectify_map")
         is_map = isinstance(stored, h5py.Dataset) and stored.ndim == 3 and stored.shape[2] == 2
@@ -181,7 +183,7 @@ def _read_map(path: Path) -> Calibration:
 
 
 def _check_steps(steps: NDArray[np.float64], path: Path) -> None:
-    """Refuse a map whose usual steps, [along, of], are not about a pixel, or have x and y exchanged.
+    """Refuse a map of steps, [along, of], far from a pixel, or with x and y exchanged.
 
     A map may turn the image; only an exchange mirrors it about its diagonal.
     """

@@ -13,9 +13,9 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets.index import Asset, read_folder
 from texvent.scenes.assets.model_file import MOST_NODES
 from texvent.scenes.assets.nouns import check_files, load_model, merge_nouns
+from texvent.scenes.mesh import LARGEST_SIDE, light_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
-from texvent.scenes.mesh import LARGEST_SIDE, light_of
 from texvent.scenes.spec.files import load_scene
 from texvent.sensor import SensorSize
 

@@ -74,7 +74,7 @@ def load_mesh(path: Path, changed_ns: int) -> tuple[Mesh, Float64Array]:
 
     Raises:
         MissingDependencyError: trimesh is not installed.
-        FileFormatError: the file is damaged, has no triangle with an area, or would fill the memory.
+        FileFormatError: it is damaged, has no triangle with an area, or would fill the memory.
 
     Warns:
         TexventWarning: a file that it names, such as an image, is not in its folder or below.
