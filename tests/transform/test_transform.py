@@ -295,7 +295,7 @@ def test_a_map_may_turn_the_image(tmp_path: Path, turn: int) -> None:
 @pytest.mark.parametrize(
     ("lens", "message"),
     [
-        (Calibration((9.0, 9.0, 300.0, 3.0)), "far from the middle of a 8x6 sensor"),
+        (Calibration((9.0, 9.0, 300.0, 3.0)), "far from the middle of 8x6"),
         (Calibration((9.0, 9.0, 4.0, 3.0), (-0.9, 0.0)), "% of the events land outside"),
     ],
 )
