@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.calibration import read_calibration
 from texvent.sensor import SensorSize
 from texvent.transform.edits import Region, crop, keep_time, merge, resize, start_at_zero
-from texvent.transform.undistort import Calibration, read_calibration, undistort
+from texvent.transform.undistort import Calibration, undistort
 
 from .recordings import ROWS, SIZE, Rows, packets, rows_of
 from .recordings import stream as in_time_order

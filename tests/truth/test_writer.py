@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.errors import ConfigError, InputError, OutputError
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.scenes.models.nouns import NOUNS

@@ -93,7 +93,7 @@ class DsecFrames(FrameSource):
 
 
 def _read_places(path: Path) -> NDArray[np.float64]:
-    from texvent.transform.undistort import read_rectify_map  # brings h5py
+    from texvent.io.calibration import read_rectify_map  # brings h5py
 
     rectified = read_rectify_map(path).places
     if rectified is None or not np.isfinite(rectified).all():

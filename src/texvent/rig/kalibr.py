@@ -38,8 +38,8 @@ import yaml
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
-from texvent.scenes.lens import Distortion, Lens, lens_reach, warn_of_far_centre
-from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor
+from texvent.scenes.lens import Distortion, Lens, lens_reach
+from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor, warn_of_far_centre
 from texvent.settings.config_files import read_document
 
 HALF_PIXEL = 0.5

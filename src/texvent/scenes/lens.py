@@ -22,7 +22,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, warn
+from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
@@ -71,19 +71,6 @@ class LensReach(NamedTuple):
     """Largest step between neighbouring pixels in the image without distortion, pixels."""
     dark: float
     """Share of the image that no ray reaches: outside an equidistant lens's circle of 85°."""
-
-
-def warn_of_far_centre(centre: tuple[float, float], size: SensorSize, where: str) -> None:
-    """Warn of an optical axis that meets the image far from its middle.
-
-    Warns:
-        TexventWarning: it is outside the middle half of a side, as where sizes do not fit.
-    """
-    if any(abs(one - 0.5 * side) > 0.25 * side for one, side in zip(centre, size, strict=True)):
-        warn(
-            f"{where}: the centre ({centre[0]:g}, {centre[1]:g}) is far from the middle of {size}; "
-            "the intrinsics may be of another sensor, or of another resolution"
-        )
 
 
 def distort(lens: Lens, points: Float64Array) -> Float64Array:
