@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, shown, warn
 
 MAX_SIDE = 65_535
 """Largest width or height: coordinates are uint16."""
@@ -131,6 +131,19 @@ def as_size(size: SizeLike) -> SensorSize:
             "name, such as 'davis346'"
         ) from None
     return checked_size(width, height)
+
+
+def warn_of_far_centre(centre: tuple[float, float], size: SensorSize, where: str) -> None:
+    """Warn of an optical axis that meets the image far from its middle.
+
+    Warns:
+        TexventWarning: it is outside the middle half of a side, as where sizes do not fit.
+    """
+    if any(abs(one - 0.5 * side) > 0.25 * side for one, side in zip(centre, size, strict=True)):
+        warn(
+            f"{where}: the centre ({centre[0]:g}, {centre[1]:g}) is far from the middle of {size}; "
+            "the intrinsics may be of another sensor, or of another resolution"
+        )
 
 
 def checked_size(width: int, height: int) -> SensorSize:

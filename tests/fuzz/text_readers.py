@@ -16,6 +16,7 @@ from texvent.batch.list_files import read_list
 from texvent.capture.frame_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
+from texvent.io.calibration import read_calibration
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
 from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.options.parts import make_part
@@ -24,7 +25,6 @@ from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.transform.undistort import read_calibration
 from texvent.truth.labels import read_labels
 
 from ..io.test_pixel_mask import write_mask

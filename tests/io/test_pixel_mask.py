@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.sensor import SensorSize
 
@@ -66,3 +66,23 @@ def test_what_is_no_mask_is_refused(tmp_path: Path) -> None:
         read_pixel_mask(tmp_path / "hot.bmp", SIZE)
     with pytest.raises(InputError, match="no such file"):
         read_pixel_mask(tmp_path / "none.npy", SIZE)
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.diag(np.arange(5, dtype=np.uint8))[:3], "holds 3 levels"),
+        (~np.zeros((3, 5), bool), "leaves out 100% of the pixels"),
+    ],
+)
+@pytest.mark.parametrize("ending", [".npy", ".png"])
+def test_what_is_perhaps_no_mask_is_warned_of(
+    tmp_path: Path, array: np.ndarray, message: str, ending: str
+) -> None:
+    path = tmp_path / f"mask{ending}"
+    if ending == ".png":
+        cv2.imwrite(str(path), array.astype(np.uint8))
+    else:
+        np.save(path, array)
+    with pytest.warns(TexventWarning, match=message):
+        read_pixel_mask(path, SIZE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -193,3 +194,32 @@ def test_what_is_wrong_is_named(tmp_path: Path, old: str, new: str, words: str) 
     assert old in KALIBR
     with pytest.raises(ConfigError, match=words):
         read_rig(write(tmp_path, KALIBR.replace(old, new, 1)), SIZE)
+
+
+LENS = {"intrinsics": [110, 110, 120, 90], "resolution": [240, 180]}
+ASIDE = [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({}, None),
+        ({"resolution": [640, 480]}, "is far from the middle of 640x480"),
+        ({"intrinsics": [110, 110, 200, 90]}, "is far from the middle of 240x180"),
+        ({"T_cn_cnm1": [[1, 0, 0, -100], *ASIDE[1:]]}, "is 100 m from the first camera"),
+    ],
+)
+@pytest.mark.parametrize("names", [("cam0", "cam1"), (1, 2)])
+def test_cameras_have_any_names_and_numbers_that_hardly_fit_are_warned_of(
+    tmp_path, names, changes, message
+):
+    path = tmp_path / "rig.yaml"
+    first, second = names
+    document = {first: LENS, second: {**LENS, "T_cn_cnm1": ASIDE, **changes}}
+    path.write_text(yaml.safe_dump(document))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        rig, _ = read_rig(path, SensorSize(9, 9))
+    assert [camera.name for camera in rig.cameras] == [str(first), str(second)]
+    told = [str(one.message) for one in caught]
+    assert [message in one for one in told] == ([True] if message else [])

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import cv2
 import h5py
@@ -12,12 +13,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.calibration import read_calibration
 from texvent.sensor import SensorSize
 from texvent.transform.edits import Region, crop, keep_time, merge, resize, start_at_zero
-from texvent.transform.undistort import Calibration, read_calibration, undistort
+from texvent.transform.undistort import Calibration, undistort
 
 from .recordings import ROWS, SIZE, Rows, packets, rows_of
 from .recordings import stream as in_time_order
@@ -135,10 +137,6 @@ def test_a_calibration_file_is_nine_numbers(tmp_path: Path) -> None:
     path.write_text("199.1 198.8 132.2 110.7 -0.368 0.151 -0.0003 -0.0018 0.0\n")
     read = read_calibration(path)
     assert (read.intrinsics, read.coefficients) == (ECD.intrinsics, ECD.coefficients)
-    for text in ("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0"):
-        path.write_text(text)
-        with pytest.raises(FileFormatError, match="calibration"):
-            read_calibration(path)
     with pytest.raises(InputError, match="no such file"):
         read_calibration(tmp_path / "none.txt")
 
@@ -164,16 +162,68 @@ def test_kalibrs_cameras_are_read_by_their_name(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"holds cam0, cam1; choose one: .*chain.yaml:cam0"):
         read_calibration(path)
     assert read_calibration(Path(f"{path}:cam1")).intrinsics[0] == 99.0
-    for text in (
-        "a: 1",
-        "[1]",
+
+
+ALIASES = "a0: &a0 [l,l]\n" + "".join(f"a{i}: &a{i} [*a{i - 1},*a{i - 1}]\n" for i in range(1, 40))
+MERGES = "x0: &x0 {a: 1}\n" + "".join(
+    f"x{i}: &x{i} {{<<: [*x{i - 1},*x{i - 1}]}}\n" for i in range(1, 40)
+)
+WRONG = {
+    "txt": [
+        *("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0", "1 1 1 1 inf 0 0 0 0"),
+        "-9 9 9 9 0 0 0 0 0",
+    ],
+    "yaml": [
+        *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}", "cam0: {intrinsics: " + "[" * 5000),
+        "1: {intrinsics: [1, 1, 1, .nan]}",
+        "cam0: {intrinsics: [0, 1, 1, 1]}",
+        MERGES + "cam0: {intrinsics: [1, 1, 1, 1]}",
+        ALIASES + KALIBR.replace("pinhole", "*a39"),
+        ALIASES + KALIBR.replace("equidistant", "*a39"),
+        *(KALIBR.replace("pinhole", one) for one in ("omni", "ds", "eucm")),
         KALIBR.replace("equidistant", "fov"),
-        "cam0: {intrinsics: [1]}",
-        "{",
+        KALIBR.replace("equidistant", "none"),
+        KALIBR.replace("distortion_model: equidistant", ""),
+        KALIBR.replace("0.0005", "0.0005, 0.1"),
+        KALIBR.replace("0.0005", ".inf"),
+        *(KALIBR.replace("[240, 180]", one) for one in ("[.inf, 9]", "[9.5, 9]", "[9]", "9")),
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("form", "text"), [(form, text) for form, texts in WRONG.items() for text in texts]
+)
+def test_what_is_no_calibration_is_one_short_line(tmp_path: Path, form: str, text: str) -> None:
+    path = tmp_path / f"calib.{form}"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"calib") as caught:
+        read_calibration(path)
+    assert len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize("names", [("1", "2"), ("left", "right")])
+def test_cameras_of_any_name_are_chosen(tmp_path: Path, names: tuple[str, str]) -> None:
+    path = tmp_path / "chain.yaml"
+    path.write_text("".join(KALIBR.replace("cam0", name) for name in names))
+    with pytest.raises(
+        InputError, match=f"holds {names[0]}, {names[1]}; choose one: .*:{names[0]}"
     ):
-        path.write_text(text)
-        with pytest.raises(FileFormatError, match=r"calibration|is not read"):
-            read_calibration(path)
+        read_calibration(path)
+    assert read_calibration(Path(f"{path}:{names[1]}")).is_equidistant
+
+
+@pytest.mark.parametrize("tangential", [(0.01, -0.004), (-0.004, 0.01)])
+def test_both_tangential_coefficients_are_opencvs(tangential: tuple[float, float]) -> None:
+    lens = Calibration((300.0, 310.0, 118.0, 92.0), (-0.1, 0.02, *tangential, 0.0))
+    fx, fy, cx, cy = lens.intrinsics
+    camera = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
+    seen = np.stack(np.mgrid[:240, :180], axis=-1).astype(np.float64).reshape(-1, 1, 2)
+    known = cv2.undistortPoints(seen, camera, np.array(lens.coefficients), P=camera)
+    places = lens.undistorted(SensorSize(240, 180)).transpose(1, 0, 2).reshape(-1, 2)
+    inside = (places >= 0).all(axis=1)
+    assert inside.mean() > 0.9
+    assert np.abs(places - known.reshape(-1, 2))[inside].max() < 0.51
 
 
 def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path: Path) -> None:
@@ -185,9 +235,79 @@ def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path: Path) -> None:
     with h5py.File(path, "w") as file:
         file["rectify_map"] = places
     events = stream([(3, 2, 1, 1), (0, 0, 2, 0), (7, 5, 3, 1), (1, 1, 4, 0)])
-    moved = undistort(packets(events), read_calibration(path)).collect()
+    with pytest.warns(TexventWarning, match="50% of the events land outside"):
+        moved = undistort(packets(events), read_calibration(path)).collect()
     assert list(zip(moved.x, moved.y, moved.t, strict=True)) == [(5, 1, 1), (1, 1, 4)]
+
+
+GRID = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1).astype(np.float32)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda file: file.update(other=GRID), "no rectify_map"),
+        (lambda file: file.update(rectify_map=GRID[..., 0]), "no rectify_map"),
+        (lambda file: file.update(rectify_map=GRID.astype("i4")), "no rectify_map"),
+        (lambda file: file.update(rectify_map=GRID[..., ::-1]), "x, then y, in pixels"),
+        (lambda file: file.update(rectify_map=GRID / 200), "x, then y, in pixels"),
+        (lambda file: file.update(rectify_map=GRID * np.nan), "leaves 0% of the pixels on a 8x6"),
+        (lambda file: file.update(rectify_map=GRID + 100), "leaves 0% of the pixels on a 8x6"),
+        (lambda file: file.update(rectify_map=GRID.transpose(1, 0, 2)), "x, then y, in pixels"),
+        (
+            lambda file: file.create_dataset("rectify_map", (20_000, 20_000, 2), "f4", chunks=True),
+            "stores at most 0",
+        ),
+        (
+            lambda file: file.create_dataset(
+                "rectify_map", (6, 8, 2), "f4", external=[("/etc/passwd", 0, 384)]
+            ),
+            "in other files",
+        ),
+    ],
+)
+def test_a_map_that_cannot_be_meant_is_refused(
+    tmp_path: Path, change: Callable[[Any], None], message: str
+) -> None:
+    path = tmp_path / "rectify_map.h5"
     with h5py.File(path, "w") as file:
-        file["other"] = places
-    with pytest.raises(FileFormatError, match="no rectify_map"):
+        change(file)
+    with pytest.raises(InputError, match=message):
+        undistort(packets(stream([(1, 1, 1, 1)])), read_calibration(path))
+
+
+def test_a_damaged_map_is_called_damaged(tmp_path: Path) -> None:
+    path = tmp_path / "rectify_map.h5"
+    with h5py.File(path, "w") as file:
+        file["rectify_map"] = GRID
+    path.write_bytes(path.read_bytes()[:1500])
+    with pytest.raises(FileFormatError, match="is damaged"):
         read_calibration(path)
+
+
+@pytest.mark.parametrize("turn", [1, 2, 3])
+def test_a_map_may_turn_the_image(tmp_path: Path, turn: int) -> None:
+    path = tmp_path / "rectify_map.h5"
+    with h5py.File(path, "w") as file:
+        file["rectify_map"] = np.rot90(GRID[:6, :6], turn)
+    assert read_calibration(path).undistorted(SensorSize(6, 6)).min() == 0
+
+
+@pytest.mark.parametrize(
+    ("lens", "message"),
+    [
+        (Calibration((9.0, 9.0, 300.0, 3.0)), "far from the middle of 8x6"),
+        (Calibration((9.0, 9.0, 4.0, 3.0), (-0.9, 0.0)), "% of the events land outside"),
+    ],
+)
+def test_a_calibration_that_hardly_fits_is_warned_of(lens: Calibration, message: str) -> None:
+    events = stream([(x, 5, x, 1) for x in range(8)])
+    with pytest.warns(TexventWarning, match=message):
+        undistort(packets(events), lens).collect()
+
+
+@pytest.mark.parametrize("value", [1e300, 1e9])
+def test_coefficients_that_leave_no_pixel_are_refused(value: float) -> None:
+    lens = Calibration((90.0, 90.0, 40.0, 30.0), (value,) * 5)
+    with pytest.raises(InputError, match="leaves 0% of the pixels on a 80x60 sensor"):
+        lens.undistorted(SensorSize(80, 60))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.errors import ConfigError, InputError, OutputError
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.scenes.models.nouns import NOUNS
@@ -118,6 +118,14 @@ def test_other_readers_find_the_files(written):
         39.5,
         29.5,
     ]
+
+
+@pytest.mark.parametrize("turn", ["0 0 0 0", "nan 0 0 1", "0 0 90 1", "0.5 0.5 0 0"])
+def test_poses_that_are_none_are_refused(written, tmp_path, turn):
+    folder = shutil.copytree(written[0], tmp_path / "p.truth")
+    (folder / "poses.txt").write_text(f"0 1 2 3 {turn}\n" * 6)
+    with pytest.raises(FileFormatError, match="a quaternion qx qy qz qw of length 1"):
+        texvent.load_truth(folder).poses  # noqa: B018
 
 
 def test_coco_and_prophesee_boxes_agree_with_the_instance_map(written):

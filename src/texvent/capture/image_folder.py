@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.decoding.animation import HEAD_BYTES, is_animation
+from texvent.capture.decoding.animation import HEAD_BYTES, is_animation, read_head
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels, warn_of_few_bits
@@ -25,6 +25,7 @@ from texvent.runtime.file_names import (
     numbering_gap,
     usable_path,
 )
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -178,24 +179,13 @@ def read_image(path: Path, white_level: float | None = None) -> PixelArray:
     """
     if path.suffix.lower() == EXR:
         return exr_frame(path)
-    import cv2  # only image folders need it here
 
-    data = np.fromfile(path, dtype=np.uint8)
-    if is_animation(data[:HEAD_BYTES].tobytes()):
+    if is_animation(read_head(path)):
         raise FileFormatError(
             f"{path} is an animation, not one image; give it as the source by itself"
         )
     flags = TIFF_FLAGS if path.suffix.lower() in TIFF else DEPTH_AND_COLOUR
-    try:
-        image = cv2.imdecode(data, flags) if data.size else None
-    except cv2.error as error:
-        # OpenCV refuses some damage, such as 2^30 pixels, by its assertions.
-        raise FileFormatError(f"image {path} is damaged: OpenCV refuses it") from error
-    if image is None:
-        raise FileFormatError(
-            f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
-        )
-    return _checked(image, path, white_level)
+    return _checked(decode_image(path, flags), path, white_level)
 
 
 def _checked(image: NDArray[Any], path: Path, white_level: float | None) -> PixelArray:

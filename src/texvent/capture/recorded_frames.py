@@ -37,7 +37,7 @@ from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.runtime.yaml_text import load_yaml
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
 
 DSEC_EVENTS = Path("events/left/events.h5")
@@ -45,6 +45,8 @@ RECTIFY_MAP = Path("events/left/rectify_map.h5")
 DSEC_IMAGES = Path("images/left/rectified")
 DSEC_TIMES = Path("images/timestamps.txt")
 CALIBRATION = Path("calibration/cam_to_cam.yaml")
+NOT_RIGID = 1e-3
+"""Most that the determinant of a rotation may be off."""
 
 
 def is_dsec(folder: Path) -> bool:
@@ -64,7 +66,7 @@ class DsecFrames(FrameSource):
 
     def __init__(self, folder: Path) -> None:
         self._images = ImageFolder(folder / DSEC_IMAGES, timestamps=folder / DSEC_TIMES, unit="us")
-        rectified = _read_rectify_map(folder / RECTIFY_MAP)
+        rectified = _read_places(folder / RECTIFY_MAP)
         homography = _read_homography(folder / CALIBRATION)
         height, width = rectified.shape[:2]
         seen = np.concatenate([rectified, np.ones((height, width, 1))], axis=2) @ homography.T
@@ -90,20 +92,11 @@ class DsecFrames(FrameSource):
             yield Frame(np.asarray(pixels), frame.t_us)
 
 
-def _read_rectify_map(path: Path) -> NDArray[np.float64]:
-    from texvent.io.hdf5.storage import check_claims, open_hdf5  # brings h5py
+def _read_places(path: Path) -> NDArray[np.float64]:
+    from texvent.io.calibration import read_rectify_map  # brings h5py
 
-    with open_hdf5(path) as file:
-        stored = file["rectify_map"]
-        if stored.ndim != 3 or stored.shape[2] != 2 or stored.dtype.kind != "f":
-            raise FileFormatError(
-                f"{path}: rectify_map is {shown(stored.dtype)} of shape {shown(stored.shape)}, not "
-                "numbers [H, W, 2]"
-            )
-        check_claims(stored, path)
-        rectified = np.asarray(stored, np.float64)
-    checked_size(rectified.shape[1], rectified.shape[0])
-    if not np.isfinite(rectified).all():
+    rectified = read_rectify_map(path).places
+    if rectified is None or not np.isfinite(rectified).all():
         raise FileFormatError(f"{path}: rectify_map holds values that are NaN or infinite")
     return rectified
 
@@ -120,11 +113,16 @@ def _read_homography(path: Path) -> NDArray[np.float64]:
         between = np.asarray(extrinsics["T_10"], np.float64)[:3, :3]
         turns = [np.asarray(extrinsics[f"R_rect{i}"], np.float64) for i in (0, 1)]
         turn = turns[1] @ between @ turns[0].T
+        homography = frame @ turn @ np.linalg.inv(event)
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"calibration {path} cannot be read ({one_line(error)})") from error
     except (KeyError, TypeError, ValueError, IndexError, RecursionError) as error:
         raise FileFormatError(f"calibration {path} lacks an entry ({one_line(error)})") from error
-    return np.asarray(frame @ turn @ np.linalg.inv(event))
+    if not np.isfinite(homography).all() or abs(np.linalg.det(turn) - 1.0) > NOT_RIGID:
+        raise FileFormatError(
+            f"calibration {path} holds numbers that are not finite, or turns that are none"
+        )
+    return np.asarray(homography)
 
 
 def _camera_matrix(camera: Mapping[str, Any]) -> NDArray[np.float64]:

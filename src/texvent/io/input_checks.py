@@ -20,6 +20,7 @@ from texvent.errors import FileFormatError, InputError, MissingDependencyError, 
 from texvent.events import OPTIONAL_COLUMNS, EventStream
 from texvent.io.reading import PER_SECOND, TimeUnit
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
+from texvent.runtime.memory import check_proportion
 from texvent.sensor import SensorSize, checked_size
 
 _KINDS = {
@@ -95,9 +96,6 @@ ZIP_DAMAGE = (
     zlib.error,
 )
 """zipfile raises any of these on a damaged archive."""
-MAX_UNPACKED_BYTES = 256 * 2**20
-"""Zip archives that unpack to less are never refused."""
-MAX_UNPACKED_RATIO = 100
 
 
 TIMESTAMP_SCALE_MS = 0.001
@@ -162,20 +160,8 @@ def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...])
 
 
 def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
-    """Refuse an archive that claims to unpack to more than 100 times its size.
-
-    Columns and text shrink to a half or a tenth; an archive of zeros shrinks to a thousandth.
-
-    Raises:
-        FileFormatError: see above.
-    """
-    packed = path.stat().st_size
-    unpacked = sum(entry.file_size for entry in archive.infolist())
-    if unpacked > max(MAX_UNPACKED_BYTES, MAX_UNPACKED_RATIO * packed):
-        raise FileFormatError(
-            f"{path} has {packed} bytes and claims to unpack to {unpacked}; it is damaged, or "
-            "made to fill the memory"
-        )
+    """Refuse an archive that claims to unpack out of proportion; see `check_proportion`."""
+    check_proportion(sum(entry.file_size for entry in archive.infolist()), path)
 
 
 def stated_unit(path: Path, stored: Any) -> TimeUnit | None:

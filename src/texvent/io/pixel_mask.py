@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown, warn
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.input_checks import existing_file
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import SensorSize
 
 EXTENSIONS = (".npy", ".png", ".txt")
+USUAL_SHARE = 0.9
+"""Of the pixels left out; above, the mask is perhaps turned into its opposite."""
 MAX_TEXT_BYTES = 1 << 26
 
 
@@ -27,6 +30,9 @@ def read_pixel_mask(path: Path, size: SensorSize) -> NDArray[np.bool_]:
         InputError: no such file, or it is for another sensor.
         ConfigError: another extension.
         FileFormatError: it holds something else.
+
+    Warns:
+        TexventWarning: it holds more than two levels, or leaves out nearly all.
     """
     extension = path.suffix.lower()
     if extension not in EXTENSIONS:
@@ -42,7 +48,13 @@ def read_pixel_mask(path: Path, size: SensorSize) -> NDArray[np.bool_]:
             f"{path} is a mask of shape {array.shape}; for a sensor of {size} it must be "
             f"{size.shape}: rows, columns"
         )
-    return np.asarray(array != 0)
+    mask = np.asarray(array != 0)
+    levels = np.unique(array)
+    if len(levels) > 2:
+        warn(f"{path} holds {len(levels)} levels; a mask has two, and all but 0 are left out")
+    if mask.mean() > USUAL_SHARE:
+        warn(f"{path} leaves out {mask.mean():.0%} of the pixels: those that are not 0, or white")
+    return mask
 
 
 def _read_array(path: Path) -> NDArray[Any]:
@@ -57,14 +69,7 @@ def _read_array(path: Path) -> NDArray[Any]:
 def _read_image(path: Path) -> NDArray[Any]:
     import cv2  # only images need it
 
-    data = np.fromfile(path, dtype=np.uint8)
-    try:
-        image = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if data.size else None
-    except cv2.error as error:
-        raise FileFormatError(f"{path} is damaged: {one_line(error)}") from error
-    if image is None:
-        raise FileFormatError(f"{path} cannot be decoded as an image; it may be cut off or damaged")
-    return np.asarray(image)
+    return decode_image(path, cv2.IMREAD_GRAYSCALE)
 
 
 def _read_text(path: Path, size: SensorSize) -> NDArray[np.bool_]:

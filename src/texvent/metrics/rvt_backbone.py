@@ -59,7 +59,7 @@ def read_rvt(path: Path) -> RvtBackbone:
         raise FileFormatError(f"{path} holds no state_dict; it is not RVT's: {WHERE_FROM}")
     tensors = {
         name.removeprefix(PREFIX): tensor
-        for name, tensor in named_tensors(state, extra=EXTRA).items()
+        for name, tensor in named_tensors(state, path, extra=EXTRA).items()
         if name.startswith(PREFIX)
     }
     width = tensors[FIRST_TENSOR].shape[0] if FIRST_TENSOR in tensors else 0

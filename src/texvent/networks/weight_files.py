@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError
+from texvent.runtime.memory import check_claim, check_proportion
 
 Tensor: TypeAlias = Any
 """torch.Tensor; torch is imported only when weights are read."""
@@ -24,6 +25,7 @@ BATCH_COUNTER = "num_batches_tracked"
 """A counter that only training reads; some files have it and some have not."""
 SAFETENSORS = ".safetensors"
 STATE = "state_dict"
+FLOAT_BYTES = 4
 NOTES, TRAINING = "texvent", "training"
 """Where `texvent train` notes how weights were made, and the training file in it."""
 DAMAGE = (
@@ -69,10 +71,15 @@ def read_mapping(
         if path.suffix.lower() == SAFETENSORS:
             content: Any = _read_safetensors(path, extra)
         else:
+            if zipfile.is_zipfile(path):
+                with zipfile.ZipFile(path) as archive:
+                    check_proportion(sum(one.file_size for one in archive.infolist()), path)
             # Training stores the date; a date runs no code.
             known = [datetime.datetime, *map(_make_stand_in, stand_ins)]
             with torch.serialization.safe_globals(known):
                 content = torch.load(path, map_location="cpu", weights_only=True)
+    except FileFormatError:
+        raise
     except DAMAGE as error:
         raise _damaged(path, error, where_from) from error
     if not isinstance(content, Mapping) or not all(isinstance(name, str) for name in content):
@@ -96,14 +103,19 @@ def _digest(path: Path, size: int, changed_ns: int) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def named_tensors(mapping: Mapping[str, Any], *, extra: str) -> dict[str, Tensor]:
-    """The tensors of a mapping under their own names, as float32; other entries are left out."""
+def named_tensors(mapping: Mapping[str, Any], path: Path, *, extra: str) -> dict[str, Tensor]:
+    """The tensors of a mapping under their own names, as float32; other entries are left out.
+
+    Raises:
+        FileFormatError: they are sparse, complex, or far more numbers than are in the file.
+    """
     torch = require("torch", extra=extra)
-    return {
-        name.removeprefix(PARALLEL_PREFIX): tensor.float()
-        for name, tensor in mapping.items()
-        if isinstance(tensor, torch.Tensor)
-    }
+    tensors = {name: one for name, one in mapping.items() if isinstance(one, torch.Tensor)}
+    if any(one.is_complex() or one.layout != torch.strided for one in tensors.values()):
+        raise FileFormatError(f"{path}: network weights must be dense tensors of real numbers")
+    # A view of one stored number may claim any shape, and float() would write it out.
+    check_claim(FLOAT_BYTES * sum(one.numel() for one in tensors.values()), path)
+    return {name.removeprefix(PARALLEL_PREFIX): one.float() for name, one in tensors.items()}
 
 
 def state_tensors(
@@ -125,7 +137,7 @@ def state_tensors(
         raise FileFormatError(
             f"{path}: its {STATE} is {type(state).__name__}, not named tensors; {where_from}"
         )
-    named = named_tensors(state, extra=extra)
+    named = named_tensors(state, path, extra=extra)
     return {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
 
 
@@ -139,7 +151,7 @@ def trained_with(content: Mapping[str, Any], table: str) -> Mapping[str, Any]:
 
 
 def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
-    """Refuse weights that are NaN or infinite.
+    """Refuse weights that are NaN or infinite, or all 0, as in a file that was never filled.
 
     Raises:
         FileFormatError: with the name of the first such tensor.
@@ -147,6 +159,8 @@ def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
     for name, tensor in tensors.items():
         if not bool(tensor.isfinite().all()):
             raise FileFormatError(f"{path}: {name} holds values that are NaN or infinite")
+    if tensors and not any(bool(tensor.any()) for tensor in tensors.values()):
+        raise FileFormatError(f"{path} holds weights that are all 0; get the file again")
 
 
 def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:

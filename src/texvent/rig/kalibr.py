@@ -39,7 +39,7 @@ from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
 from texvent.scenes.lens import Distortion, Lens, lens_reach
-from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor
+from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor, warn_of_far_centre
 from texvent.settings.config_files import read_document
 
 HALF_PIXEL = 0.5
@@ -57,6 +57,8 @@ _CAMERA_KEYS = (
     "resolution", "sensor", "T_cn_cnm1", "T_cam_imu", "baseline", "rotation",
 )  # fmt: skip
 _IMU = re.compile(r"imu\d*")
+USUAL_M, FARTHEST_M = 10.0, 1e4
+"""Distance between cameras from which on a warning is due, and the largest."""
 _NOT_RIGID = 1e-3
 """Most that a rotation's entries may be off, as rounding in a file is."""
 
@@ -75,8 +77,8 @@ def read_rig(path: Path, size: SensorSize) -> tuple[Rig, ImuNoise | None]:
         InputError: the file cannot be read.
         ConfigError: it is not such a file, or a value does not fit; names camera and key.
     """
-    document = read_document(path)
-    names = [str(name) for name in document if not _IMU.fullmatch(str(name))]
+    document = {str(name): entry for name, entry in read_document(path).items()}
+    names = [name for name in document if not _IMU.fullmatch(name)]
     if not names or len(names) > MOST_CAMERAS:
         raise ConfigError(
             f"{path} describes {len(names)} cameras; give 1 to {MOST_CAMERAS}, as cam0: ..., "
@@ -88,6 +90,7 @@ def read_rig(path: Path, size: SensorSize) -> tuple[Rig, ImuNoise | None]:
         where = f"{path}, {shown(name)}"
         entry = _entry(document[name], name, where)
         from_first = _from_first(entry, cameras, from_imu, where)
+        _check_distance(math.hypot(*from_first[:3, 3]), where)
         own = _map(entry["T_cam_imu"], f"{where}: T_cam_imu") if "T_cam_imu" in entry else None
         if not cameras:
             from_imu = own
@@ -95,7 +98,7 @@ def read_rig(path: Path, size: SensorSize) -> tuple[Rig, ImuNoise | None]:
         lens = _lens(entry, resolution, where)
         cameras.append(RigCamera(name, resolution, lens, from_first, entry.get("sensor")))
     rig = Rig(tuple(cameras), np.eye(4) if from_imu is None else from_imu)
-    entries = [document[name] for name in document if _IMU.fullmatch(str(name))]
+    entries = [document[name] for name in document if _IMU.fullmatch(name)]
     return rig, read_noise(entries[0], str(path)) if entries else None
 
 
@@ -265,9 +268,11 @@ def _lens(entry: Mapping[str, Any], size: SensorSize, where: str) -> Lens | None
         (coefficients[0], coefficients[1], coefficients[2], coefficients[3]),
     )
     try:
-        lens_reach(lens, size)
+        with np.errstate(all="ignore"):
+            lens_reach(lens, size)
     except ConfigError as error:
         raise ConfigError(f"{where}: {error}") from error
+    warn_of_far_centre((cx, cy), size, where)
     return lens
 
 
@@ -308,6 +313,16 @@ def _from_first(
     raise ConfigError(
         f"{where} does not say where it is; give T_cn_cnm1, or baseline: 0.12 (m to the right)"
     )
+
+
+def _check_distance(distance_m: float, where: str) -> None:
+    """Refuse a place out of every scene; warn of one that was perhaps given in millimetres."""
+    if not distance_m < FARTHEST_M:
+        raise ConfigError(
+            f"{where} is {distance_m:g} m from the first camera; at most {FARTHEST_M:g}"
+        )
+    if distance_m > USUAL_M:
+        warn(f"{where} is {distance_m:g} m from the first camera; places are in metres")
 
 
 def _placed(entry: Mapping[str, Any], where: str) -> Float64Array:

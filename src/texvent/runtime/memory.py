@@ -1,5 +1,7 @@
 """Memory of the machine and of this process, and how much freed memory the C allocator keeps.
 
+Decoders ask `check_claim` before they make room for what the head of a file claims.
+
 glibc keeps the memory of small arrays for later ones. Where one thread allocates frames and another
 frees them, this store fragments, and in a long video it grows to twice what is in use. Large arrays
 go back to the system at once; it then clears every page of the next one, which costs more than
@@ -18,10 +20,16 @@ from pathlib import Path
 
 import numpy as np
 
+from texvent.errors import FileFormatError
+
 SHARE = 0.8
 """Of the machine's memory, or of its control group's, that a run uses at most by default."""
 UNKNOWN_BYTES = 8 * 2**30
 """Taken for the machine's memory where the system does not report it, as on Windows."""
+SMALL_BYTES = 512 * 2**20
+"""What unpacks to less is never out of proportion to its file: a black frame of 16k, 8 bits."""
+MOST_EXPANSION = 100
+"""Columns, text and photographs shrink to a half or a tenth; zeros shrink to a thousandth."""
 _CONTROL_GROUPS = (
     Path("/sys/fs/cgroup/memory.max"),
     Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
@@ -36,6 +44,40 @@ def usable_bytes() -> int:
         with contextlib.suppress(OSError, ValueError):  # not there, or "max"
             sizes.append(int(path.read_text(encoding="ascii")))
     return int(SHARE * min(sizes))
+
+
+def check_claim(claimed: int, path: Path, *, copies: int = 1) -> None:
+    """Refuse a file that would take more memory than there is, or out of proportion to its size.
+
+    Args:
+        claimed: bytes that it unpacks to, as its head says.
+        path: the file.
+        copies: how often all of it is in memory at once.
+
+    Raises:
+        FileFormatError: see above.
+    """
+    check_proportion(claimed, path)
+    if copies * claimed > usable_bytes():
+        raise FileFormatError(
+            f"{path} takes {copies * claimed / 1e9:.1f} GB of memory, and a run may use "
+            f"{usable_bytes() / 1e9:.1f} GB of this machine; make it smaller, or take a machine "
+            "with more memory"
+        )
+
+
+def check_proportion(claimed: int, path: Path) -> None:
+    """Refuse a file that claims to unpack to bytes out of proportion to its size.
+
+    Raises:
+        FileFormatError: see above.
+    """
+    packed = path.stat().st_size
+    if claimed > max(SMALL_BYTES, MOST_EXPANSION * packed):
+        raise FileFormatError(
+            f"{path} has {packed} bytes and claims to unpack to {claimed}; it is damaged, or "
+            "made to fill the memory"
+        )
 
 
 def machine_bytes() -> int | None:

@@ -14,6 +14,8 @@ from texvent.errors import InputError
 
 MOST_LEVELS = 14
 """Levels of a pyramid at most: images up to 8,192 pixels on a side reach a single pixel."""
+LARGEST_SIDE = 4096
+"""Longest side of an image, pixels: larger ones are made smaller."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +56,19 @@ def decode_srgb(coded: NDArray[np.uint8]) -> Float32Array:
 
 
 _LINEAR = transfer.decode_srgb(np.arange(256) / 255.0)
+
+
+def light_of(coded: NDArray[np.uint8]) -> Float32Array:
+    """`decode_srgb` of an image [h, w, 3], made smaller if a side is above `LARGEST_SIDE`."""
+    height, width = coded.shape[:2]
+    share = LARGEST_SIDE / max(height, width)
+    if share >= 1.0:
+        return decode_srgb(coded)
+    size = (max(round(width * share), 1), max(round(height * share), 1))
+    # Light is averaged, not its code; in whole numbers, half as large as float32.
+    light = np.rint(_LINEAR * 65535.0).astype(np.uint16)[coded]
+    smaller = cv2.resize(light, size, interpolation=cv2.INTER_AREA)
+    return np.asarray(smaller / np.float32(65535.0), dtype=np.float32)
 
 
 Float64Array = NDArray[np.float64]

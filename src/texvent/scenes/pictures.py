@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.scenes.mesh import SurfaceImage, decode_srgb, surface_image
+from texvent.runtime.image_files import decode_image
+from texvent.scenes.mesh import SurfaceImage, decode_srgb, light_of, surface_image
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
 from texvent.scenes.models.tables import nouns_with
@@ -183,8 +184,6 @@ class PlayedVideo:
 
 PictureSource = Callable[[float], SurfaceImage]
 """The image shown at an instant, s."""
-LARGEST_SIDE = 4096
-"""Longest side of an image, pixels: larger ones are made smaller."""
 _LETTER_PX = 96
 """Height of capital letters in the image of a text."""
 _LINE_PX = 160
@@ -216,20 +215,8 @@ def read_image(path: Path) -> NDArray[np.float32]:
     Raises:
         FileFormatError: it cannot be decoded.
     """
-    coded = cv2.imdecode(np.fromfile(path, dtype=np.uint8), cv2.IMREAD_COLOR)
-    if coded is None:
-        raise FileFormatError(f"{path} is no image that can be decoded; it may be damaged")
-    return fit_size(decode_srgb(np.asarray(coded[..., ::-1], dtype=np.uint8)))
-
-
-def fit_size(linear: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The image, made smaller if its longest side is above `LARGEST_SIDE`."""
-    height, width = linear.shape[:2]
-    share = LARGEST_SIDE / max(height, width)
-    if share >= 1.0:
-        return linear
-    size = (max(round(width * share), 1), max(round(height * share), 1))
-    return np.asarray(cv2.resize(linear, size, interpolation=cv2.INTER_AREA), dtype=np.float32)
+    coded = decode_image(path, cv2.IMREAD_COLOR)
+    return light_of(np.asarray(coded[..., ::-1], dtype=np.uint8))
 
 
 def _version(picture: Picture) -> tuple[float, int]:

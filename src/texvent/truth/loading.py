@@ -22,10 +22,13 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.input_checks import existing_file, existing_folder
+from texvent.runtime.image_files import decode_image
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
 
+NOT_UNIT = 1e-3
+"""Most that the length of a quaternion may be off 1."""
 STEPS_PER_PX = 128.0
 ZERO = 2.0**15
 HIGHEST = 2**16 - 1
@@ -169,6 +172,12 @@ class Truth:
         """[N, 4, 4] camera-to-world, m; camera axes x right, y down, z forward."""
         self._need("poses")
         rows = self._table("poses.txt", 8)
+        lengths = np.linalg.norm(rows[:, 4:], axis=1)
+        if not (np.isfinite(rows).all() and (np.abs(lengths - 1.0) < NOT_UNIT).all()):
+            raise FileFormatError(
+                f"{self.folder / 'poses.txt'} holds numbers that are no poses; a line is t_s, x, "
+                "y, z, then a quaternion qx qy qz qw of length 1"
+            )
         poses = np.tile(np.eye(4), (len(rows), 1, 1))
         poses[:, :3, 3] = rows[:, 1:4]
         poses[:, :3, :3] = [rotation_matrix(row[4:]) for row in rows]
@@ -232,9 +241,9 @@ class Truth:
     def _image(self, name: str) -> NDArray[np.uint16]:
         import cv2
 
-        pixels = cv2.imread(str(self.folder / name), cv2.IMREAD_UNCHANGED)
-        if pixels is None or pixels.dtype != np.uint16:
-            raise FileFormatError(f"{self.folder / name} is missing, or no 16-bit PNG")
+        pixels = decode_image(existing_file(self.folder / name), cv2.IMREAD_UNCHANGED)
+        if pixels.dtype != np.uint16:
+            raise FileFormatError(f"{self.folder / name} is no 16-bit PNG")
         return np.asarray(pixels if pixels.ndim == 2 else pixels[..., ::-1])
 
     def _table(self, name: str, columns: int) -> NDArray[np.float64]:

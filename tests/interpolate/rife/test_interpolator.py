@@ -137,9 +137,25 @@ def a_layer_less(path):
     torch.save(tensors, path)
 
 
+def changed(change):
+    def spoil(path):
+        torch.save({name: change(one) for name, one in torch.load(path).items()}, path)
+
+    return spoil
+
+
 @pytest.mark.parametrize(
     ("spoil", "complaint"),
     [
+        (changed(lambda one: one * float("nan")), "holds values that are NaN or infinite"),
+        (changed(lambda one: one.double() * 1e300), "holds values that are NaN or infinite"),
+        (changed(torch.zeros_like), "weights that are all 0"),
+        (changed(lambda one: one.to(torch.complex64)), "dense tensors of real numbers"),
+        (changed(torch.Tensor.to_sparse), "dense tensors of real numbers"),
+        (
+            changed(lambda one: torch.zeros(1, dtype=torch.half).expand(30_000, 30_000)),
+            "claims to unpack to",
+        ),
         (other_network, "has no tensor of RIFE's network"),
         (a_layer_less, r"Missing key.*block3\.lastconv\.0\.bias"),
     ],

@@ -1,16 +1,19 @@
 """Models of files as nouns: names, sizes, GLB, OBJ and PLY, bad files."""
 
+import zlib
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from tests.scenes.assets.glb_bar import write_bar
+from tests.scenes.assets.glb_bar import write_bar, write_triangle
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets.index import Asset, read_folder
+from texvent.scenes.assets.model_file import MOST_NODES
 from texvent.scenes.assets.nouns import check_files, load_model, merge_nouns
+from texvent.scenes.mesh import LARGEST_SIDE, light_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.spec.files import load_scene
@@ -132,6 +135,106 @@ def test_damaged_glb_files_are_one_clear_line(tmp_path):
             load_model(Asset(path, "thing"))
         assert "\n" not in str(caught.value)
         assert name in str(caught.value)
+
+
+PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+)
+
+
+def write_model(path: Path, corners: list[list[float]], numbers: list[int]) -> Path:
+    """A triangle in any of the formats."""
+    lines = [" ".join(f"{one:g}" for one in corner) for corner in corners]
+    if path.suffix == ".glb":
+        return write_triangle(path, corners=corners, numbers=numbers, materials=[{}])
+    if path.suffix == ".ply":
+        path.write_text(PLY + "\n".join(lines) + f"\n3 {' '.join(map(str, numbers))}\n")
+    else:
+        faces = " ".join(str(number + 1) for number in numbers)
+        path.write_text("".join(f"v {line}\n" for line in lines) + f"f {faces}\n")
+    return path
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+@pytest.mark.parametrize(
+    ("corner", "third", "message"),
+    [
+        ([0.0, np.nan, 0.0], 2, "a coordinate is not a number below 1e"),
+        ([np.inf, 0.0, 0.0], 2, "a coordinate is not a number below 1e"),
+        ([0.0, 1e30, 0.0], 2, "a coordinate is not a number below 1e"),
+        ([0.0, 1.0, 0.0], 7, "names a vertex outside|out of bounds"),
+        ([0.0, 0.0, 0.0], 2, "has an area"),
+    ],
+)
+def test_a_mesh_that_cannot_be_is_one_clear_line(tmp_path, ending, corner, third, message):
+    path = tmp_path / f"thing.{ending}"
+    write_model(path, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], corner], [0, 1, third])
+    with pytest.raises(FileFormatError, match=message) as caught:
+        load_model(Asset(path, "thing"))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"nodes": [{"mesh": 0}] * (MOST_NODES + 1)}, "are the most, so join its parts"),
+        (
+            {"accessors": [{"componentType": 5126, "count": 2**31, "type": "VEC3"}]},
+            "claims to unpack to",
+        ),
+    ],
+)
+def test_a_small_file_of_a_large_model_is_refused(tmp_path, changes, message):
+    path = write_triangle(tmp_path / "thing.glb", **changes)
+    with pytest.raises(FileFormatError, match=message):
+        load_model(Asset(path, "thing"))
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../private.png", "..\\private.png", "none.png"])
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+def test_a_model_reaches_no_file_outside_its_folder(tmp_path, monkeypatch, ending, name):
+    folder = tmp_path / "models"
+    folder.mkdir()
+    private = tmp_path / "private.png"
+    cv2.imwrite(str(private), np.full((8, 8, 3), 255, np.uint8))
+    path = folder / f"thing.{ending}"
+    if ending == "glb":
+        write_triangle(path, images=[{"uri": name}])
+    else:
+        write_model(path, [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [0, 1, 2])
+        text = path.read_text().replace("ascii 1.0\n", f"ascii 1.0\ncomment TextureFile {name}\n")
+        path.write_text(text if ending == "ply" else f"mtllib {name}\n{text}")
+    read = []
+    monkeypatch.setattr(Path, "read_bytes", lambda one: read.append(one) or b"")
+    with pytest.warns(TexventWarning, match="is not in its folder or below"):
+        (part,) = load_model(Asset(path, "thing")).parts(Pose(0.0, 0.0, 0.0))
+    assert (part.mesh.images, read) == ((), [])
+
+
+def png(pixels):
+    return cv2.imencode(".png", pixels)[1].tobytes()
+
+
+def test_a_large_texture_is_made_smaller_and_16_bits_keep_their_light(tmp_path):
+    large = np.zeros((2, LARGEST_SIDE * 2, 3), np.uint8)
+    large[:, ::2] = 255
+    assert light_of(large).shape == (1, LARGEST_SIDE, 3)
+    np.testing.assert_allclose(light_of(large), 0.5, atol=1e-4)  # of light, not of its code
+    grey = np.full((8, 8), 128 * 257, np.uint16)
+    for pixels in (grey, (grey // 257).astype(np.uint8)):
+        path = write_triangle(tmp_path / f"{pixels.dtype}.glb", image=png(pixels))
+        (part,) = load_model(Asset(path, "thing")).parts(Pose(0.0, 0.0, 0.0))
+        assert part.mesh.images[0].levels[0].mean() == pytest.approx(0.2158, abs=1e-3)
+
+
+def test_a_texture_that_would_fill_the_memory_is_refused(tmp_path):
+    head = bytearray(png(np.zeros((8, 8, 3), np.uint8)))
+    head[16:24] = (14_000).to_bytes(4, "big") * 2
+    head[29:33] = zlib.crc32(head[12:29]).to_bytes(4, "big")
+    path = write_triangle(tmp_path / "thing.glb", image=bytes(head))
+    with pytest.raises(FileFormatError, match="claims to unpack to 784000000"):
+        load_model(Asset(path, "thing"))
 
 
 def write_obj(folder: Path) -> Path:

@@ -272,7 +272,9 @@ def instance_ids(stored: NDArray[Any], size: tuple[int, int], where: str) -> NDA
         raise InputError(
             f"{where} has values that are no whole numbers; ids are, so write them without blending"
         )
-    return stored.astype(np.int32)
+    if stored.size and not -(2**31) <= stored.min() <= stored.max() < 2**32:
+        raise InputError(f"{where} has ids of more than 32 bits, which would become one another")
+    return stored.astype(np.int64).astype(np.int32)
 
 
 def _plane(stored: NDArray[Any], size: tuple[int, int], where: str) -> NDArray[Any]:

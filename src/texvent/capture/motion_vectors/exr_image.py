@@ -17,12 +17,15 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, few, one_line, shown
+from texvent.runtime.memory import check_claim
 
 EXR = ".exr"
 REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
 """x and y of red, green, blue and white in OpenEXR's attribute chromaticities."""
 CODED = ("pq", "hlg", "srgb", "g22", "g24", "g18")
 """How the attribute colorInteropID begins where pixels are no linear light."""
+HALF_BYTES = 2
+"""Of a value in most files; floats have 4."""
 COLOURS = (("R", "G", "B"), ("Y",))
 
 
@@ -71,6 +74,9 @@ def read_exr(path: Path) -> ExrImage:
     """
     library = require("OpenEXR", extra="exr")
     try:
+        with library.File(str(path), separate_channels=True, header_only=True) as file:
+            heads = [dict(part.header) for part in file.parts]
+        check_claim(sum(map(_stated_bytes, heads)), path, copies=4)
         with library.File(str(path), separate_channels=True) as file:
             parts = list(file.parts)
             channels = {
@@ -79,11 +85,20 @@ def read_exr(path: Path) -> ExrImage:
                 for name, channel in part.channels.items()
             }
             headers = tuple(dict(part.header) for part in parts)
+    except FileFormatError:
+        raise
     except Exception as error:  # the library raises many types, all on damage
         raise FileFormatError(f"{path} is damaged or not OpenEXR ({one_line(error)})") from error
     if not channels or any(one.ndim != 2 or one.size == 0 for one in channels.values()):
         raise FileFormatError(f"{path} has no channel of pixels, or deep or subsampled ones")
     return ExrImage(path, channels, headers)
+
+
+def _stated_bytes(header: Mapping[str, Any]) -> int:
+    """Bytes of a part's pixels, by its head."""
+    low, high = (np.asarray(corner).astype(int).tolist() for corner in header["dataWindow"])
+    width, height = (after - before + 1 for before, after in zip(low, high, strict=True))
+    return int(width * height * len(header["channels"]) * HALF_BYTES)
 
 
 def exr_frame(path: Path) -> NDArray[np.float32]:

@@ -18,6 +18,7 @@ from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file, check_outputs
 from texvent.io.block_writer import Columns
+from texvent.io.calibration import read_calibration
 from texvent.io.files import open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
@@ -28,7 +29,7 @@ from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rot
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
-from texvent.transform.undistort import read_calibration, undistort
+from texvent.transform.undistort import undistort
 from texvent.video import FrameStream
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.

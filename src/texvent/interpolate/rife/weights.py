@@ -74,7 +74,8 @@ def read_rife_weights(path: Path) -> RifeNetwork:
     torch = import_torch()
     from texvent.interpolate.rife.network import RifeNetwork, closest_layout  # needs torch
 
-    tensors = named_tensors(read_mapping(path, WHERE_FROM, extra=EXTRA), extra=EXTRA)
+    content = read_mapping(path, WHERE_FROM, extra=EXTRA)
+    tensors = named_tensors(content, path, extra=EXTRA)
     inner = {name: tensor for name, tensor in tensors.items() if _is_network_tensor(name)}
     if not inner:
         raise FileFormatError(

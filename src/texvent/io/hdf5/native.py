@@ -188,7 +188,8 @@ class Hdf5Codec(BlockCodec):
         with open_hdf5(path) as file:
             table, _ = _find_table(file, path, options)
             groups = _groups_of(file, table)
-            size = next((one for one in map(stored_size, groups) if one is not None), None)
+            sizes = (stored_size(group, path) for group in groups)
+            size = next((one for one in sizes if one is not None), None)
             metadata = read_metadata(file, path) or {}
         rows = partial(_open_rows, path, options)
         return contents_of_rows(size, metadata, rows)
@@ -273,6 +274,7 @@ def _time_offset(group: Any, path: Path) -> NDArray[np.int64]:
     value = group[OFFSET]
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(f"{path}: {OFFSET} must be one whole number; it is {shown(value)}")
+    check_claims(value, path)
     offset = np.asarray(value[()]).reshape(-1).astype(np.int64)
     if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset[0]:
         raise FileFormatError(
@@ -281,7 +283,7 @@ def _time_offset(group: Any, path: Path) -> NDArray[np.int64]:
     return offset
 
 
-def stored_size(node: Any) -> tuple[int, int] | None:
+def stored_size(node: Any, path: Path) -> tuple[int, int] | None:
     """Width and height, pixels, that the root or a group states.
 
     As attributes width and height; `sensor_resolution`, height before width, of event_utils; or
@@ -296,6 +298,7 @@ def stored_size(node: Any) -> tuple[int, int] | None:
         return width, height
     sides = node.get("calib/resolution") if hasattr(node, "get") else None
     if isinstance(sides, h5py.Dataset) and sides.size == 2:
+        check_claims(sides, path)
         width, height = (int(side) for side in np.ravel(sides[()]))
         return width, height
     return None

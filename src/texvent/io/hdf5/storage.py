@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, MissingDependencyError
+from texvent.errors import FileFormatError, InputError, MissingDependencyError, shown
 from texvent.io.block_writer import BlockWriter, WriteBlock
 from texvent.io.input_checks import reporting_damage
 from texvent.runtime.interrupts import delay_interrupts
@@ -34,15 +34,20 @@ MAX_CHUNK_BYTES = 256 * 2**20
 """HDF5 unpacks whole chunks: larger ones would fill the memory."""
 
 
+DEEPEST = 64
+"""Groups within groups; recordings have three or four."""
+
+
 @contextmanager
 def open_hdf5(path: Path) -> Iterator[Any]:
     """An HDF5 file to read; what h5py raises inside the block names the file.
 
     Raises:
-        FileFormatError: the file is damaged.
+        FileFormatError: the file is damaged, leads to other files, or nests groups too deep.
         InputError: another program writes it.
     """
     with reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE), _opened(path) as file:
+        _check_links(file, path)
         yield file
 
 
@@ -58,15 +63,38 @@ def _opened(path: Path) -> Any:
         ) from error
 
 
+def _check_links(file: Any, path: Path) -> None:
+    """Refuse links to other files, any of which the sender could name, and groups without end.
+
+    HDF5 follows nested groups by recursion: at 50,000 the process ends without a word.
+    """
+
+    def is_refused(name: bytes, link: Any) -> str | None:
+        if link.type not in (h5py.h5l.TYPE_HARD, h5py.h5l.TYPE_SOFT):
+            return f"its {shown(name.decode(errors='replace'))} is a link to another file; copy"
+        is_deep = name.count(b"/") >= DEEPEST
+        return f"its groups are nested more than {DEEPEST} deep; copy" if is_deep else None
+
+    found = file.id.links.visit(is_refused, info=True)
+    if found is not None:
+        raise FileFormatError(f"{path} is not read: {found} the events into a file of their own")
+
+
 def check_claims(dataset: Any, path: Path) -> None:
-    """Refuse a dataset that would take too long to read, or more memory than there is.
+    """Refuse a dataset that lies in other files, or would take too long or too much memory to read.
 
     HDF5 gives zeros where nothing is stored, so a file of 4 kB can claim 10^18 events; and a chunk
     of zeros shrinks to a thousandth.
 
     Raises:
-        FileFormatError: more values are claimed than stored, or chunks are too large.
+        FileFormatError: more values are claimed than stored, or chunks are too large, or values
+            are those of another file, any of which the sender could name.
     """
+    if dataset.external or dataset.is_virtual:
+        raise FileFormatError(
+            f"{path}: the values of {dataset.name} are in other files, which are not read; "
+            "h5repack copies them into one"
+        )
     if dataset.chunks is None:
         stored = dataset.id.get_storage_size() // dataset.dtype.itemsize
     else:

@@ -185,7 +185,7 @@ class EcfHdf5Codec(BlockReader):
         """Size and metadata are attributes of the root and of /CD."""
         with open_hdf5(path) as file:
             _checked_events(file, path)
-            size, metadata = _stored_size(file), _read_metadata(file, path)
+            size, metadata = _stored_size(file, path), _read_metadata(file, path)
         rows = partial(_open_rows, path)
         return contents_of_rows(size, metadata, rows)
 
@@ -226,8 +226,8 @@ def _checked_events(file: Any, path: Path) -> Any:
     return events
 
 
-def _stored_size(file: Any) -> tuple[int, int] | None:
-    stored = stored_size(file["CD"])
+def _stored_size(file: Any, path: Path) -> tuple[int, int] | None:
+    stored = stored_size(file["CD"], path)
     if stored is not None or "geometry" not in file.attrs:
         return stored
     width, _, height = _text(file.attrs["geometry"]).partition("x")

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import logging
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -11,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import FileFormatError, InputError, few, one_line, shown, warn
+from texvent.runtime.memory import check_claim
 from texvent.scenes.mesh import (
     Colour,
     Float32Array,
@@ -19,6 +23,7 @@ from texvent.scenes.mesh import (
     Mesh,
     SurfaceImage,
     decode_srgb,
+    light_of,
     make_mesh,
     recoloured,
     smooth_normals,
@@ -27,6 +32,16 @@ from texvent.scenes.mesh import (
 
 KEPT_FILES = 32
 """Read files that are kept."""
+MOST_NODES = 10_000
+"""Nodes of a GLB file; a car in all its parts has some thousand."""
+FARTHEST = 1e15
+"""Coordinates of vertices, in the file's unit, are below this."""
+IMAGE_FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "TGA", "GIF", "DDS")
+"""Pillow also opens formats that other programs would have to draw, such as EPS."""
+VALUE_BYTES = 64
+"""Of an item of an accessor, at most: a 4x4 matrix of floats."""
+TRIANGLE_BYTES = 300
+"""Of a triangle while it is read: corners with normals, colours and places in the image."""
 _CLEAR = 0.4
 """Surfaces less opaque than this are left out: panes of glass."""
 _GREY: Colour = (0.5, 0.5, 0.5)
@@ -59,23 +74,44 @@ def load_mesh(path: Path, changed_ns: int) -> tuple[Mesh, Float64Array]:
 
     Raises:
         MissingDependencyError: trimesh is not installed.
-        FileFormatError: the file is damaged, or has no triangle with an area.
+        FileFormatError: it is damaged, has no triangle with an area, or would fill the memory.
+
+    Warns:
+        TexventWarning: a file that it names, such as an image, is not in its folder or below.
     """
     del changed_ns
     trimesh: Any = require("trimesh", extra="assets")
     require("PIL.Image", extra="assets")
+    beside = _Beside(path.parent)
     try:
-        loaded = trimesh.load(str(path), process=False)
-        parts = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
+        if path.suffix.lower() == ".glb":
+            _check_glb(path)
+        with _images_of_any_size():
+            loaded = trimesh.load(str(path), process=False, resolver=beside)
+        is_scene = isinstance(loaded, trimesh.Scene)
+        drawn = [loaded.graph[node][1] for node in loaded.graph.nodes_geometry] if is_scene else []
+        meshes = [loaded.geometry[name] for name in drawn] if is_scene else [loaded]
+        triangles = sum(len(getattr(mesh, "faces", ())) for mesh in meshes)
+        check_claim(triangles * TRIANGLE_BYTES, path)
+        for mesh in loaded.geometry.values() if is_scene else meshes:
+            _check_image(_image_of(getattr(getattr(mesh, "visual", None), "material", None)), path)
+        parts = loaded.dump() if is_scene else [loaded]
         is_linear = path.suffix.lower() == ".glb"  # colours as numbers; OBJ and PLY have sRGB
         surfaces = [
             surface
             for part in parts
             if isinstance(part, trimesh.Trimesh) and len(part.faces)
-            and (surface := _surface(part, is_linear)) is not None
+            and (surface := _surface(part, is_linear, path)) is not None
         ]  # fmt: skip
+    except FileFormatError:
+        raise
     except Exception as error:
         raise FileFormatError(f"{path} cannot be read as a model: {one_line(error)}") from error
+    if beside.missing:
+        warn(
+            f"{path} names {few(list(map(shown, beside.missing)))}, which is not in its folder or "
+            "below; the model is drawn without it"
+        )
     if not surfaces:
         raise FileFormatError(f"{path} has no triangles")
     try:
@@ -84,10 +120,59 @@ def load_mesh(path: Path, changed_ns: int) -> tuple[Mesh, Float64Array]:
         raise FileFormatError(f"{path}: {error}") from error
 
 
-def _surface(part: Any, is_linear: bool) -> _Surface | None:
+class _Beside:
+    """Files in a model's folder and below; a model reaches no other, and none in the network."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder.resolve()
+        self.missing: list[str] = []
+
+    def get(self, name: str) -> bytes:
+        """A file by the name in the model, or by the last part of that name, as trimesh does."""
+        for one in (name.strip(), name.replace("\\", "/").rpartition("/")[2].strip()):
+            path = (self._folder / one).resolve()
+            if path.is_relative_to(self._folder) and path.is_file():
+                return path.read_bytes()
+        self.missing.append(name)
+        raise FileNotFoundError(name)
+
+    __getitem__ = get
+
+
+@contextmanager
+def _images_of_any_size() -> Iterator[None]:
+    """Pillow opens large images too: trimesh would hide its refusal; `check_claim` judges them."""
+    logging.getLogger("trimesh").addHandler(logging.NullHandler())  # a file lacks: see `missing`
+    images: Any = require("PIL.Image", extra="assets")
+    most, images.MAX_IMAGE_PIXELS = images.MAX_IMAGE_PIXELS, None
+    try:
+        yield
+    finally:
+        images.MAX_IMAGE_PIXELS = most
+
+
+def _check_glb(path: Path) -> None:
+    """Refuse a GLB file of too many nodes, or of arrays that would fill the memory."""
+    with path.open("rb") as file:
+        length = int.from_bytes(file.read(20)[12:16], "little")
+        head = json.loads(file.read(length))
+    if len(head.get("nodes", ())) > MOST_NODES:
+        raise FileFormatError(
+            f"{path} has {len(head['nodes'])} nodes; {MOST_NODES} are the most, so join its parts"
+        )
+    counts = (int(one["count"]) for one in head.get("accessors", ()))
+    check_claim(sum(counts) * VALUE_BYTES, path)
+
+
+def _surface(part: Any, is_linear: bool, path: Path) -> _Surface | None:
     """A part's surface; None: it is clear."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
-    corners = np.asarray(part.faces, dtype=np.int32)
+    corners = np.asarray(part.faces)
+    if not 0 <= corners.min() <= corners.max() < len(vertices):
+        raise FileFormatError(f"{path}: a triangle names a vertex outside 0..{len(vertices) - 1}")
+    if not (np.abs(vertices[corners]) < FARTHEST).all():
+        raise FileFormatError(f"{path}: a coordinate is not a number below {FARTHEST:g}")
+    corners = corners.astype(np.int32)
     colour, alpha, image = _material(part.visual, is_linear)
     if alpha < _CLEAR:
         return None
@@ -112,16 +197,39 @@ def _material(visual: Any, is_linear: bool) -> tuple[Colour, float, SurfaceImage
     material = getattr(visual, "material", None)
     if material is None:
         return _GREY, 1.0, None
-    image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
+    image = _image_of(material)
     coded = np.asarray(material.main_color, dtype=np.uint8)
     red, green, blue = (float(value) for value in _linear(coded[:3], is_linear))
     is_blended = getattr(material, "alphaMode", None) == "BLEND" or not is_linear
     alpha = float(coded[3]) / 255.0 if len(coded) > 3 and is_blended else 1.0
     if image is None:
         return (red, green, blue), alpha, None
-    pixels = np.asarray(image.convert("RGB"), dtype=np.uint8)
-    shown = surface_image(decode_srgb(pixels), repeats=True)
-    return (red, green, blue) if is_linear else (1.0, 1.0, 1.0), alpha, shown
+    surface = surface_image(light_of(_pixels(image)), repeats=True)
+    return (red, green, blue) if is_linear else (1.0, 1.0, 1.0), alpha, surface
+
+
+def _image_of(material: Any) -> Any:
+    """The image of a material, Pillow's, or None."""
+    return getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
+
+
+def _check_image(image: Any, path: Path) -> None:
+    """Refuse an image that is not decoded yet, if it would fill the memory or run a program."""
+    if image is None or image.format is None:  # made by trimesh
+        return
+    if image.format not in IMAGE_FORMATS:
+        raise FileFormatError(
+            f"{path}: an image of it is {image.format}; read are {', '.join(IMAGE_FORMATS)}"
+        )
+    check_claim(image.width * image.height * 4, path, copies=3)
+
+
+def _pixels(image: Any) -> np.ndarray:
+    """[h, w, 3] 8-bit colours of an image of Pillow's."""
+    if image.mode.startswith("I"):  # Pillow would cut 16 bits off at 255
+        grey = np.clip(np.asarray(image) // 257, 0, 255).astype(np.uint8)
+        return np.repeat(grey[..., None], 3, axis=2)
+    return np.asarray(image.convert("RGB"), dtype=np.uint8)
 
 
 def _linear(coded: np.ndarray, is_linear: bool) -> Float32Array:

@@ -1,0 +1,133 @@
+"""Image files decoded by OpenCV, after a look at how large their heads say that they are."""
+
+from __future__ import annotations
+
+import re
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, one_line
+from texvent.runtime.memory import check_claim
+
+COPIES = 3
+"""An image is decoded, its colours change places, and it is handed on."""
+_JPEG_SIZE = re.compile(rb"\xff[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]...(....)(.)", re.DOTALL)
+_GAP = rb"(?:\s|#[^\n]*\n)+"
+_TEXT_SIZE = re.compile(
+    rb"#\?.*?[-+][XY] +(\d+) +[-+][XY] +(\d+)|P\d" + _GAP + rb"(\d+)" + _GAP + rb"(\d+)",
+    re.DOTALL,
+)
+"""Of Radiance HDR, and of PNM."""
+_JPEG_2000 = b"\xff\x4f\xff\x51"
+MOST_HEAD_BYTES = 4096
+_TIFF_TAGS = {256: "width", 257: "height", 258: "bits", 277: "channels"}
+
+
+def decode_image(path: Path, flags: int) -> NDArray[Any]:
+    """The image of a file, [H, W] or [H, W, channels], as `cv2.imdecode` gives it with these flags.
+
+    Raises:
+        FileFormatError: it cannot be decoded, or would fill the memory.
+    """
+    import cv2  # only images need it
+
+    data = path.read_bytes()
+    check_claim(stated_bytes(data), path, copies=COPIES)
+    try:
+        image = cv2.imdecode(np.frombuffer(data, np.uint8), flags) if data else None
+    except cv2.error as error:
+        raise FileFormatError(f"image {path} is damaged: {one_line(error)}") from error
+    if image is None:
+        raise FileFormatError(
+            f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
+        )
+    return np.asarray(image)
+
+
+def stated_bytes(data: bytes) -> int:
+    """Bytes of the pixels that an image has by its head; 0 where its format is another.
+
+    PNG, JPEG, TIFF, BMP, GIF, WebP, JPEG 2000, AVIF, Radiance HDR, PNM.
+    """
+    try:
+        return _stated_bytes(data)
+    except (struct.error, ValueError, IndexError, KeyError):  # the decoder says what is wrong
+        return 0
+
+
+def _stated_bytes(data: bytes) -> int:
+    width, height, channels, bits = 0, 0, 3, 8
+    if data[:4] == b"\x89PNG":
+        width, height, bits = struct.unpack_from(">IIB", data, 16)
+        channels = {0: 1, 4: 2, 6: 4}.get(data[25], 3)
+    elif data[:2] == b"\xff\xd8":
+        width, height, channels = _jpeg_size(data)
+    elif data[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
+        width, height, channels, bits = _tiff_size(data)
+    elif data[:2] == b"BM":
+        width, height = map(abs, struct.unpack_from("<ii", data, 18))
+    elif data[:4] == b"GIF8":
+        width, height = struct.unpack_from("<HH", data, 6)
+    elif data[8:12] == b"WEBP":
+        width, height = _webp_size(data)
+    elif data[4:8] in (b"jP  ", b"ftyp") or data[:4] == _JPEG_2000:
+        width, height, bits = *_boxed_size(data), 16
+    elif found := _TEXT_SIZE.match(data[:MOST_HEAD_BYTES]):
+        width, height = int(found[1] or found[3]), int(found[2] or found[4])
+        bits = 32 if found[1] else 16
+    return width * height * channels * max(bits // 8, 1)
+
+
+def _jpeg_size(data: bytes) -> tuple[int, int, int]:
+    """Width, height and channels, in the first frame head among the segments."""
+    place = 2
+    while not (found := _JPEG_SIZE.match(data, place)):
+        is_filled = data[place + 1] == 0xFF
+        place += 1 if is_filled else 2 + struct.unpack_from(">H", data, place + 2)[0]
+    height, width = struct.unpack(">HH", found[1])
+    return width, height, found[2][0]
+
+
+def _tiff_size(data: bytes) -> tuple[int, int, int, int]:
+    """Width, height, channels and bits of the first page; of BigTIFF too."""
+    order = "<" if data[:1] == b"I" else ">"
+    is_big = data[2 if order == "<" else 3] == 43
+    start = struct.unpack_from(order + ("Q" if is_big else "I"), data, 8 if is_big else 4)[0]
+    count = struct.unpack_from(order + ("Q" if is_big else "H"), data, start)[0]
+    first, length = (start + 8, 20) if is_big else (start + 2, 12)
+    facts = {"channels": 1, "bits": 8}
+    for place in range(first, min(first + count * length, len(data)), length):
+        tag, kind, size = struct.unpack_from(order + ("HHQ" if is_big else "HHI"), data, place)
+        value = place + (12 if is_big else 8)
+        if tag in _TIFF_TAGS:
+            if size * 2 > (8 if is_big else 4):  # the bits of each channel are elsewhere
+                value = struct.unpack_from(order + ("Q" if is_big else "I"), data, value)[0]
+            form = {1: "B", 3: "H", 4: "I", 16: "Q"}[kind]
+            facts[_TIFF_TAGS[tag]] = struct.unpack_from(order + form, data, value)[0]
+    return facts["width"], facts["height"], facts["channels"], facts["bits"]
+
+
+def _boxed_size(data: bytes) -> tuple[int, int]:
+    """Width and height of JPEG 2000, in a box or not, and of AVIF, whose boxes are alike."""
+    if data[4:8] == b"jP  ":
+        height, width = struct.unpack_from(">II", data, data.index(b"ihdr") + 4)
+    else:
+        place = 8 if data[:4] == _JPEG_2000 else data.index(b"ispe") + 8
+        width, height = struct.unpack_from(">II", data, place)
+    return width, height
+
+
+def _webp_size(data: bytes) -> tuple[int, int]:
+    kind = data[12:16]
+    if kind == b"VP8X":
+        width, height = (int.from_bytes(data[at : at + 3], "little") + 1 for at in (24, 27))
+        return width, height
+    if kind == b"VP8L":
+        packed = int.from_bytes(data[21:25], "little")
+        return (packed & 0x3FFF) + 1, (packed >> 14 & 0x3FFF) + 1
+    width, height = struct.unpack_from("<HH", data, 26)
+    return width & 0x3FFF, height & 0x3FFF
