@@ -203,3 +203,16 @@ def test_images_of_another_size_or_bit_depth_do_not_pass_silently(tmp_path):
         stream = open_frames(tmp_path, CaptureConfig(fps=Fraction(10)), size=size)
         with pytest.raises(InputError, match="is 12x8, those before it are 6x4"):
             list(stream)
+
+
+@pytest.mark.parametrize("name", ["../private/frame0.png", "{}/private/frame0.png"])
+def test_a_list_names_no_image_of_another_folder(tmp_path, name):
+    save_images(tmp_path / "private")
+    save_images(tmp_path / "shown")
+    lines = f"0.0 frame1.png\n0.1 {name.format(tmp_path)}\n"
+    (tmp_path / "shown" / "images.txt").write_text(lines)
+    # An image of that name in the folder is meant, as after a move.
+    assert levels(tmp_path / "shown", fps=None) == [101, 100]
+    (tmp_path / "shown" / "frame0.png").unlink()
+    with pytest.raises(InputError, match="neither beside it nor in"):
+        levels(tmp_path / "shown", fps=None)

@@ -18,6 +18,7 @@ from texvent.capture.frame_times import FrameTimes
 from texvent.capture.live import LiveFrames
 from texvent.capture.open import open_frames
 from texvent.capture.video_file import PresentationClock, VideoFile
+from texvent.cli.app import main
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.generate.videos.stored_video import open_stored
@@ -142,14 +143,13 @@ def test_a_gif_is_colour_and_its_palette_index_is_not_taken_for_grey(clips):
     assert frame.pixels[5, 5, 0] > 200 > frame.pixels[5, 5, 1]
 
 
-def test_repeated_times_are_dropped_and_counted():
-    clock = PresentationClock(Path("x.mkv"), None, Fraction(25))
-    frame = type("F", (), {"time_base": Fraction(1, 1000), "duration": 40})()
-    times = []
-    for frame.pts in (100, 140, 140, 180):
-        times.append(clock.read(frame))
-    assert times == [0, 40_000, None, 80_000]
-    assert clock.dropped == 1
+def test_repeats_that_only_reading_finds_are_stored(clips, tmp_path, monkeypatch, capsys):
+    path = clips.write("a.mkv", colours(6, 8), codec="ffv1", times_ms=[0, 0, 40, 80, 80, 120])
+    monkeypatch.setattr(video_file, "needs_packet_times", lambda stream: False)
+    out = tmp_path / "a.h5"
+    assert main(["simulate", str(path), "-o", str(out), "--previews", "none"]) == 0
+    assert "2 of 6 frames are left out" in capsys.readouterr().err
+    assert texvent.load(out).metadata["source"]["duplicate_times_dropped"] == 2
 
 
 def test_time_that_goes_back_is_refused():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import os
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -289,7 +290,8 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
     for name in listing.names or ():
         usable_path(name)
         candidates = (file.parent / name, folder / name, folder / Path(name).name)
-        path = next((candidate for candidate in candidates if candidate.is_file()), None)
+        inside = (one for one in candidates if _is_below(one, file.parent, folder))
+        path = next((candidate for candidate in inside if candidate.is_file()), None)
         if path is None:
             raise InputError(
                 f"{file} names {shown(name)}, which is neither beside it nor in {folder}; "
@@ -297,3 +299,9 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
             )
         paths.append(path)
     return paths
+
+
+def _is_below(path: Path, *folders: Path) -> bool:
+    """Whether a path lies in one of the folders by its words: a list names no private files."""
+    words = Path(os.path.normpath(path))
+    return any(words.is_relative_to(os.path.normpath(folder)) for folder in folders)

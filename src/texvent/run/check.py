@@ -96,8 +96,7 @@ def check_frames(video: FrameStream, progress: Progress) -> VideoCheckResult:
             wanted = next(chosen, None)
         last = frame
     measurements = {**measurer.measurements(), **measure_motion(pairs)}
-    if "images_missing" in video.metadata:
-        measurements["missing"] = 1.0
+    measurements["missing"] = float("images_missing" in video.metadata)
     return VideoCheckResult(VideoReport(measurements), tuple(measurer.cut_times_us), video.size)
 
 
