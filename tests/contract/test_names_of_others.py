@@ -148,7 +148,7 @@ def test_a_list_replaces_only_what_the_export_wrote(received: Path, tmp_path: Pa
 
 @pytest.mark.parametrize(
     "place",
-    ["", ".", "..", "../x", "/x", "a/../x", "a//b", "x\ny", "x\0", "a\\b", "C:x", " ", "x" * 256],
+    ["", ".", "..", "../x", "/x", "a/../x", "a//b", "x\ny", "x\0", "a\\b", " ", "x" * 256],
 )
 def test_names_that_leave_a_folder_are_refused(tmp_path: Path, place: str) -> None:
     with pytest.raises(TexventError, match="no file"):
