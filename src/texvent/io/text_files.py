@@ -35,8 +35,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, open_complete, write_records
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.byte_blocks import open_complete
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import (
