@@ -34,15 +34,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent.io.block_codec import (
-    BlockCodec,
-    BlockReader,
-    FileContents,
-    read_bytes,
-    read_records,
-    write_records,
-)
+from texvent.io.block_codec import BlockCodec, BlockReader, FileContents, write_records
 from texvent.io.block_writer import UNLIMITED, Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.byte_blocks import read_bytes, read_records
 from texvent.io.clocks import TurningClock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar

@@ -37,8 +37,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown, warn
-from texvent.io.block_codec import BlockCodec, FileContents, open_complete, write_records
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.byte_blocks import open_complete
 from texvent.io.compressed import DAMAGE, unpacker_of
 from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar

@@ -77,7 +77,7 @@ def test_addresses_that_are_no_pixels_are_counted(
         load(path, size=(640, 480))
     with pytest.warns(TexventWarning, match="outside sensor: 3"):
         assert len(load(path, size=(640, 480), repair=True)) == 297
-    monkeypatch.setattr("texvent.io.block_codec.BLOCK_BYTES", 8 * 100)
+    monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", 8 * 100)
     with pytest.raises(FileFormatError, match="640x480: 3 of 100 in the layout dvs640"):
         load(path, size=(640, 480))
 
@@ -122,7 +122,7 @@ EVENT = struct.pack(">2I", 5 << 22 | 7 << 12, 60)
 def test_imu_samples_of_jaer_have_its_units_and_signs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, block_bytes: int
 ) -> None:
-    monkeypatch.setattr("texvent.io.block_codec.BLOCK_BYTES", block_bytes)
+    monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", block_bytes)
     path = tmp_path / "e.aedat"
     second = imu_records((0,) * 7, 90)
     path.write_bytes(CHIP + SCALES + imu_records(FIRST, 50) + EVENT + second[:16] + EVENT)

@@ -46,7 +46,7 @@ def test_a_time_that_wraps_is_unrolled(tmp_path: Path) -> None:
 
 
 def test_a_wrap_between_blocks_is_unrolled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("texvent.io.block_codec.BLOCK_BYTES", 8)
+    monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", 8)
     times = [2**32 - 2, 3, 2**31, 2**32 - 1, 0]
     path = write_words(tmp_path, "dat", [record(0, 0, time, 1) for time in times])
     assert load(path).t.tolist() == [2**32 - 2, 2**32 + 3, 3 * 2**31, 2**33 - 1, 2**33]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.io import block_codec, block_writer, metadata
+from texvent.io import block_writer, byte_blocks, metadata
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
 
@@ -154,7 +154,7 @@ def test_memory_does_not_grow_with_the_file(
 ) -> None:
     events = row_bursts(20_000)
     whole = sum(column.nbytes for column in events.columns().values())
-    monkeypatch.setattr(block_codec, "BLOCK_BYTES", 2**14)
+    monkeypatch.setattr(byte_blocks, "BLOCK_BYTES", 2**14)
     monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 2**12)
     path = save(tmp_path / f"warm{EXTENSIONS[format]}", row_bursts(10), format=format)
     assert len(load(path))

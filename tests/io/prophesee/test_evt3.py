@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.io import block_codec
+from texvent.io import byte_blocks
 from texvent.io.files import load, open_events, save
 from texvent.io.prophesee.evt import Evt3Codec
 
@@ -55,7 +55,7 @@ def test_blocks_that_cut_a_vector_group_change_nothing(
 ) -> None:
     path = write_words(tmp_path, "evt3", BY_HAND)
     for block in (2, 4, 6):
-        monkeypatch.setattr(block_codec, "BLOCK_BYTES", block)
+        monkeypatch.setattr(byte_blocks, "BLOCK_BYTES", block)
         packets = list(open_events(path))
         assert len(packets) > 1
         assert events_of(EventStream.concat(packets)) == MEANING

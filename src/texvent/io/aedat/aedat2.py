@@ -42,8 +42,9 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, warn
 from texvent.io.aedat.aedat4 import IMU_COLUMNS
 from texvent.io.aedat.header import AedatHeader, read_aedat_header
-from texvent.io.block_codec import BlockReader, FileContents, read_records
+from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns, SideData
+from texvent.io.byte_blocks import read_records
 from texvent.io.clocks import BITS_OF_32, TurningClock
 from texvent.io.input_checks import begins_with
 from texvent.io.reading import ReadOptions

@@ -30,8 +30,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.aedat.header import AedatHeader, read_aedat_header
-from texvent.io.block_codec import BlockReader, FileContents, read_whole
+from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns, SideData
+from texvent.io.byte_blocks import read_whole
 from texvent.io.clocks import TurningClock
 from texvent.io.input_checks import begins_with
 from texvent.io.reading import ReadOptions

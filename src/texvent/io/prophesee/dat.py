@@ -20,8 +20,9 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.byte_blocks import read_records
 from texvent.io.clocks import BITS_OF_32, TurningClock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.reading import ReadOptions

@@ -28,16 +28,9 @@ import numpy as np
 
 from texvent.errors import FileFormatError, shown, warn
 from texvent.events import COLUMN_TYPES
-from texvent.io.block_codec import (
-    SECTOR_BYTES,
-    BlockCodec,
-    BlockReader,
-    FileContents,
-    read_records,
-    write_records,
-    zero_sectors,
-)
+from texvent.io.block_codec import BlockCodec, BlockReader, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, SideData, WriteBlock
+from texvent.io.byte_blocks import SECTOR_BYTES, read_records, zero_sectors
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.prophesee.triggers import (
     EVT2,
