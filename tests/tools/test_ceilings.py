@@ -27,4 +27,3 @@ def test_lines_and_modules_are_counted(tree: Path) -> None:
 
 def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(data=1), tree) == ["room: 2 (data); the ceiling is 1"]
-

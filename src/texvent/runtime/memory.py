@@ -72,12 +72,16 @@ def check_proportion(claimed: int, path: Path) -> None:
     Raises:
         FileFormatError: see above.
     """
-    packed = path.stat().st_size
-    if claimed > max(SMALL_BYTES, MOST_EXPANSION * packed):
+    if claimed > most_unpacked(path):
         raise FileFormatError(
-            f"{path} has {packed} bytes and claims to unpack to {claimed}; it is damaged, or "
-            "made to fill the memory"
+            f"{path} has {path.stat().st_size} bytes and claims to unpack to {claimed}; it is "
+            "damaged, or made to fill the memory"
         )
+
+
+def most_unpacked(path: Path) -> int:
+    """Bytes that a file may unpack to in proportion to its size."""
+    return max(SMALL_BYTES, MOST_EXPANSION * path.stat().st_size)
 
 
 def machine_bytes() -> int | None:

@@ -16,6 +16,7 @@ from texvent.io.aedat.aedat4_container import load_zstd
 from texvent.io.files import load, save
 from texvent.io.ros import bag_bounds
 from texvent.io.ros.messages import EVENT_PACKET
+from texvent.runtime import memory
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
@@ -100,9 +101,12 @@ def test_packed_folders_are_read_and_bounded(
     else:
         pack_messages(plain)
     assert load(plain).equals(expected)
-    for module in (bag_bounds, aedat4_container):
-        for name in ("MAX_UNPACKED_BYTES", "MAX_UNPACKED_RATIO", "MAX_PACKET_BYTES"):
-            monkeypatch.setattr(module, name, 1, raising=False)
+    for module, name in (
+        (memory, "SMALL_BYTES"),
+        (memory, "MOST_EXPANSION"),
+        (aedat4_container, "MAX_PACKET_BYTES"),
+    ):
+        monkeypatch.setattr(module, name, 1)
     with pytest.raises(FileFormatError, match=r"unpacks to more than"):
         load(plain)
 
@@ -149,8 +153,8 @@ def test_chunks_of_mcap_are_bounded_and_ros1_in_it_is_named(
     (path,) = (tmp_path / "b").glob("*.mcap")
     with pytest.raises(FileFormatError, match="time decreases"):
         load(path)
-    monkeypatch.setattr(bag_bounds, "MAX_UNPACKED_BYTES", 1)
-    monkeypatch.setattr(bag_bounds, "MAX_UNPACKED_RATIO", 1)
+    monkeypatch.setattr(memory, "SMALL_BYTES", 1)
+    monkeypatch.setattr(memory, "MOST_EXPANSION", 1)
     with pytest.raises(FileFormatError, match="claims to unpack to"):
         load(path)
     monkeypatch.undo()

@@ -12,6 +12,7 @@ are 1/32 of a pixel, and single arrays (.npy), which are read block by block.
 
 from __future__ import annotations
 
+import math
 import tokenize
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -47,6 +48,7 @@ from texvent.io.input_checks import (
 from texvent.io.metadata import metadata_from_json, metadata_to_json, read_sidecar
 from texvent.io.reading import ReadOptions, TimeUnit, choose
 from texvent.io.tables import TABLE_OPTIONS, find_tables
+from texvent.runtime.memory import check_claim
 from texvent.sensor import SensorSize
 
 BLOCK_EVENTS = 2**18
@@ -137,6 +139,7 @@ class ArchivedArray:
             FileFormatError: they are damaged, or Python objects.
         """
         if self._values is None:
+            check_claim(math.prod(self.shape) * self.dtype.itemsize, self._path)
             with self._reporting_damage(), self._path.open("rb") as file:
                 self._values = _checked(np.load(file)[self._name], self._name, self._path)
         return np.asarray(self._values, *how, **more)

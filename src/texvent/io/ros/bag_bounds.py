@@ -24,8 +24,9 @@ import yaml
 from texvent._require import require
 from texvent.errors import FileFormatError, one_line
 from texvent.io.aedat.aedat4_container import load_zstd, unpack_lz4, unpack_zstd
-from texvent.io.input_checks import MAX_UNPACKED_BYTES, MAX_UNPACKED_RATIO, begins_with
+from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES
+from texvent.runtime.memory import check_proportion, most_unpacked
 
 FOLDER_FACTS = "metadata.yaml"
 MCAP_MAGIC, SQLITE_MAGIC = b"\x89MCAP", b"SQLite format 3"
@@ -131,8 +132,7 @@ def _unpack_file(source: Path, target: Path) -> None:
     Raises:
         FileFormatError: it is damaged, or unpacks to more than 100 times its size.
     """
-    most = max(MAX_UNPACKED_BYTES, MAX_UNPACKED_RATIO * source.stat().st_size)
-    most = min(most, shutil.disk_usage(target.parent).free)
+    most = min(most_unpacked(source), shutil.disk_usage(target.parent).free)
     zstd = load_zstd()
     with source.open("rb") as packed, zstd.open(packed, "rb") as unpacked, target.open("wb") as out:
         try:
@@ -177,12 +177,7 @@ def check_total(bag: Any) -> None:
     """
     for storage in getattr(bag.storage, "storages", [bag.storage]):
         total = sum(chunk.uncompressed_size for chunk in getattr(storage, "chunks", ()))
-        packed = storage.path.stat().st_size
-        if total > max(MAX_UNPACKED_BYTES, MAX_UNPACKED_RATIO * packed):
-            raise FileFormatError(
-                f"{storage.path} has {packed} bytes and claims to unpack to {total}; it is "
-                "damaged, or made to fill the memory"
-            )
+        check_proportion(total, storage.path)
 
 
 def _check_tables(path: Path) -> None:
