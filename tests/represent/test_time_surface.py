@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -48,3 +49,10 @@ def test_a_timestamp_image_equals_its_definition(events):
     found = timestamp_image(events)
     assert found.dtype == np.float32
     np.testing.assert_array_equal(found, definitions.timestamp_image(events))
+
+
+@pytest.mark.parametrize("decay", ["exponential", "linear"])
+@pytest.mark.parametrize("at_us", [-(10**15), 0, 59_999_999, 10**15])
+def test_instants_far_from_the_events_see_nothing(decay, at_us):
+    events = EventStream([0, 1], [0, 0], [60_000_000, 60_000_005], [1, 0], SensorSize(2, 1))
+    assert not time_surface(events, tau_us=1, decay=decay, at_us=at_us).any()

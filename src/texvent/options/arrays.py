@@ -55,7 +55,7 @@ def _refuse_masked(values: Any, what: str) -> None:
         InputError: there is one.
     """
     parts = values if isinstance(values, (list, tuple)) else (values,)
-    masked = sum(np.ma.count_masked(one) for one in parts if isinstance(one, np.ma.MaskedArray))
+    masked = sum(int(np.ma.getmaskarray(one).sum()) for one in parts if np.ma.isMA(one))
     if masked:
         raise InputError(
             f"{what} has {masked} masked value(s), which mean nothing here; leave them out, or "
