@@ -76,7 +76,9 @@ DOORS: dict[str, Callable[[Path], object]] = {
 def test_an_image_that_would_fill_the_memory_is_refused_at_every_door(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, door: str, usable: int
 ) -> None:
-    path = write_image(tmp_path / "image.png")
+    path = write_image(tmp_path / "image.png", channels=1 if door == "mask" else 3)
+    if door == "mask":
+        cv2.imwrite(str(path), np.eye(*SHAPE, dtype=np.uint8))
     DOORS[door](path)
     monkeypatch.setattr(memory, "usable_bytes", lambda: usable)
     if usable == SMALL_BYTES:  # the proportion alone

@@ -7,7 +7,7 @@ import pytest
 from texvent.errors import InputError
 from texvent.runtime.yaml_text import load_yaml
 from texvent.settings.config_files import read_config
-from texvent.transform.undistort import read_calibration
+from texvent.io.calibration import read_calibration
 
 
 def doubling(form: str, levels: int = 40) -> str:

@@ -326,7 +326,7 @@ def test_only_folders_of_truth_are_replaced(tmp_path):
         ("timestamps.txt", "0\n1\n", "counts 6 frames, timestamps.txt 2"),
         ("depth/000000.npz", "PK", "NumPy archive"),
         ("depth/000000.npz", None, "no such file"),
-        ("instance/000000.png", "no", "no 16-bit PNG"),
+        ("instance/000000.png", "no", "cannot be decoded"),
         ("poses.txt", "1 2 3\n", "poses.txt cannot be read"),
         ("boxes/bbox.npy", "x", "bbox.npy cannot be read"),
     ],
