@@ -24,11 +24,10 @@ name = "balls"
 license = "cc0-1.0"
 samples_per_shard = 2
 options = { sensor = "64x48", duration = 0.1 }
-variants.v2e = { simulator = "v2e" }
+variants.esim = { simulator = "esim" }
 
 [[sources]]
-prompt = "a red ball bounces"
-count = 2
+prompts = ["a red ball bounces", "a blue ball rolls"]
 """
 MODEL = """
 v 0 0 0
@@ -45,7 +44,7 @@ FORMATS = ("npz", "txt", "raw", "dat", "aedat4", "bin", "zip", "csv", "bag", "mc
 COMMANDS = (
     "generate 'a red ball bounces' --sensor 64x48 --duration 0.1 -o ball.h5",
     "simulate clip.mp4 -o clip.h5",
-    "simulate pictures --fps 50 --simulator physical -o pictures.h5",
+    "simulate pictures --fps 50 --simulator esim -o pictures.h5",
     "simulate exr --fps 50 --interpolate flow -o exr.h5",
     "check clip.mp4",
     "info clip.h5",
