@@ -62,7 +62,8 @@ def intrinsic(typed: Any, in_python: Any) -> Any:
         typed: as `numba.extending.intrinsic` takes it.
         in_python: the same function, of NumPy's numbers and arrays.
     """
-    return in_python if numba.config.DISABLE_JIT else numba.extending.intrinsic(typed)
+    config: Any = numba.config
+    return in_python if config.DISABLE_JIT else numba.extending.intrinsic(typed)
 
 
 _type_of: Any = types.unliteral
