@@ -209,9 +209,8 @@ def build_world(
         ConfigError: the lens folds within the image or looks too wide.
     """
     instant = np.zeros(1, dtype=INSTANT_RECORD)
-    if getattr(
-        numba.config, "DISABLE_JIT", False
-    ):  # Python takes the fields of these alone as attributes
+    if getattr(numba.config, "DISABLE_JIT", False):
+        # Python takes the fields of these alone as attributes.
         instant = instant.view(np.recarray)
     plane_size, coarseness = size, (1.0, 1.0)
     if lens is not None and lens.distortion != "none":
