@@ -259,9 +259,7 @@ def list_active(
     first, second = _rows_around(earlier, row), _rows_around(later, row)
     inside = row >> pair.shift
     _bound_row(first, second, reach[:, inside], bounds[:, inside], low, high)
-    # NumPy 1 keeps float32 where it adds a number.
-    own = earlier[row].astype(np.float64) + levels.balance
-    level = levels.reference[row] if levels.reference.size else own
+    level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
     marks = np.zeros((width + 7) // 8, np.uint64)
     _mark(low, high, level, levels, marks.view(np.uint8)[:width])
     number = 0
