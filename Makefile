@@ -29,6 +29,11 @@ DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
+# The newest interpreter that can be had, and the oldest.
+PYTHONS = $(shell for p in python3.11 python3.12 python3.13 python3.14 python3.15 $(PYTHON) $$(ls $$HOME/.pyenv/versions/3.*/bin/python3 2>/dev/null); do \
+	$$p -c 'import os, sys; print("%d.%d" % sys.version_info[:2], os.path.realpath(sys.executable)) if sys.version_info >= (3, 11) else 0' 2>/dev/null; done | sort -V | cut -d' ' -f2)
+NEWEST_PYTHON ?= $(lastword $(PYTHONS))
+OLDEST_PYTHON ?= $(firstword $(PYTHONS))
 # Most modules of these environments are never imported; Python compiles the others at first use.
 PIP_OPTIONS := --quiet --disable-pip-version-check --no-compile -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
@@ -44,7 +49,7 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test nightly coverage test-newest fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -52,6 +57,8 @@ help:
 	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
 	@echo "make coverage     make test, with the share of the code that it runs; fails below the floor"
 	@echo "make test-newest  make test with the newest release of every dependency, in $(NEWEST_VENV)"
+	@echo "make test-newest-releases test-lowest-releases   the wheel, with the newest and the lowest stated release of every"
+	@echo "                  dependency: main commands and small extras, with $(NEWEST_PYTHON) and $(OLDEST_PYTHON)"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
@@ -91,6 +98,11 @@ coverage: $(VENV)/.dev
 test-newest: $(NEWEST_VENV)/bin/python
 	$(NEWEST_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --upgrade --upgrade-strategy eager -e '.[dev]' -e lab
 	$(NEWEST_VENV)/bin/python -m pytest -q -n 2 --dist worksteal
+
+test-newest-releases test-lowest-releases: test-%-releases: $(VENV)/.dev
+	rm -rf build/$*
+	$(VENV)/bin/python -m pip wheel --quiet --disable-pip-version-check --no-deps -w build/$* .
+	$(VENV)/bin/python -m tools.check_wheel build/$*/texvent-*.whl --releases $* --python $(if $(filter newest,$*),$(NEWEST_PYTHON),$(OLDEST_PYTHON))
 
 fuzz: $(VENV)/.dev
 	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz
@@ -164,9 +176,10 @@ requirements: $(AUDIT_VENV)/.audit
 	$(COMPILE) -o requirements/readers.txt --extra readers pyproject.toml
 	$(BUILD_TOOLS) | $(COMPILE) -o requirements/build.txt -
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
+	printf '%s\n' $(RELEASE_TOOLS) | $(COMPILE) -o requirements/release.txt -
 
 clean:
-	rm -rf $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DETECT_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf build $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DETECT_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
 $(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DETECT_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
@@ -245,9 +258,9 @@ $(LLM_VENV)/.llm: $(LLM_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	$(LLM_VENV)/bin/python -m pip install $(PIP_OPTIONS) --no-deps $(LLM_PACKAGES)
 	@touch $@
 
-$(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python constraints.txt
+$(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python requirements/release.txt requirements/build.txt
 	@echo "installing what builds and checks a release into $(RELEASE_VENV) (once; about 80 MB)"
-	$(RELEASE_VENV)/bin/python -m pip install $(PIP_OPTIONS) $(RELEASE_TOOLS)
+	$(RELEASE_VENV)/bin/python $(HASHED) -r requirements/release.txt
 	@touch $@
 
 $(RELEASE_VENV)/.lint: $(RELEASE_VENV)/bin/python constraints.txt

@@ -5,11 +5,16 @@
 FROM python:3.13-slim-trixie@sha256:9d2e5553305c7c7b0097999bb17187c69b921ccd6bc9d40e4bb5ebe652c00285 AS build
 WORKDIR /source
 COPY pyproject.toml README.md LICENSE constraints.txt ./
+COPY requirements requirements
 COPY src src
 ARG EXTRAS="gpu,rife"
-ENV PIP_CONSTRAINT=/source/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1
-RUN python -m venv /opt/texvent \
-    && /opt/texvent/bin/pip install --no-cache-dir --no-compile ".${EXTRAS:+[$EXTRAS]}"
+ENV PIP_DISABLE_PIP_VERSION_CHECK=1
+# By hash: what builds the wheel, and what every run imports. Extras come by version.
+RUN pip install --no-cache-dir --require-hashes -r requirements/build.txt \
+    && pip wheel --no-deps --no-build-isolation -w /wheels . \
+    && python -m venv /opt/texvent \
+    && /opt/texvent/bin/pip install --no-cache-dir --no-compile --require-hashes -r requirements/base.txt \
+    && /opt/texvent/bin/pip install --no-cache-dir --no-compile -c constraints.txt "$(echo /wheels/*.whl)${EXTRAS:+[$EXTRAS]}"
 
 FROM python:3.13-slim-trixie@sha256:9d2e5553305c7c7b0097999bb17187c69b921ccd6bc9d40e4bb5ebe652c00285
 # Triton builds a small module in C for each kernel that it launches.

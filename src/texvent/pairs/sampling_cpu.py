@@ -19,10 +19,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from llvmlite import ir
 from numba.core import types
-from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from texvent.runtime.jit import jit
+from texvent.runtime.jit import intrinsic, jit
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
@@ -135,7 +134,10 @@ def _copier(count: int) -> Any:
 
         return types.void(image, index, out, place), generate
 
-    return intrinsic(copy)
+    def copy_slices(image: Floats, index: Any, out: Floats, place: Any) -> None:
+        out[int(place) : int(place) + count] = image[int(index) : int(index) + count]
+
+    return intrinsic(copy, copy_slices)
 
 
 copy_two, copy_four = _copier(2), _copier(4)

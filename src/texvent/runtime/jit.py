@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar, overload
 
 import numba
+import numba.extending
 from numba import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
@@ -52,6 +53,17 @@ def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
         return kernel
 
     return decorate if function is None else decorate(function)
+
+
+def intrinsic(typed: Any, in_python: Any) -> Any:
+    """A function of kernels in LLVM's language; with NUMBA_DISABLE_JIT=1 the same in Python.
+
+    Args:
+        typed: as `numba.extending.intrinsic` takes it.
+        in_python: the same function, of NumPy's numbers and arrays.
+    """
+    config: Any = numba.config
+    return in_python if config.DISABLE_JIT else numba.extending.intrinsic(typed)
 
 
 _type_of: Any = types.unliteral

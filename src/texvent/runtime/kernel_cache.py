@@ -50,7 +50,7 @@ def cache_of(function: Any) -> Any:
 
 def kernel_folder() -> Path | None:
     """Folder of the compiled functions of this file's folder; None: they are kept nowhere."""
-    path = cache_of(kernel_folder).cache_path
+    path = cache_of(cache_of).cache_path
     return None if path is None else Path(path)
 
 

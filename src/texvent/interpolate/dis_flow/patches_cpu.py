@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba.core import types
-from numba.extending import intrinsic
 
 from texvent.interpolate.dis_flow.definitions import PATCH
+from texvent.runtime.jit import intrinsic
 
 _FLOAT, _INT = ir.FloatType(), ir.IntType(32)
 _ROW = ir.VectorType(_FLOAT, PATCH)
@@ -164,5 +165,33 @@ def _numbers(values: list[int]) -> Any:
     return ir.Constant(ir.VectorType(_INT, PATCH), values)
 
 
-compare_patch: Any = intrinsic(_compare_patch)
-spread_patch: Any = intrinsic(_spread_patch)
+def _compare_arrays(start: Any, stop: Any, layout: Any, weights: Any) -> Any:
+    plane, place, _, step = map(int, layout)
+    difference = _difference(start, stop, layout, weights)
+    x, y = (_square(start, place + k * plane, step) for k in (1, 2))
+    return tuple(
+        np.float32((difference * factor).sum()) for factor in (np.float32(1), difference, x, y)
+    )
+
+
+def _spread_arrays(start: Any, stop: Any, layout: Any, weights: Any, sums: Any, flow: Any) -> None:
+    plane, place, _, step = map(int, layout)
+    u, v, least = flow
+    weight = 1 / np.maximum(least, np.abs(_difference(start, stop, layout, weights)))
+    for k, term in enumerate((weight, weight * u, weight * v)):
+        _square(sums, place + k * plane, step)[:] += term
+
+
+def _difference(start: Any, stop: Any, layout: Any, weights: Any) -> Any:
+    _, place, corner, step = map(int, layout)
+    corners = (_square(stop, corner + k, step) for k in (0, 1, step, step + 1))
+    terms = [weight * pixels for weight, pixels in zip(weights, corners, strict=True)]
+    return sum(terms) - _square(start, place, step)
+
+
+def _square(image: Any, place: int, step: int) -> Any:
+    return np.lib.stride_tricks.as_strided(image[place:], (PATCH, PATCH), (4 * step, 4))
+
+
+compare_patch: Any = intrinsic(_compare_patch, _compare_arrays)
+spread_patch: Any = intrinsic(_spread_patch, _spread_arrays)

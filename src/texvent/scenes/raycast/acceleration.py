@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -208,6 +209,9 @@ def build_world(
         ConfigError: the lens folds within the image or looks too wide.
     """
     instant = np.zeros(1, dtype=INSTANT_RECORD)
+    if getattr(numba.config, "DISABLE_JIT", False):
+        # Python takes the fields of these alone as attributes.
+        instant = instant.view(np.recarray)
     plane_size, coarseness = size, (1.0, 1.0)
     if lens is not None and lens.distortion != "none":
         plane_size, coarseness = _describe_distortion(instant[0], lens, size)

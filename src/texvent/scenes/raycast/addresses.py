@@ -8,13 +8,14 @@ So kernels pass one record on, `INSTANT_RECORD`, which has the addresses of all 
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 import numba
 import numpy as np
 from numba import types
-from numba.extending import intrinsic
 
+from texvent.runtime.jit import intrinsic
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     IMAGE_RECORD,
@@ -43,7 +44,12 @@ def _reader(dtype: Any) -> Any:
 
         return wide(types.int64, types.int64), build
 
-    return intrinsic(build_reader)
+    def read(address: int, index: int) -> Any:
+        memory = (ctypes.c_char * size).from_address(int(address) + int(index) * size)
+        item = np.frombuffer(memory, dtype).view(np.recarray)[0]
+        return item if isinstance(item, np.record) else item.item()
+
+    return intrinsic(build_reader, read)
 
 
 shape_at: Any = _reader(SHAPE_RECORD)

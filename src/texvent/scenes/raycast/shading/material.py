@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
 
-from texvent.runtime.jit import jit
+from texvent.runtime.jit import intrinsic, jit
 from texvent.scenes.raycast.addresses import texel_at
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.value_noise import mix
@@ -57,7 +57,13 @@ def _typed_blend(typing_context: Any, address: Any, places: Any, weights: Any) -
     return _build_blend(typing_context, address, places, weights)
 
 
-blend_four: Any = intrinsic(_typed_blend)
+def _blend(address: int, places: Corners, weights: Sample) -> Sample:
+    rows = [[texel_at(address, place + lane) for lane in range(4)] for place in places]
+    a, b, c, d = (np.float64(weights) @ np.float64(rows)).tolist()
+    return a, b, c, d
+
+
+blend_four: Any = intrinsic(_typed_blend, _blend)
 """`blend_four(address, places, weights)`: the weighted sum of four rows of four float32 numbers
 that begin `places` (four integers) numbers after the address; four float64."""
 
