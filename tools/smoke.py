@@ -58,7 +58,7 @@ COMMANDS = (
     *(f"convert clip.h5 clip.{ending}" for ending in FORMATS),
     *(f"validate clip.{ending} --sensor 64x48" for ending in FORMATS),
     "convert events.parquet parquet.h5 --sensor 64x48",
-    "convert blosc.h5 plain.h5",
+    "convert blosc.h5 plain.h5 --sensor 64x48",
 )
 
 
@@ -113,7 +113,6 @@ def write_others() -> None:
     with h5py.File("blosc.h5", "w") as file:
         for name in "xytp":
             file.create_dataset(f"events/{name}", data=getattr(events, name), **blosc)
-        file["events"].attrs["sensor_size"] = SIZE[::-1]
 
 
 def use_python() -> None:
