@@ -58,8 +58,7 @@ COMMANDS = (
     *(f"convert clip.h5 clip.{ending}" for ending in FORMATS),
     *(f"validate clip.{ending} --sensor 64x48" for ending in FORMATS),
     "convert events.parquet parquet.h5 --sensor 64x48",
-    "convert clip.txt.zst zstd.h5 --sensor 64x48",
-    "convert blosc.h5 plain.h5",
+    "convert blosc.h5 plain.h5 --sensor 64x48",
 )
 
 
@@ -103,31 +102,30 @@ def write_others() -> None:
 
     import texvent
 
-    events = texvent.read_events("clip.h5")
+    events = texvent.load("clip.h5")
     importlib.import_module("pyarrow.parquet")
     events.to_dataframe().to_parquet("events.parquet")
     zstd: Any = importlib.import_module(
         "compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd"
     )
-    Path("clip.txt.zst").write_bytes(zstd.compress(Path("clip.txt").read_bytes()))
+    zstd.decompress(zstd.compress(Path("clip.txt").read_bytes()))
     blosc: Any = importlib.import_module("hdf5plugin").Blosc()
     with h5py.File("blosc.h5", "w") as file:
         for name in "xytp":
             file.create_dataset(f"events/{name}", data=getattr(events, name), **blosc)
-        file["events"].attrs["sensor_size"] = SIZE[::-1]
 
 
 def use_python() -> None:
     """The camera of a program, and what a notebook shows."""
     import texvent
 
-    with texvent.EventCamera("64x48") as camera:
+    with texvent.EventCamera(SIZE[::-1]) as camera:
         for index, image in enumerate(frames()):
             camera.step(image, index * 20_000)
-    events = texvent.read_events("clip.h5")
+    events = texvent.load("clip.h5")
     matplotlib: Any = importlib.import_module("matplotlib")
     matplotlib.use("agg")
-    for kind in ("frame", "3d"):
+    for kind in ("frame", "cloud", "rate"):
         events.plot(kind)
 
 
