@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from pathlib import Path
 
 from texvent.errors import OutputError
@@ -14,7 +15,8 @@ CACHE_VARIABLE = "TEXVENT_CACHE"
 def cache_folder(kind: str = "") -> Path:
     """Folder of one kind of file: below $TEXVENT_CACHE, else below the user's cache folder.
 
-    The user's cache folder is $XDG_CACHE_HOME/texvent or ~/.cache/texvent. It is not created.
+    The user's cache folder is $XDG_CACHE_HOME/texvent or ~/.cache/texvent; without a home, as in
+    some containers, it is among the temporary files. It is not created.
 
     Args:
         kind: name of the folder, such as "weights"; "": the folder of all kinds.
@@ -22,8 +24,10 @@ def cache_folder(kind: str = "") -> Path:
     chosen = os.environ.get(CACHE_VARIABLE)
     if chosen:
         return Path(chosen).expanduser() / kind
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "texvent" / kind
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    if base.startswith("~"):
+        base = os.path.join(tempfile.gettempdir(), f"cache-{os.getuid()}")
+    return Path(base) / "texvent" / kind
 
 
 def make_folder(folder: Path, variable: str = CACHE_VARIABLE) -> None:
