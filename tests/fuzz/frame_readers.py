@@ -77,8 +77,7 @@ def _make_video(ending: str, folder: Path) -> Path:
 def _make_images(ending: str, folder: Path) -> Path:
     for index, image in enumerate(_images()[:3]):
         pixels = image[..., 0] if ending == ".pgm" else image
-        # What PNG and TIFF may hold beside 8 bits.
-        if ending in (".png", ".tiff") and index == 1:
+        if ending == ".tiff":  # what PNG and TIFF may hold beside 8 bits
             pixels = pixels.astype(np.uint16) * 257
         cv2.imwrite(str(folder / f"{index:03d}{ending}"), pixels)
     (folder / "timestamps.txt").write_text("0.0\n0.04\n0.08\n")

@@ -119,8 +119,7 @@ def test_options_refuse_what_only_looks_like_a_number(given):
 
 @pytest.mark.torch
 def test_tensors_of_narrow_floats_and_with_gradients_are_read():
-    import torch
-
+    torch = pytest.importorskip("torch")
     levels = torch.from_numpy(LEVELS).float()
     for tensor in (levels.bfloat16(), levels.half(), levels.requires_grad_()):
         array = as_array(tensor, "it")

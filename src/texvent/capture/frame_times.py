@@ -100,7 +100,7 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
         )
     check_increasing([int(time) for time in times], origin)
     step = float(np.median(np.diff(times))) if len(times) > 1 else math.inf
-    if step < MICROSECONDS / HIGHEST_FPS:
+    if 0 < step < MICROSECONDS / HIGHEST_FPS:
         warn(
             f"{origin}: frames are {step:g} µs apart, {MICROSECONDS / step:,.0f} per second; if "
             "times are ms, multiply them by 1000"

@@ -32,7 +32,11 @@ OPTIONS = [
     )
     if not (decay and cache != "global") and not (multi_event and stamp == "eq7")
 ]
-FORGETFUL = [one for one in OPTIONS if one["cache"] in ("local", "none")]
+FORGETFUL = [
+    one
+    for one in OPTIONS
+    if one["cache"] in ("local", "none") and one["timestamp_rule"] != "random"
+]
 switches = st.sampled_from(OPTIONS)
 noises = st.sampled_from(["adaptive", "gaussian", "random", "none"])
 seeds = st.integers(0, 2**63 - 1)
@@ -203,11 +207,11 @@ def test_splitting_the_stream_changes_nothing_when_state_is_carried(
 
 
 @CHECKED
-@given(clips(min_frames=3), st.sampled_from(FORGETFUL), noises, seeds, st.data())
-def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, seed, data):
-    """So a clip can be cut at source frames and simulated in parallel, noise included."""
+@given(clips(min_frames=3), st.sampled_from(FORGETFUL), seeds, st.data())
+def test_local_cache_needs_no_state_at_a_source_frame(frames, options, seed, data):
+    """So a clip can be cut at source frames, but for draws, which count from its first frame."""
     cut = data.draw(st.integers(1, len(frames) - 1))
     frames[cut] = Frame(frames[cut].pixels, frames[cut].t_us, is_source=True)
-    options = {"seed": seed, "noise": noise, **NOISY, **options}
+    options = {"seed": seed, "noise": "none", **options}
     parts = [simulate(frames[: cut + 1], **options), simulate(frames[cut:], **options)]
     assert EventStream.concat(parts).equals(simulate(frames, **options))

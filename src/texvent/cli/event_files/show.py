@@ -40,8 +40,8 @@ class ShownEventsOptions(EventRangeOptions):
 
     video: str = AUTOMATIC
     """Source video to show: a file, an image folder, none, auto or files. Auto renders the scene
-    again if the embedded generator made the file; files also a scene that shows pictures or models
-    of this machine, which are those that the event file names: for your own files."""
+    again if the embedded generator made the file; files also one with pictures or models that the
+    event file names: for your own files."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
