@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from texvent.errors import OutputError, shown
-from texvent.runtime.file_locks import hold_lock, is_locked, release
+from texvent.runtime.file_locks import is_locked, locked
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
@@ -291,12 +291,10 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, f".part{suffix}")
-    lock = None
     try:
-        lock = hold_lock(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
-        yield part
+        with locked(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666)):
+            yield part
     finally:
-        release(lock)
         with contextlib.suppress(PermissionError):  # still open, on Windows
             part.unlink(missing_ok=True)
         _own.discard(part)
@@ -311,14 +309,11 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, suffix)
-    lock = None
     try:
         part.mkdir()
-        if CAN_SWEEP:
-            lock = hold_lock(os.open(part, os.O_RDONLY))
-        yield part
+        with locked(os.open(part, os.O_RDONLY)) if CAN_SWEEP else contextlib.nullcontext():
+            yield part
     finally:
-        release(lock)
         shutil.rmtree(part, ignore_errors=True)
         _own.discard(part)
 

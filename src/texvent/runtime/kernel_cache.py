@@ -48,12 +48,6 @@ def cache_of(function: Any) -> Any:
         return _NoCache()
 
 
-def kernel_folder() -> Path | None:
-    """Folder of the compiled functions of this file's folder; None: they are kept nowhere."""
-    path = cache_of(cache_of).cache_path
-    return None if path is None else Path(path)
-
-
 class _HomeFolder(UserWideCacheLocator):
     """The user's cache folder, where the user has a home."""
 

@@ -8,7 +8,6 @@ import platform
 import re
 import shutil
 import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import metadata
@@ -20,7 +19,6 @@ from rich.markup import escape
 from texvent._registry import REGISTRIES
 from texvent._version import full_version
 from texvent.cli.options import parse_configs
-from texvent.runtime.kernel_cache import kernel_folder
 from texvent.runtime.memory import machine_bytes
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
@@ -65,7 +63,6 @@ def examine() -> list[Finding]:
     findings = [_python(), Finding("texvent", True, full_version())]
     findings += [_package(name) for name in _required("")]
     findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
-    findings += [_kernels()]
     extras = metadata.metadata("texvent").get_all("Provides-Extra") or []
     findings += [_extra(name) for name in extras if name not in DEVELOPERS]
     return findings
@@ -131,17 +128,6 @@ def _processors() -> Finding:
     size = machine_bytes()
     memory = "memory unknown" if size is None else f"{size / 2**30:.0f} GB memory"
     return Finding("processors", True, f"{os.cpu_count()} cores, {memory}")
-
-
-def _kernels() -> Finding:
-    """Where compiled functions are kept."""
-    folder = kernel_folder()
-    if folder is None or folder.is_relative_to(tempfile.gettempdir()):
-        remedy = "name a folder that can be written with NUMBA_CACHE_DIR"
-        state = "kept nowhere" if folder is None else f"kept in {folder.parent} for now"
-        return Finding("compiled functions", True, state, remedy)
-    state = "beside the package" if folder.name == "__pycache__" else f"in {folder.parent}"
-    return Finding("compiled functions", True, f"kept {state}")
 
 
 def _folder(name: str, path: Path) -> Finding:
