@@ -350,9 +350,10 @@ def remove_own_parts() -> None:
 
 
 def sweep(folder: Path) -> None:
-    """Remove parts of dead processes from a folder, once per process and folder.
+    """Remove this user's parts of dead processes from a folder, once per process and folder.
 
-    An output folder that was being replaced when its process died gets its name back.
+    An output folder that was being replaced when its process died gets its name back. Those of
+    other users stay: in a folder for temporary files they could become links meanwhile.
     """
     if not CAN_SWEEP or str(folder) in _swept:
         return
@@ -360,7 +361,8 @@ def sweep(folder: Path) -> None:
     with contextlib.suppress(OSError):
         for part in filter(is_hidden_part, folder.iterdir()):
             with contextlib.suppress(OSError):
-                if not part.is_symlink() and _is_dead(part) and not is_locked(part):
+                is_own = not part.is_symlink() and part.lstat().st_uid == os.geteuid()
+                if is_own and _is_dead(part) and not is_locked(part):
                     _remove(part)
 
 
