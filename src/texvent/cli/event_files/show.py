@@ -40,8 +40,8 @@ class ShownEventsOptions(EventRangeOptions):
 
     video: str = AUTOMATIC
     """Source video to show: a file, an image folder, none, auto or files. Auto renders the scene
-    again if the embedded generator made the file; files also a scene that shows pictures or models
-    of this machine, which are those that the event file names: for your own files."""
+    again if the embedded generator made the file; files also one with pictures or models of this
+    machine, which the event file names."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -123,8 +123,8 @@ class ViewOptions(ShownEventsOptions):
     """Which events, and how the page is made."""
 
     out: Path | None = None
-    """Page to save (.html). Without it, a temporary page is made and opened in the browser; a later
-    view removes it when it is a day old."""
+    """Page to save (.html). Without it, a temporary page is made and opened in the browser; it
+    stays for a day."""
     points: int = 1_000_000
     """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
     and the page says so. A million make a page of 12 MB."""
