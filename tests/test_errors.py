@@ -41,6 +41,7 @@ ADDRESSES = {
     "rtsp://me:hid@den@cam/s": "rtsp://cam/s",
     "rtsp://me:hid/den@cam:554/s": "rtsp://cam:554/s",
     "rtsp://me:hid?den#@cam/s": "rtsp://cam/s",
+    "rtsp://me:hid'den@cam/s": "rtsp://cam/s",
     "rtsp://me%3Ahidden@cam.org/s": "rtsp://cam.org/s",
     "rtsp://hidden@cam/s": "rtsp://cam/s",
     "rtsp:/me:hidden@cam/s": "rtsp:/cam/s",
@@ -51,13 +52,12 @@ ADDRESSES = {
     "http://cam/s?hidden=": "http://cam/s...",
     "http://cam/s%3Ftoken%3Dhidden": "http://cam/s...",
     "rtsp://10.0.0.9:554/user=me_password=hidden_channel=1.sdp": "rtsp://10.0.0.9:554/user...",
-    "me:hidden@cam/s": "cam/s",
-    "me:hid/den@cam.org": "cam.org",
     "http://cam.org:80/a@2x/b.mp4": "http://2x/b.mp4",  # the a could be a password
     "http://cam.org/a@2x/b.mp4": "http://cam.org/a@2x/b.mp4",
     "/data/a:b@c.mp4": "/data/a:b@c.mp4",
     "C:/clips/a@2x.mp4": "C:/clips/a@2x.mp4",
     "clip@2x.mp4": "clip@2x.mp4",
+    "a dog, seed:7@night": "a dog, seed:7@night",
 }
 
 

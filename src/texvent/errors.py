@@ -85,11 +85,11 @@ def without_password(address: str) -> str:
     """
     scheme = _SCHEME.match(address)
     if scheme is None:
-        return re.sub(r"^(?![A-Za-z]:[/\\])[^/@\s]*:[^@]*@(?=[\w.-]+(:|/|$))", "", address)
+        return address
     begin, rest = scheme[0], address[scheme.end() :]
     user, at, after = rest.rpartition("@")
     # After a host without a port, an @ may be part of a name.
-    if at and not (re.fullmatch(r"[\w-]+(\.[\w-]+)+/[^@:]*", user)):
+    if at and not re.fullmatch(r"[\w-]+(\.[\w-]+)+/[^@:]*", user):
         rest = after
     host = re.match(r"(\[[\da-fA-F:.%]+\]|[\w.-]*)(:\d*)?(?=[/?#;]|$)", rest)
     if host is None:
@@ -105,10 +105,7 @@ def _without_passwords(text: str) -> str:
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{1,20}:){1,3}/+")
 """Begin of an address; a `Path` has one / of it, and a letter alone is a drive of Windows."""
-_WORD = r"[^\s'\"]{0,2000}"
-_SECRETS = re.compile(
-    rf"{_SCHEME.pattern}{_WORD}([@=]|%3[dD]|%40){_WORD}|(?<![^\s'\"(])[^\s/@:'\"]{{1,64}}:[^\s@'\"]+@[\w.-]+"
-)
+_SECRETS = re.compile(rf"{_SCHEME.pattern}\S{{0,2000}}([@=]|%3[dD]|%40)[^\s'\"]{{0,2000}}")
 
 
 def few(words: Sequence[str], most: int = MOST_WORDS) -> str:

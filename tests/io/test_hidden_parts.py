@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -158,3 +159,13 @@ def test_another_pid_namespace_removes_no_part_that_is_written(tmp_path: Path) -
     (tmp_path / ".texvent-x-1-x.part.h5").touch()
     sweep()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_parts_of_other_users_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    part = tmp_path / ".texvent-x-1-x.old"
+    (part / "mine").mkdir(parents=True)
+    os.utime(part, (1, 1))
+    user = os.geteuid()
+    monkeypatch.setattr(os, "geteuid", lambda: user + 1)
+    atomic.sweep(tmp_path)
+    assert list(tmp_path.iterdir()) == [part]

@@ -63,13 +63,8 @@ def _lasting(stream: TextIO | None, number: int) -> TextIO:
     """The stream, unless it is a terminal, over a descriptor that lasts."""
     if stream is not None and (stream.isatty() or not isinstance(stream, io.TextIOWrapper)):
         return stream
-    lasting = io.BufferedWriter(_Lasting(number, "w", closefd=False))
-    if stream is None:
-        return io.TextIOWrapper(lasting, encoding="utf-8")
     return io.TextIOWrapper(
-        lasting,
-        encoding=stream.encoding,
-        errors=stream.errors,
-        line_buffering=stream.line_buffering,
-        write_through=stream.write_through,
+        io.BufferedWriter(_Lasting(number, "w", closefd=False)),
+        encoding="utf-8" if stream is None else stream.encoding,
+        line_buffering=stream is None or stream.line_buffering or stream.write_through,
     )

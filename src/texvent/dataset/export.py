@@ -94,7 +94,7 @@ def export(
         raise ConfigError(f"classes are those of boxes, and layout {layout} holds none")
     listed = find_classes(dataset, chosen, layout, variant, classes)
     recipe, no_frames = find_recipe(dataset, chosen, layout)
-    was_begun = _begin(dataset, layout, folder, variant, listed)
+    _begin(dataset, layout, folder, variant, listed)
     samples = Samples(dataset, chosen, variant, listed, recipe)
     written, kept, empty = 0, 0, 0
     for sample in samples:
@@ -107,8 +107,7 @@ def export(
                 empty += 1
                 continue
         written += 1
-    there = (one for one in samples if (folder / one.place).exists())
-    chosen.finish(folder, there, listed.names, was_begun)
+    chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
     doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
@@ -117,8 +116,8 @@ def export(
 
 def _begin(
     dataset: StoredDataset, layout: str, folder: Path, variant: str, classes: ClassList
-) -> bool:
-    """Note what the folder is, or see that it is the same export, whose lists may be replaced.
+) -> None:
+    """Note what the folder is, or see that it is the same export.
 
     Raises:
         OutputError: it is of something else.
@@ -136,7 +135,7 @@ def _begin(
     try:
         before = json.loads(path.read_text("utf-8")) if path.is_file() else None
         if before == note:
-            return True
+            return
         if isinstance(before, dict):
             change = describe_differences(before, note)
             raise OutputError(f"{folder} is another export: {change}; name a new folder with -o")
@@ -147,4 +146,3 @@ def _begin(
         raise OutputError(f"cannot write to {folder} ({one_line(error)})") from error
     with atomic_file(path, overwrite=False) as part:
         part.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
-    return False

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from texvent.errors import OutputError, shown
-from texvent.runtime.file_locks import hold_lock, is_locked, release
+from texvent.runtime.file_locks import is_locked, locked
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
@@ -291,12 +291,10 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, f".part{suffix}")
-    lock = None
     try:
-        lock = hold_lock(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
-        yield part
+        with locked(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666)):
+            yield part
     finally:
-        release(lock)
         with contextlib.suppress(PermissionError):  # still open, on Windows
             part.unlink(missing_ok=True)
         _own.discard(part)
@@ -311,14 +309,11 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
     """
     sweep(folder)
     part = _new_part(folder, suffix)
-    lock = None
     try:
         part.mkdir()
-        if CAN_SWEEP:
-            lock = hold_lock(os.open(part, os.O_RDONLY))
-        yield part
+        with locked(os.open(part, os.O_RDONLY)) if CAN_SWEEP else contextlib.nullcontext():
+            yield part
     finally:
-        release(lock)
         shutil.rmtree(part, ignore_errors=True)
         _own.discard(part)
 
@@ -355,9 +350,10 @@ def remove_own_parts() -> None:
 
 
 def sweep(folder: Path) -> None:
-    """Remove parts of dead processes from a folder, once per process and folder.
+    """Remove this user's parts of dead processes from a folder, once per process and folder.
 
-    An output folder that was being replaced when its process died gets its name back.
+    An output folder that was being replaced when its process died gets its name back. Those of
+    other users stay: in a folder for temporary files they could become links meanwhile.
     """
     if not CAN_SWEEP or str(folder) in _swept:
         return
@@ -365,7 +361,8 @@ def sweep(folder: Path) -> None:
     with contextlib.suppress(OSError):
         for part in filter(is_hidden_part, folder.iterdir()):
             with contextlib.suppress(OSError):
-                if not part.is_symlink() and _is_dead(part) and not is_locked(part):
+                is_own = not part.is_symlink() and part.lstat().st_uid == os.geteuid()
+                if is_own and _is_dead(part) and not is_locked(part):
                     _remove(part)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import struct
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 LOCK = struct.Struct("hhqqi")
@@ -11,26 +13,20 @@ LOCK = struct.Struct("hhqqi")
 LOCKED_BYTE = 2**62
 
 
-def hold_lock(descriptor: int) -> int | None:
-    """Hold a lock on a part: a process elsewhere may see no process of its number.
+@contextmanager
+def locked(descriptor: int) -> Iterator[None]:
+    """Lock an open part while the block runs; close it at once where no such locks are known.
 
-    It is one of an open file, far behind its end, so that libraries may lock the part too.
-
-    Returns:
-        The descriptor; None where the system or the file system knows no such locks.
+    A process elsewhere may see no process of the part's number. The lock is far behind the end, so
+    that libraries may lock the part too.
     """
-    try:
-        _ask_lock(descriptor, "F_OFD_SETLK", "F_RDLCK")
-    except (ImportError, AttributeError, OSError):
-        os.close(descriptor)
-        return None
-    return descriptor
-
-
-def release(descriptor: int | None) -> None:
-    """End a lock."""
-    if descriptor is not None:
-        os.close(descriptor)
+    with ExitStack() as stack:
+        stack.callback(os.close, descriptor)
+        try:
+            _ask_lock(descriptor, "F_OFD_SETLK", "F_RDLCK")
+        except (ImportError, AttributeError, OSError):
+            stack.close()
+        yield
 
 
 def is_locked(part: Path) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import glob
 import hashlib
@@ -113,38 +114,38 @@ def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
 
 
 def describe_state(source: str | Path) -> dict[str, str] | None:
-    """Facts of a file or folder that tell later whether it was replaced; None: there is none.
+    """Facts of a file or folder that tell later whether it was replaced; None: it cannot be read.
 
     `seen` is known at once, from names, sizes and times of change; `contents` is read.
     """
-    files = _files_of(Path(source))
-    if not files:
+    try:
+        listing = _listing(Path(source))
+        contents = [(Path(one[0]).name, _file_fingerprint(*one)) for one in listing]
+    except OSError:
         return None
-    contents = []
-    for path in files:
-        status = path.stat()
-        found = _file_fingerprint(str(path.absolute()), status.st_size, status.st_mtime_ns)
-        contents.append((path.name, found))
-    return {"seen": _seen(files), "contents": hashlib.sha256(repr(contents).encode()).hexdigest()}
+    return {"seen": _digest(listing), "contents": _digest(contents)} if listing else None
 
 
 def is_replaced(source: str | Path, state: Any) -> bool:
     """Whether a file or folder holds something else than when `describe_state` described it.
 
-    One that is gone, or was not described, was not replaced.
+    One that is gone, cannot be read, or was not described, was not replaced.
     """
-    files = _files_of(Path(source))
-    if not files or not isinstance(state, Mapping) or state.get("seen") == _seen(files):
+    if not isinstance(state, Mapping):
         return False
+    with contextlib.suppress(OSError):
+        if state.get("seen") == _digest(_listing(Path(source))):
+            return False
     now = describe_state(source)
     return now is not None and now["contents"] != state.get("contents")
 
 
-def _files_of(path: Path) -> list[Path]:
+def _listing(path: Path) -> list[tuple[str, int, int]]:
+    """Absolute path, size and time of change of a file, or of those in a folder."""
     inside = sorted(path.iterdir()) if path.is_dir() else [path]
-    return [one for one in inside if one.is_file()]
+    files = [(one, one.stat()) for one in inside if one.is_file()]
+    return [(str(one.absolute()), status.st_size, status.st_mtime_ns) for one, status in files]
 
 
-def _seen(files: list[Path]) -> str:
-    listing = [(one.name, one.stat().st_size, one.stat().st_mtime_ns) for one in files]
-    return hashlib.sha256(repr(listing).encode()).hexdigest()
+def _digest(values: list[Any]) -> str:
+    return hashlib.sha256(repr(values).encode()).hexdigest()

@@ -222,5 +222,5 @@ def _page(
         for packet in packets:
             page.append(packet)
         for frame in source.frames_during(extent):
-            page.append_frame(frame, of=source.step_during(extent))
+            page.append_frame(frame)
         page.still = still

@@ -229,11 +229,11 @@ def _last_frame(video: DrawnFrames, t_us: int) -> int:
 
 
 def _shown(video: DrawnFrames, extent: tuple[int, int] | None) -> range:
-    """Numbers of the frames that a page is given of a scene: all of its part, or every 2ⁿ-th."""
+    """Numbers of the frames that a page is given of a scene: all of its part, or every n-th."""
     first, last = 0, (video.frame_count or 1) - 1
     if extent is not None:
         first, last = (_last_frame(video, t_us) for t_us in (extent[0], extent[1] - 1))
-    return range(first, last + 1, 1 << ((last - first) // MOST_DRAWN).bit_length())
+    return range(first, last + 1, (last - first) // MOST_DRAWN + 1)
 
 
 def _draw(video: DrawnFrames, number: int) -> Frame:
@@ -289,10 +289,6 @@ class SourceOverlay:
                 image = None
             image = _image(shown) if image is None else image
             yield replace(window, image=image)
-
-    def step_during(self, extent: tuple[int, int] | None) -> int:
-        """Every so many frames of a scene are shown: a page keeps fewer of them still."""
-        return _shown(self.frames, extent).step if isinstance(self.frames, DrawnFrames) else 1
 
     def frames_during(self, extent: tuple[int, int] | None) -> Iterator[Frame]:
         """The frames shown from start to stop, µs; a video may be longer than the events.

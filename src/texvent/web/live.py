@@ -249,8 +249,8 @@ class LiveEvents:
 
 def _reported(error: Exception, recording: Recording | None = None) -> TexventError:
     """An error in one line, with the place of the events that it could not spoil."""
-    is_own = isinstance(error, TexventError)
-    text = str(error) if is_own else f"{type(error).__name__}: {one_line(error)}"
-    if recording is not None:
-        return OutputError(f"{text}; its events until then are in {recording.copy}")
-    return error if isinstance(error, TexventError) else TexventError(text)
+    if not isinstance(error, TexventError):
+        error = TexventError(f"{type(error).__name__}: {one_line(error)}")
+    if recording is None:
+        return error
+    return OutputError(f"{error}; its events until then are in {recording.copy}")

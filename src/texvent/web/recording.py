@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import OutputError
 from texvent.events import EventStream
@@ -73,11 +74,8 @@ class Recording:
         """
         if len(events):
             since_start = events.t - self._start_us
-            columns = {"x": events.x, "y": events.y, "p": events.p, "t_us": since_start}
-            rows = np.empty(len(events), RECORD)
-            for name, column in columns.items():
-                rows[name] = column
-            self._append(rows)
+            columns: list[NDArray[Any]] = [events.x, events.y, events.p, since_start]
+            self._append(np.rec.fromarrays(columns, dtype=RECORD))
             self._writer.append(replace(events, t=since_start))
 
     def close(self, facts: Mapping[str, Any], *raised: Any) -> None:

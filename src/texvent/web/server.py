@@ -9,7 +9,7 @@ as a cookie.
 from __future__ import annotations
 
 import contextlib
-import io
+import functools
 import json
 import secrets
 import socket
@@ -21,7 +21,6 @@ from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
-from types import MappingProxyType
 from typing import Any, NamedTuple, Self, TypeAlias
 
 from texvent.errors import InputError, TexventError, one_line
@@ -89,7 +88,7 @@ class PageServer:
         except OSError as error:
             reason = f"{error.strerror}; choose another port, or none"
             raise InputError(f"cannot listen on port {port}: {reason}") from error
-        self._server.page = self  # type: ignore[attr-defined]
+        self._server.page = self
         port = self._server.server_port
         self.address = f"http://{HOST}:{port}/"
         self.token, self.cookie = secrets.token_urlsafe(), f"texvent-{port}"
@@ -120,21 +119,27 @@ class _Server(ThreadingHTTPServer):
     """The server; a connection that breaks off ends silently."""
 
     request_queue_size = 128
-    arriving: dict[socket.socket, None]
-    """Connections whose request is not known to be the user's yet, the oldest first."""
+    page: PageServer
+    arriving: dict[socket.socket, float]
+    """Connections whose request is not known to be the user's yet → when they began, s."""
 
     def __init__(self, *arguments: Any) -> None:
         self.arriving = {}
         super().__init__(*arguments)
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """Answer a connection in a thread; too many end the oldest."""
-        for oldest in [*self.arriving][: len(self.arriving) + 1 - MOST_CONNECTIONS]:
-            self.arriving.pop(oldest, None)
-            with contextlib.suppress(OSError):
-                oldest.shutdown(socket.SHUT_RDWR)
-        self.arriving[request] = None
+        """Answer a connection in a thread."""
+        self.arriving[request] = time.monotonic()
         super().process_request(request, client_address)
+
+    def service_actions(self) -> None:
+        """After each connection, and twice a second: end those that are too old or too many."""
+        connections = list(self.arriving.items())
+        for place, (connection, began_s) in enumerate(connections, start=MOST_CONNECTIONS):
+            if place < len(connections) or time.monotonic() - began_s > READ_S:
+                self.arriving.pop(connection, None)
+                with contextlib.suppress(OSError):
+                    connection.shutdown(socket.SHUT_RDWR)
 
     def shutdown_request(self, request: Any) -> None:
         """Close a connection."""
@@ -151,49 +156,32 @@ class _Handler(BaseHTTPRequestHandler):
     """Checks requests and hands them to the page."""
 
     server: _Server
-
-    @property
-    def page(self) -> PageServer:
-        page: PageServer = self.server.page  # type: ignore[attr-defined]
-        return page
-
-    def setup(self) -> None:
-        """Read with a time limit for all of the request."""
-        super().setup()
-        self.rfile = io.BufferedReader(_Arriving(self.connection, time.monotonic() + READ_S))
+    timeout = SEND_S
 
     def do_GET(self) -> None:
         """The page, or a part of it."""
-        if self._is_refused():
-            return
         path, query = self._path
-        get = self.page.gets.get(path)
-        self._answer((lambda: get(query)) if get else lambda: None)
+        get = self.server.page.gets.get(path)
+        self._answer(get and functools.partial(get, query))
 
     def do_POST(self) -> None:
         """An action."""
-        if self._is_refused():
-            return
-        action = self.page.posts.get(self._path[0])
-        if action is None:
-            self._answer(lambda: None)
-            return
-        try:
-            values = self._json()
-        except _RequestError as error:
-            self._refuse(error.status, str(error))
-            return
+        action = self.server.page.posts.get(self._path[0])
 
-        def act() -> Answer:
-            action(values)
+        def act(action: Callable[[Mapping[str, Any]], None]) -> Answer:
+            action(self._json())
             return Answer("{}")
 
-        self._answer(act)
+        self._answer(action and functools.partial(act, action))
 
-    def _answer(self, find: Callable[[], Answer | None]) -> None:
+    def _answer(self, find: Callable[[], Answer | None] | None) -> None:
         """Send an answer, or one line why there is none."""
+        if self._is_refused():
+            return
         try:
-            answer = find()
+            answer = find and find()
+        except _RequestError as error:
+            self._refuse(error.status, str(error))
         except TexventError as error:
             self._refuse(HTTPStatus.BAD_REQUEST, str(error))
         except Exception as error:  # noqa: BLE001  # whatever it is, the page must not wait for ever
@@ -212,7 +200,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _is_refused(self) -> bool:
         """Refuse a request of another host, another page, or one who does not know the token."""
-        own = self.page.address.removeprefix("http://").rstrip("/")
+        own = self.server.page.address.removeprefix("http://").rstrip("/")
         names = {own, own.replace(HOST, "localhost")}
         host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
         site, (path, query) = self.headers.get("Sec-Fetch-Site", "none"), self._path
@@ -233,12 +221,12 @@ class _Handler(BaseHTTPRequestHandler):
         return True
 
     def _is_token(self, text: str) -> bool:
-        return secrets.compare_digest(text.encode(), self.page.token.encode())
+        return secrets.compare_digest(text.encode(), self.server.page.token.encode())
 
     def _cookies(self) -> list[str]:
         """Values of this server's cookie."""
         pairs = (one.strip().partition("=") for one in self.headers.get("Cookie", "").split(";"))
-        return [value for name, _, value in pairs if name == self.page.cookie]
+        return [value for name, _, value in pairs if name == self.server.page.cookie]
 
     def _hand_over_token(self, *, is_followed: bool) -> None:
         """Put the token into a cookie, and lead away from the address that shows it.
@@ -246,7 +234,9 @@ class _Handler(BaseHTTPRequestHandler):
         A browser that another page or file led here sends no such cookie along a redirection;
         it does when the answer itself goes on to the page.
         """
-        cookie = f"{self.page.cookie}={self.page.token}; Path=/; HttpOnly; SameSite=Strict"
+        cookie = (
+            f"{self.server.page.cookie}={self.server.page.token}; Path=/; HttpOnly; SameSite=Strict"
+        )
         on = {"Location": "/"} if is_followed else {"Refresh": "0; url=/"}
         status = HTTPStatus.SEE_OTHER if is_followed else HTTPStatus.OK
         self._send(Answer("", HTML), status, {"Set-Cookie": cookie, **on})
@@ -274,14 +264,13 @@ class _Handler(BaseHTTPRequestHandler):
         self,
         answer: Answer,
         status: int = HTTPStatus.OK,
-        more: Mapping[str, str] = MappingProxyType({}),
+        more: Mapping[str, str] | None = None,
     ) -> None:
         content, kind, policy = answer
         body = content.encode() if isinstance(content, str) else content
-        headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy, **more}
-        self.connection.settimeout(SEND_S)
+        headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy}
         self.send_response(status)
-        for name, value in headers.items():
+        for name, value in {**headers, **(more or {})}.items():
             self.send_header(name, value)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()
@@ -289,22 +278,6 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Nothing: the terminal belongs to the command."""
-
-
-class _Arriving(io.RawIOBase):
-    """Bytes of a connection until a moment of `time.monotonic`."""
-
-    def __init__(self, connection: socket.socket, until_s: float) -> None:
-        self._connection, self._until_s = connection, until_s
-
-    def readable(self) -> bool:
-        """It is."""
-        return True
-
-    def readinto(self, buffer: Any) -> int:
-        """The next bytes; raises TimeoutError."""
-        self._connection.settimeout(max(1e-3, self._until_s - time.monotonic()))
-        return self._connection.recv_into(buffer)
 
 
 class _RequestError(Exception):

@@ -30,6 +30,7 @@ from texvent.errors import ConfigError, FileFormatError, OutputError, TexventWar
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
+from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 
 SMALL = {"duration": 0.1, "sensor": "32x24"}
@@ -219,6 +220,19 @@ def test_shards_of_a_replaced_video_are_made_again_and_no_others(tmp_path: Path)
     assert not find_work(recipe, folder).todo
     clip.unlink()  # what is made needs no video
     assert not find_work(recipe, folder).todo
+
+
+def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: Any) -> str:
+        raise PermissionError
+
+    clip = tmp_path / "v.npy"
+    clip.touch()
+    monkeypatch.setattr(provenance, "_file_fingerprint", refuse)
+    assert provenance.describe_state(clip) is None
+    assert not provenance.is_replaced(clip, {"seen": "", "contents": ""})
 
 
 def test_videos_of_folders_of_one_name_are_told_apart(tmp_path: Path) -> None:

@@ -123,8 +123,8 @@ class ViewOptions(ShownEventsOptions):
     """Which events, and how the page is made."""
 
     out: Path | None = None
-    """Page to save (.html). Without it, a temporary page is made and opened in the browser; a later
-    view removes it when it is a day old."""
+    """Page to save (.html). Without it, a temporary page is made and opened in the browser; it
+    stays for a day."""
     points: int = 1_000_000
     """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
     and the page says so. A million make a page of 12 MB."""

@@ -48,7 +48,7 @@ def _images(sample: LayoutSample) -> Iterator[tuple[str, int]]:
 
 
 def _write_annotations(
-    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...], overwrite: bool
+    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]
 ) -> None:
     names = dict(enumerate(classes, start=FIRST_CLASS))
     numbers = count(1)
@@ -57,7 +57,7 @@ def _write_annotations(
         for sample in samples:
             if sample.split not in files:
                 path = inside(folder, f"{sample.split}/annotations.json")
-                part = stack.enter_context(atomic_file(path, overwrite=overwrite))
+                part = stack.enter_context(atomic_file(path, overwrite=True))
                 context = open_coco(part, classes=names, info={})
                 files[sample.split] = stack.enter_context(context)
             for name, t_us in _images(sample):

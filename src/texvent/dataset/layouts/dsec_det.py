@@ -88,13 +88,11 @@ def write_dsec_events(path: Path, events: EventStream, times_us: NDArray[np.int6
         file["t_offset"] = np.int64(first)
 
 
-def _write_splits(
-    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...], overwrite: bool
-) -> None:
+def _write_splits(folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]) -> None:
     splits: dict[str, list[str]] = {}
     for sample in samples:
         splits.setdefault(sample.split, []).append(sample.key)
-    with atomic_file(inside(folder, SPLIT_FILE), overwrite=overwrite) as part:
+    with atomic_file(inside(folder, SPLIT_FILE), overwrite=True) as part:
         part.write_text(yaml.safe_dump(splits, sort_keys=False), encoding="utf-8")
 
 

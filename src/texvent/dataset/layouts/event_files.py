@@ -28,7 +28,6 @@ def _write_lists(
     folder: Path,
     samples: Iterable[LayoutSample],
     classes: tuple[str, ...],
-    overwrite: bool,
     *,
     are_absolute: bool,
 ) -> None:
@@ -38,8 +37,7 @@ def _write_lists(
         place = str(folder.absolute() / sample.place) if are_absolute else sample.place
         lists.setdefault(sample.split, []).append(place)
     for split, places in lists.items():
-        path = inside(folder, name.format(split=split))
-        with atomic_file(path, overwrite=overwrite) as part:
+        with atomic_file(inside(folder, name.format(split=split)), overwrite=True) as part:
             part.write_text("".join(f"{place}\n" for place in places), encoding="utf-8")
 
 

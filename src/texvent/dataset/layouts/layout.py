@@ -46,14 +46,11 @@ class LayoutSample:
 Write = Callable[[LayoutSample, Path], bool]
 """Writes a sample to a path, which appears when it is complete; False if the layout cannot hold it
 without a box."""
-Finish = Callable[[Path, Iterable[LayoutSample], tuple[str, ...], bool], None]
-"""Writes what belongs to all samples into the folder; given are those written, the classes, and
-whether an earlier run of the export may have written it."""
+Finish = Callable[[Path, Iterable[LayoutSample], tuple[str, ...]], None]
+"""Writes what belongs to all samples into the folder; given are those written, and the classes."""
 
 
-def nothing_more(
-    folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...], overwrite: bool
-) -> None:
+def nothing_more(folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]) -> None:
     """A `Finish` for layouts that are complete with their samples."""
 
 

@@ -176,8 +176,8 @@ def video_html(strip: FrameStrip) -> str:
         '<figure class="plane"><div class="panel">'
         '<canvas id="video-canvas" role="img" aria-label="The video at the start of the chosen '
         'time"></canvas><div class="region-mark" hidden></div></div>'
-        f"<figcaption>The source video; {len(strip.images)} of {strip.seen} frames are in this "
-        "page</figcaption></figure>"
+        f"<figcaption>The source video; {len(strip.images)} of its frames are in this page"
+        "</figcaption></figure>"
     )
 
 

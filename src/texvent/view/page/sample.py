@@ -58,13 +58,12 @@ class FrameStrip:
         self.images: list[tuple[int, bytes]] = []
         """Time, µs, and JPEG file of the frames kept, in time order."""
 
-    def append(self, frame: Frame, *, of: int = 1) -> None:
-        """Offer a frame, the first of `of` (a power of two); interpolated ones are left out."""
+    def append(self, frame: Frame) -> None:
+        """Offer a frame; interpolated ones are left out."""
         if not frame.is_source:
             return
         index = self.seen
-        self.seen += of
-        self._stride = max(self._stride, of)
+        self.seen += 1
         if index % self._stride:
             return
         if len(self.images) == self._limit:

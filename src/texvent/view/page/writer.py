@@ -92,9 +92,9 @@ class PageWriter(AtomicOutput):
         """Show more facts of the run, known only now."""
         self._metadata.update(facts)
 
-    def append_frame(self, frame: Frame, *, of: int = 1) -> None:
-        """Offer a frame of the source video, the first of `of`; the page keeps a few."""
-        self._strip.append(frame, of=of)
+    def append_frame(self, frame: Frame) -> None:
+        """Offer a frame of the source video; the page keeps a few."""
+        self._strip.append(frame)
 
     def _complete(self) -> None:
         if self._part is None:
