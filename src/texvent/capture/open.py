@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
-from texvent.capture.decoding.animation import is_animation, is_webp, open_webp, read_head
+from texvent.capture.decoding.animation import open_webp, read_head
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder, count_images
 from texvent.capture.intensity_scale import check_whole_scale
@@ -25,6 +25,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, is_address
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
+from texvent.runtime.image_files import is_animation, is_webp
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video, transfer_of
@@ -268,9 +269,8 @@ def _is_scale_known(stream: FrameStream, config: CaptureConfig) -> bool:
     Raises:
         InputError: its frames can be read again, and are most likely 0..1.
     """
-    if isinstance(stream, NotebookFrames) and not isinstance(stream, Video):
-        return True  # texvent's own
-    if config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
+    is_own = isinstance(stream, NotebookFrames) and type(stream) is not Video
+    if is_own or config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
         return True
     if stream.is_live or not isinstance(stream, (Video, RenderableStream)):
         return False

@@ -123,12 +123,6 @@ class VideoFile(FrameSource):
             return found.count
         if found.constant_rate is not None:
             self._rate, self._is_counting = found.constant_rate, True
-            if not found.is_stated:
-                warn(
-                    f"{self._path}: frames share times, since the file's clock is coarse; they are "
-                    f"taken {float(self._rate):,.6g} a second, as they come on average; give the "
-                    "exact rate (`fps`)"
-                )
         self._note_repeats(found.repeats, found.count)
         return found.count - found.repeats
 

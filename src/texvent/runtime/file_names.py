@@ -93,7 +93,9 @@ def in_natural_order(paths: Iterable[Path]) -> list[Path]:
 
     def key(path: Path) -> tuple[Any, ...]:
         parts: list[Any] = []
-        for place, (text, number) in enumerate(zip(words[path][:-1:2], words[path][1::2], strict=True)):
+        for place, (text, number) in enumerate(
+            zip(words[path][:-1:2], words[path][1::2], strict=True)
+        ):
             is_signed = text.endswith("-") and text[:-1] in columns[2 * place]
             value: Any = -Fraction(number) if is_signed else Fraction(number)
             if counted[2 * place + 1]:

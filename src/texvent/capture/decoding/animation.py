@@ -9,22 +9,8 @@ import numpy as np
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_times import FrameTimes, check_increasing
 from texvent.errors import FileFormatError, InputError
+from texvent.runtime.image_files import HEAD_BYTES
 from texvent.runtime.memory import usable_bytes
-
-HEAD_BYTES = 4096
-"""An animation says that it is one before its first pixels."""
-
-
-def is_animation(head: bytes) -> bool:
-    """Whether an image file that begins like this is an animated PNG or WebP."""
-    if head.startswith(b"\x89PNG"):
-        return b"acTL" in head
-    return is_webp(head) and head[12:16] == b"VP8X" and bool(head[20] & 2)
-
-
-def is_webp(head: bytes) -> bool:
-    """Whether a file that begins like this is WebP."""
-    return head[:4] == b"RIFF" and head[8:12] == b"WEBP" and len(head) > 30
 
 
 def read_head(path: Path) -> bytes:
