@@ -66,12 +66,7 @@ def is_animation(head: bytes) -> bool:
     """Whether an image file that begins like this is an animated PNG or WebP."""
     if head.startswith(b"\x89PNG"):
         return b"acTL" in head
-    return is_webp(head) and head[12:16] == b"VP8X" and bool(head[20] & 2)
-
-
-def is_webp(head: bytes) -> bool:
-    """Whether a file that begins like this is WebP."""
-    return head[:4] == b"RIFF" and head[8:12] == b"WEBP" and len(head) > 30
+    return head[8:16] == b"WEBPVP8X" and bool(head[20:21] and head[20] & 2)
 
 
 def stated_bytes(data: bytes) -> int:
@@ -96,7 +91,7 @@ def stated_bytes(data: bytes) -> int:
         width, height = map(abs, struct.unpack_from("<ii", data, 18))
     elif data[:4] == b"GIF8":
         width, height = struct.unpack_from("<HH", data, 6)
-    elif is_webp(data):
+    elif data[8:12] == b"WEBP":
         width, height = _webp_size(data)
     elif data[4:8] in (b"jP  ", b"ftyp") or data[:4] == _JPEG_2000:
         width, height, bits = *_boxed_size(data), 16

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
 
 import numpy as np
 from av.container import InputContainer
@@ -15,7 +15,8 @@ FEW_TICKS = 10
 """Frames closer than this many ticks of the file's clock have intervals wrong by more than 5 %."""
 
 
-class PacketTimes(NamedTuple):
+@dataclass(frozen=True)
+class PacketTimes:
     """Facts of a whole file."""
 
     count: int
