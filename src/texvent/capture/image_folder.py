@@ -82,7 +82,7 @@ class ImageFolder(FrameSource):
         gap = None
         if file is not None and listing is not None and listing.names is not None:
             paths = _named_images(listing, file, images_folder)
-        elif images_folder == folder and folder.is_file():
+        elif folder.is_file():
             paths = [folder]
         else:
             paths = in_natural_order(filter(_is_image, images_folder.iterdir()))

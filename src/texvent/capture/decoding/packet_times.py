@@ -33,19 +33,15 @@ def needs_packet_times(stream: VideoStream) -> bool:
     return not stream.frames or bool(_coarse_rates(stream))
 
 
-def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes | None:
-    """Read all packets of a stream; what is damaged ends the count, and decoding says so.
-
-    Returns:
-        None where packets have no time.
-    """
-    times: list[int] = []
+def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes:
+    """Read all packets of a stream; what is damaged ends the count, and decoding says so."""
+    times: list[int | None] = []
     with contextlib.suppress(FFmpegError):
         for packet in container.demux(stream):
             if packet.size and not packet.is_discard:
-                if packet.pts is None:
-                    return None
                 times.append(packet.pts)
+    if None in times:
+        return PacketTimes(len(times), 0, None)
     ticks = np.sort(np.array(times, np.int64))
     for rate, ticks_per_frame in _coarse_rates(stream).items():
         even = np.arange(len(ticks)) * ticks_per_frame
