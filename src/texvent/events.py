@@ -116,11 +116,11 @@ class EventStream(EventEdits):
 
         With `sort`, events are brought into time order; those of one time keep theirs.
         """
-        columns = [as_array(one, name) for one, name in zip((x, y, t, p), "xytp", strict=True)]
-        if sort and columns[2].ndim == 1 == len({column.shape for column in columns}):
-            order = np.argsort(columns[2], kind="stable")
-            columns = [column[order] for column in columns]
-        return cls(*columns, size=as_size(size), metadata=metadata or {})
+        x, y, t, p = (as_array(one, name) for one, name in zip((x, y, t, p), "xytp", strict=True))
+        if sort and t.ndim == 1 == len({x.shape, y.shape, t.shape, p.shape}):
+            order = np.argsort(t, kind="stable")
+            x, y, t, p = x[order], y[order], t[order], p[order]
+        return cls(x, y, t, p, as_size(size), metadata or {})
 
     @classmethod
     def concat(cls, streams: Iterable[EventStream]) -> EventStream:
