@@ -81,7 +81,8 @@ class EventStream(EventEdits):
 
     def __post_init__(self) -> None:
         size = as_size(self.size)
-        columns = {name: _whole_column(name, getattr(self, name)) for name in "xytp"}
+        columns = {name: whole_numbers(getattr(self, name), name) for name in "xyp"}
+        columns["t"] = whole_numbers(self.t, "t", f"integers, µs: {HOW_TO_ROUND}")
         _check_columns(columns, size)
         for name in OPTIONAL_COLUMNS:
             if getattr(self, name) is not None:
@@ -97,8 +98,7 @@ class EventStream(EventEdits):
     @classmethod
     def empty(cls, size: SizeLike, metadata: Mapping[str, Any] | None = None) -> EventStream:
         """A stream with no event."""
-        nothing: list[int] = []
-        return cls.from_columns(nothing, nothing, nothing, nothing, size=size, metadata=metadata)
+        return cls.from_columns([], [], [], [], size=size, metadata=metadata)
 
     @classmethod
     def from_columns(
@@ -116,13 +116,10 @@ class EventStream(EventEdits):
 
         With `sort`, events are brought into time order; those of one time keep theirs.
         """
-        columns = [
-            _whole_column(name, column) for name, column in zip("xytp", (x, y, t, p), strict=True)
-        ]
-        if sort and columns[2].ndim == 1 == len({column.shape for column in columns}):
-            order = np.argsort(columns[2], kind="stable")
-            columns = [column[order] for column in columns]
-        x, y, t, p = columns
+        x, y, t, p = (as_array(one, name) for one, name in zip((x, y, t, p), "xytp", strict=True))
+        if sort and t.ndim == 1 == len({x.shape, y.shape, t.shape, p.shape}):
+            order = np.argsort(t, kind="stable")
+            x, y, t, p = x[order], y[order], t[order], p[order]
         return cls(x, y, t, p, as_size(size), metadata or {})
 
     @classmethod
@@ -352,18 +349,6 @@ class EventStream(EventEdits):
         from texvent.view.notebook import mime_bundle, stream_html
 
         return mime_bundle(self, lambda: stream_html(self), include, exclude)
-
-
-def _whole_column(name: str, values: ArrayLike) -> NDArray[Any]:
-    """A column x, y, t or p as integers.
-
-    Raises:
-        InputError: a value is not whole, or masked.
-    """
-    column = whole_numbers(
-        values, name, f"integers, µs: {HOW_TO_ROUND}" if name == "t" else "integers"
-    )
-    return column.astype(np.int64, copy=False) if name == "t" else column
 
 
 def _checked_optional(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:

@@ -13,6 +13,7 @@ PLAIN = [
     ["frame2", "frame10", "frame100"],
     ["0.0", "0.05", "0.1", "0.15", "0.2"],  # times, as Python prints them
     ["1305031102.175304", "1305031102.2113", "1305031102.243211", "1305031102.27"],
+    ["1.05", "1.10", "1.5"],
     ["t0.1", "t0.15", "t0.2000001", "t1"],
     ["1.8", "1.9", "1.10", "1.11"],  # versions
     ["scene1.2_take9", "scene1.2_take10"],
@@ -26,8 +27,6 @@ PLAIN = [
     ["a", "b", "c"],
 ]
 DOUBTFUL = [
-    (["0.1", "0.15", "0.2"], "sorted as decimals"),
-    (["1.05", "1.10", "1.5"], "sorted as decimals"),
     (["left_1", "left_2", "right_1", "right_2"], r"2 patterns of names: left_# \(2\), right_#"),
     (["0b12e", "3f9", "a7c4"], "3 patterns"),
 ]

@@ -43,7 +43,8 @@ class ArrayFrames(FrameSource):
         check_scale: bool = True,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
-        if not isinstance(frames, Iterator) and _is_array(frames):
+        is_array = hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
+        if is_array and not isinstance(frames, Iterator):
             frames = _checked_array(as_array(frames, "the array"))
         elif isinstance(frames, StoredArray):
             _check_shape(frames.shape)
@@ -96,10 +97,6 @@ class ArrayFrames(FrameSource):
             whole = itertools.chain(first, iterator)
             self._frames = ReadOnce(whole, "a generator of frames")
         return caller_pixels(first[0], "frame 0")
-
-
-def _is_array(frames: Any) -> bool:
-    return hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
 
 
 def _checked_array(array: NDArray[Any]) -> NDArray[Any]:

@@ -182,23 +182,21 @@ def check_seconds(origin: str, times_us: Sequence[int], help: str) -> None:
     steps = np.abs(np.diff(np.array(times_us, dtype=object)))
     step = float(np.median(steps.astype(np.float64))) / MICROSECONDS if len(steps) else 0.0
     is_whole = all(time % MICROSECONDS == 0 for time in times_us)
-    if not step or (step < 1 and not is_whole):
+    if not step or (step < LONGEST_WHOLE_S and not is_whole):
         return
     length = float(abs(times_us[-1] - times_us[0])) / MICROSECONDS
-    others = [
+    others = " or ".join(
         f"{unit} ({per_second / step:,.4g} frames per second, {length / per_second:,.4g} s in all)"
         for unit, per_second in PER_SECOND.items()
         if 1 <= per_second / step <= HIGHEST_FPS and unit != "s"
-    ]
+    )
     if step > LONGEST_STEP_S or (is_whole and step >= LONGEST_WHOLE_S):
-        likely = f"they are probably {' or '.join(others)}; " if others else ""
+        likely = f"they are probably {others}; " if others else ""
         raise InputError(f"{origin}: its times read as s are {step:,.4g} s apart; {likely}{help}")
-    if is_whole or step >= LONGEST_WHOLE_S:
-        likely = f" or {' or '.join(others)}" if others else ""
-        warn(
-            f"{origin}: times are read as s, so frames are {step:,.4g} s apart; if they are "
-            f"{'of another unit' if not likely else likely.removeprefix(' or ')}, {help}"
-        )
+    warn(
+        f"{origin}: times are read as s, so frames are {step:,.4g} s apart; if they are "
+        f"{others or 'of another unit'}, {help}"
+    )
 
 
 def _is_number(text: str) -> bool:

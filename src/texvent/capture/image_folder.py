@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import mmap
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -13,10 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.decoding.animation import HEAD_BYTES, is_animation, read_head
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
-from texvent.capture.intensity_scale import usable_pixels, warn_of_few_bits
+from texvent.capture.intensity_scale import ScaleCheck, usable_pixels
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, few, shown, warn
@@ -26,7 +26,7 @@ from texvent.runtime.file_names import (
     numbering_gap,
     usable_path,
 )
-from texvent.runtime.image_files import decode_image
+from texvent.runtime.image_files import HEAD_BYTES, PHOTOMETRIC, decode_image, tiff_tags
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -42,8 +42,6 @@ it is stored, since alpha would go silently, though OpenCV has multiplied a TIFF
 STACK_BYTES = 32 * 2**20
 """Of a TIFF stack, images of this size are read at a time."""
 MAX_BYTE = 255
-PHOTOMETRIC, BIG_TIFF = 262, 43
-"""Tag of a TIFF that says whether 0 is white; the version of one with 64-bit offsets."""
 LIGHT_EXTENSIONS = (EXR, ".hdr")
 """Images of linear light: OpenEXR, Radiance."""
 
@@ -84,7 +82,7 @@ class ImageFolder(FrameSource):
         gap = None
         if file is not None and listing is not None and listing.names is not None:
             paths = _named_images(listing, file, images_folder)
-        elif images_folder == folder and folder.is_file():
+        elif folder.is_file():
             paths = [folder]
         else:
             paths = in_natural_order(filter(_is_image, images_folder.iterdir()))
@@ -103,8 +101,8 @@ class ImageFolder(FrameSource):
         total = sum(count for _, count in self._stacks)
         self._times.check_count(total)
         first = next(read_stack(*self._stacks[0], white_level))
-        if white_level is None:
-            warn_of_few_bits(first, str(folder))
+        if white_level is None and first.dtype == np.uint16:
+            ScaleCheck().look_at_stream(first, str(folder))
         metadata = {
             "source": str(folder),
             "kind": "image folder",
@@ -180,11 +178,6 @@ def read_image(path: Path, white_level: float | None = None) -> PixelArray:
     """
     if path.suffix.lower() == EXR:
         return exr_frame(path)
-
-    if is_animation(read_head(path)):
-        raise FileFormatError(
-            f"{path} is an animation, not one image; give it as the source by itself"
-        )
     flags = TIFF_FLAGS if path.suffix.lower() in TIFF else DEPTH_AND_COLOUR
     return _checked(decode_image(path, flags), path, white_level)
 
@@ -209,16 +202,8 @@ def _checked(image: NDArray[Any], path: Path, white_level: float | None) -> Pixe
 
 def _has_white_zero(path: Path) -> bool:
     """Whether a TIFF says that 0 is white (PhotometricInterpretation 0), which OpenCV ignores."""
-    data = np.memmap(path, np.uint8, "r")
-    order = "<" if bytes(data[:2]) == b"II" else ">"
-    is_big = int.from_bytes(bytes(data[2:4]), "little" if order == "<" else "big") == BIG_TIFF
-    start_type, head, entry = ("u8", 8, 20) if is_big else ("u4", 2, 12)
-    start = int(np.frombuffer(data, order + start_type, 1, 8 if is_big else 4)[0])
-    count = int(np.frombuffer(data, order + ("u8" if is_big else "u2"), 1, start)[0])
-    for place in range(start + head, start + head + count * entry, entry):
-        if np.frombuffer(data, order + "u2", 1, place)[0] == PHOTOMETRIC:
-            return bool(np.frombuffer(data, order + "u2", 1, place + entry // 2 + 2)[0] == 0)
-    return False
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        return tiff_tags(data).get(PHOTOMETRIC) == 0
 
 
 def _netpbm_white(path: Path, full: int) -> int:

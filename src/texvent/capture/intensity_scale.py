@@ -22,7 +22,7 @@ FEW = 0.01
 """Share of pixels that highlights and the overshoot of resized images take up at most."""
 OVERSHOOT = 1.25
 """The highest that resizing makes of white in 0..1."""
-DIMMEST_HIGHLIGHT = 16.0
+DIMMEST = 16.0
 """Levels of 255 that a video exceeds somewhere, unless it is nearly black."""
 DARK_FRAMES = 3
 """Frames of whole levels, not black, after which a stream that goes on so dark is warned of."""
@@ -100,30 +100,12 @@ def caller_pixels(image: Any, where: str) -> PixelArray:
             f"{where} is the name {shown(image)}; a list holds images, not their names: give the "
             "folder of the files, or open them one by one"
         )
-    if hasattr(image, "getbands"):
-        image = _of_pillow(image, where)
     pixels = usable_pixels(as_array(image, where), where)
     if pixels.ndim == 3 and pixels.shape[-1] == 1:
         pixels = pixels[..., 0]
     if not (pixels.ndim == 2 or (pixels.ndim == 3 and pixels.shape[-1] == 3)) or 0 in pixels.shape:
         raise InputError(f"{where} must be [H, W] or [H, W, 3]; got shape {list(pixels.shape)}")
     return pixels
-
-
-def _of_pillow(image: Any, where: str) -> Any:
-    """An image of Pillow as grey, RGB, 16-bit or float; alpha goes, as with files."""
-    mode = str(image.mode)
-    if mode in ("L", "RGB", "F") or mode.startswith("I;16"):
-        return image
-    try:
-        if mode == "I":
-            raise ValueError("32-bit integers have no agreed white")
-        return image.convert("L" if mode in ("1", "LA", "La") else "RGB")
-    except ValueError as error:
-        raise InputError(
-            f"{where} is a Pillow image of mode {mode}, which is not read ({error}); convert it to "
-            "L, RGB or F"
-        ) from error
 
 
 class ScaleCheck:
@@ -194,57 +176,42 @@ class ScaleCheck:
         if self._dtype in self._settled or not self._frames:
             return
         self._settled.add(self._dtype)
-        doubt = self._doubt()
-        if doubt is None:
-            return
-        if self._is_unit():
-            raise InputError(f"{where} {doubt}")
-        warn(f"{where} {doubt}")
+        match self._doubt():
+            case (True, doubt):
+                raise InputError(f"{where} holds {doubt}")
+            case (False, doubt):
+                warn(f"{where} holds {doubt}")
 
-    def _is_unit(self) -> bool:
-        """Whether floats are 0..1, but for a few highlights."""
-        is_few = self._above_1 <= FEW * self._pixels and not self._is_whole
-        is_far = not DIMMEST_HIGHLIGHT < self._highest <= FULL_SCALE
-        return self._is_float and (self._highest <= OVERSHOOT or (is_few and is_far))
+    def _doubt(self) -> tuple[bool, str] | None:
+        """Whether the pixels so far are refused, and why, with the option that helps.
 
-    @property
-    def _is_float(self) -> bool:
-        return self._dtype.kind == "f"
-
-    def _doubt(self) -> str | None:
-        """What is doubtful about the pixels so far, and the option that helps; None: nothing."""
-        if not self._is_float:
-            return self._doubt_of_bits()
-        share = f"{self._above_1 / max(1, self._pixels):.3g}"
-        if self._highest <= 1 and self._lowest < -0.5:
-            return (
-                f"holds floats from {self._lowest:g} to {self._highest:g}, so they are probably "
-                "-1..1, while texvent's intensities are 0..255. Give (frames + 1) / 2 and "
-                "white_level=1"
-            )
-        if self._is_unit():
-            extent = f"never exceed {self._highest:g}"
-            if self._highest > OVERSHOOT:
-                extent = f"exceed 1 in a share of {share} of their pixels only"
-            return (
-                f"holds floats that {extent}, so they are probably 0..1, while texvent's "
-                f"intensities are 0..255. {self._advice}"
+        Returns:
+            None where nothing is doubtful.
+        """
+        if self._dtype.kind != "f":
+            doubt = self._doubt_of_bits()
+            return None if doubt is None else (False, doubt)
+        highest = self._highest
+        if highest <= 1 and self._lowest < -0.5:
+            return True, (
+                f"floats from {self._lowest:g} to {highest:g}, so they are probably -1..1, while "
+                "texvent's intensities are 0..255. Give (frames + 1) / 2 and white_level=1"
             )
         is_few = self._above_1 <= FEW * self._pixels
-        if not self._is_whole and (is_few or self._highest <= DIMMEST_HIGHLIGHT):
-            return (
-                f"holds floats up to {self._highest:g}, of which a share of {share} exceeds 1, so "
-                f"they may be 0..1 with highlights, while texvent's intensities are 0..255. "
-                f"{self._advice}"
+        if highest <= OVERSHOOT or (not self._is_whole and (is_few or highest <= DIMMEST)):
+            is_sure = highest <= OVERSHOOT or (is_few and not DIMMEST < highest <= FULL_SCALE)
+            share = f", of which a share of {self._above_1 / self._pixels:.3g} exceeds 1"
+            return is_sure, (
+                f"floats that never exceed {highest:g}{share if highest > 1 else ''}, so they "
+                f"{'are probably 0..1' if is_sure else 'may be 0..1 with highlights'}, while "
+                f"texvent's intensities are 0..255. {self._advice}"
             )
-        is_many = self._above_white > self._pixels / 2
-        is_wide = self._highest > WHITES[0] and self._above_white > self._pixels / 10
-        if self._highest > FULL_SCALE and (self._is_whole or is_many or is_wide):
-            white = next((one for one in WHITES if self._highest <= one), self._highest)
-            return (
-                f"holds floats up to {self._highest:g}, while texvent's are 0..255. Give "
-                f"white_level={white:g} if that is white, or white_level=255 if they really are "
-                "brighter than white"
+        overexposed = self._pixels * (0.5 if highest <= WHITES[0] else 0.1)
+        if highest > FULL_SCALE and (self._is_whole or self._above_white > overexposed):
+            white = next((one for one in WHITES if highest <= one), highest)
+            return False, (
+                f"floats up to {highest:g}, while texvent's are 0..255. Give white_level={white:g} "
+                "if that is white, or white_level=255 if they really are brighter than white"
             )
         return None
 
@@ -252,14 +219,14 @@ class ScaleCheck:
         """The same of whole levels."""
         if self._dtype == np.uint8 and self._highest <= 1:
             return (
-                "holds no level above 1 of 255, so it is probably a mask; give white_level=1, or "
+                "no level above 1 of 255, so it is probably a mask; give white_level=1, or "
                 "white_level=255 if it really is that dark"
             )
         bits = next((bits for bits in (8, 10, 12) if self._highest < 1 << bits), None)
         if self._dtype != np.uint16 or bits is None:
             return None
         return (
-            f"holds 16-bit frames up to {self._highest:g}, so they probably have {bits} bits; give "
+            f"16-bit frames up to {self._highest:g}, so they probably have {bits} bits; give "
             f"white_level={(1 << bits) - 1}, or white_level=65535 if they really are that dark"
         )
 
@@ -277,13 +244,3 @@ def check_whole_scale(frames: Iterable[PixelArray], where: str) -> ScaleCheck:
     if not any(map(scale.look, frames)):
         scale.conclude(where)
     return scale
-
-
-def warn_of_few_bits(pixels: PixelArray, where: str) -> None:
-    """Warn of 16-bit pixels that probably have 10 or 12: they would be nearly black.
-
-    Warns:
-        TexventWarning: no value is above 4095, and one is above 255.
-    """
-    if pixels.dtype == np.uint16:
-        ScaleCheck().look_at_stream(pixels, where)

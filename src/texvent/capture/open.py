@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
-from texvent.capture.decoding.animation import is_animation, is_webp, open_webp, read_head
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder, count_images
 from texvent.capture.intensity_scale import check_whole_scale
@@ -25,6 +24,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, is_address
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
+from texvent.runtime.image_files import HEAD_BYTES, is_animation
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video, transfer_of
@@ -170,12 +170,18 @@ def _refuse_still(address: _Address) -> FrameStream:
 
 
 def _is_animated(address: _Address) -> bool:
-    return is_still(address.path) and is_animation(read_head(address.path))
+    if not is_still(address.path):
+        return False
+    with address.path.open("rb") as file:
+        return is_animation(file.read(HEAD_BYTES))
 
 
 def _open_animation(address: _Address) -> FrameStream:
-    if is_webp(read_head(address.path)):
-        return open_webp(address.path, address.times)
+    if address.path.suffix.lower() == ".webp":
+        raise InputError(
+            f"{address.path} is an animated WebP, which is not read; make an animated PNG of it: "
+            "PIL.Image.open('a.webp').save('a.png', save_all=True)"
+        )
     return _open_video(address)
 
 
@@ -214,7 +220,7 @@ SOURCES = (
         lambda a: _open_array(StoredArray(a.path), a.config, a.given),
     ),
     _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
-    _Source("animated PNG or WebP", _is_animated, _open_animation),
+    _Source("animated PNG", _is_animated, _open_animation),
     _Source("TIFF stack", lambda a: is_still(a.path) and count_images(a.path) > 1, _open_images),
     _Source("still image", lambda a: is_still(a.path), _refuse_still),
     _Source("video file", lambda a: True, _open_video),
@@ -268,11 +274,11 @@ def _is_scale_known(stream: FrameStream, config: CaptureConfig) -> bool:
     Raises:
         InputError: its frames can be read again, and are most likely 0..1.
     """
-    if isinstance(stream, NotebookFrames) and not isinstance(stream, Video):
-        return True  # texvent's own
-    if config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
+    is_held = isinstance(stream, Video)
+    is_own = isinstance(stream, NotebookFrames) and not is_held
+    if is_own or config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
         return True
-    if stream.is_live or not isinstance(stream, (Video, RenderableStream)):
+    if stream.is_live or not (is_held or isinstance(stream, RenderableStream)):
         return False
     check_whole_scale((frame.pixels for frame in stream), "the video")
     return True

@@ -109,7 +109,9 @@ class PreparedFrames(FrameSource):
 
             pixels = fit_pixels(pixels, self.size, self._config.fit)
             motion = motion and fit_motion(motion, self.size, self._config.fit)
-        return checker.check(replace(frame, pixels=pixels, motion=motion))
+        if pixels is not frame.pixels or motion is not frame.motion:
+            frame = replace(frame, pixels=pixels, motion=motion)
+        return checker.check(frame)
 
     def _compare(self, frame: Frame) -> None:
         """Refuse a frame of another size before it is fitted; warn of one of another bit depth."""

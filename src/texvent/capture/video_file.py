@@ -67,7 +67,7 @@ class VideoFile(FrameSource):
                     "the video that the events were made of"
                 )
             self._rate = _own_rate(container, stream)
-            count = stream.frames or _count_by_duration(stream, container)
+            count = stream.frames
             is_doubtful = needs_packet_times(stream)
             first = next(self._decode(container, stream), None)
             if first is None:
@@ -88,9 +88,9 @@ class VideoFile(FrameSource):
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
         if is_doubtful:
-            count = self._count_packets() or count
+            count = self._count_packets()
         fps = times.fps if times else self._rate
-        self._facts = SourceFacts(size, fps, count, self._metadata)
+        self._facts = SourceFacts(size, fps, count or None, self._metadata)
 
     def _warn_of_kind(
         self, container: InputContainer, stream: VideoStream, first: VideoFrame
@@ -110,25 +110,17 @@ class VideoFile(FrameSource):
                 "makes events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
             )
 
-    def _count_packets(self) -> int | None:
-        """Frames that will be shown, and a coarse file's constant rate; None: packets do not say.
+    def _count_packets(self) -> int:
+        """Frames that will be shown; finds a coarse file's constant rate.
 
         Costs a pass over the file, without decoding.
         """
         with _opened(self._path) as (container, stream):
             found = read_packet_times(container, stream)
-        if found is None:
-            return None
         if self._times is not None:
             return found.count
         if found.constant_rate is not None:
             self._rate, self._is_counting = found.constant_rate, True
-            if not found.is_stated:
-                warn(
-                    f"{self._path}: frames share times, since the file's clock is coarse; they are "
-                    f"taken {float(self._rate):,.6g} a second, as they come on average; give the "
-                    "exact rate (`fps`)"
-                )
         self._note_repeats(found.repeats, found.count)
         return found.count - found.repeats
 
@@ -338,12 +330,6 @@ def _promised_end_us(stream: VideoStream, first_pts_us: Fraction) -> int | None:
         return None
     seconds = int(tag[1]) * 3600 + int(tag[2]) * 60 + Fraction(tag[3])
     return round(seconds * MICROSECONDS - first_pts_us)
-
-
-def _count_by_duration(stream: VideoStream, container: InputContainer) -> int | None:
-    rate = stream.average_rate or stream.guessed_rate
-    end_us = _promised_end_us(stream, Fraction(0)) or container.duration
-    return round(Fraction(end_us, MICROSECONDS) * rate) if end_us and rate else None
 
 
 RAW = ("h264", "hevc", "m4v", "mpegvideo", "vvc", "obu")

@@ -21,8 +21,8 @@ def as_array(values: Any, what: str) -> NDArray[Any]:
     """Values as a plain array of native byte order; a view of the caller's where that is possible.
 
     Args:
-        values: anything array-like. Tensors come from any device; narrow floats that NumPy does not
-            have, such as bfloat16, become float32.
+        values: anything array-like, or an image of Pillow. Tensors come from any device; narrow
+            floats that NumPy does not have, such as bfloat16, become float32.
         what: how messages call them.
 
     Raises:
@@ -36,6 +36,8 @@ def as_array(values: Any, what: str) -> NDArray[Any]:
                 values = values.float()
         elif hasattr(values, "__cuda_array_interface__"):  # CuPy
             values = values.get()
+        elif hasattr(values, "getbands"):
+            values = _levels_of_pillow(values)
         elif hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
             values = np.from_dlpack(values)
         array = np.asarray(values)
@@ -46,6 +48,14 @@ def as_array(values: Any, what: str) -> NDArray[Any]:
         raise InputError(
             f"{what} cannot be read as an array ({one_line(error)}); give a NumPy array"
         ) from error
+
+
+def _levels_of_pillow(image: Any) -> Any:
+    """An image of Pillow as grey, RGB or numbers; palettes by their colours, alpha goes."""
+    mode = str(image.mode)
+    if mode in ("L", "RGB", "F", "I") or mode.startswith("I;16"):
+        return image
+    return image.convert("L" if mode in ("1", "LA", "La") else "RGB")
 
 
 def _refuse_masked(values: Any, what: str) -> None:

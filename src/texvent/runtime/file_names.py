@@ -6,7 +6,7 @@ import itertools
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -75,87 +75,54 @@ def inside(folder: Path, place: str) -> Path:
 
 _NUMBER = re.compile(r"((?<![\d.])\d+\.\d+(?!\.?\d)|\d+)")
 """A number in a name; a point counts where it is the only one between digits: 0.15, not 1.2.3."""
-LONG_FRACTION = 4
-"""Digits after the point of a time; parts of versions are shorter."""
 
 
 def in_natural_order(paths: Iterable[Path]) -> list[Path]:
     """Files sorted by name as people do: frame2 before frame10, 0.15 before 0.2, -1 before 0.
 
-    Digits after a point are decimals, unless the names count on behind it: 1.9, 1.10.
+    Digits after a point are decimals, unless the names count on behind it: 1.9, 1.10. A hyphen is a
+    sign where another name has the same text without it: t-1, t0.
 
     Warns:
-        TexventWarning: names of more than one pattern, or decimals that may be versions.
+        TexventWarning: names are of more than one pattern.
     """
-    stems = {path: _NUMBER.split(path.stem.lower()) for path in paths}
-    fractions: dict[int, list[str]] = {}
-    for words in stems.values():
-        for place, word in enumerate(words):
-            if place % 2 and "." in word:
-                fractions.setdefault(place, []).append(word.partition(".")[2])
-    doubts = {place: _doubt_about_decimals(found) for place, found in fractions.items()}
-    # A hyphen is a sign where other names have a number there without one, or at the beginning.
-    before = {(place, text) for words in stems.values() for place, text in _before_numbers(words)}
-    signed = {(place, text) for place, text in before if _is_sign(place, text, before)}
+    words = {path: _NUMBER.split(path.stem.lower()) for path in paths}
+    # Texts and numbers take turns; those after the last number are no sign.
+    columns = [*map(set, itertools.zip_longest(*(one[:-1] for one in words.values())))]
+    counted = [_counts_behind_point(column) for column in columns]
 
     def key(path: Path) -> tuple[Any, ...]:
         parts: list[Any] = []
-        words = stems[path]
-        for place, text in _before_numbers(words):
-            is_signed = (place, text) in signed
-            parts.append((1, text[:-1] if is_signed else text))
-            parts.append(
-                (0, (-1 if is_signed else 1) * _value(words[place + 1], doubts.get(place + 1)))
-            )
-        return tuple(parts), words[-1], path.suffix.lower(), path.name
+        for place, (text, number) in enumerate(
+            zip(words[path][:-1:2], words[path][1::2], strict=True)
+        ):
+            is_signed = text.endswith("-") and text[:-1] in columns[2 * place]
+            value: Any = -Fraction(number) if is_signed else Fraction(number)
+            if counted[2 * place + 1]:
+                value = [int(one) for one in number.split(".")]
+            parts += [text[:-1] if is_signed else text, value]
+        return *parts, words[path][-1], path.suffix.lower(), path.name
 
-    ordered = sorted(stems, key=key)
-    _warn_of_order(ordered, stems, UNCLEAR in doubts.values())
+    ordered = sorted(words, key=key)
+    _warn_of_patterns(ordered)
     return ordered
 
 
-def _before_numbers(words: list[str]) -> Iterator[tuple[int, str]]:
-    return ((place, words[place]) for place in range(0, len(words) - 1, 2))
+def _counts_behind_point(numbers: Iterable[str | None]) -> bool:
+    """Whether digits after points are whole numbers: decimals of any length end in no zero."""
+    behind = [number.partition(".")[2] for number in numbers if number and "." in number]
+    longer = [digits for digits in behind if len(digits) > 1]
+    is_padded = any(digits[0] == "0" for digits in longer)
+    is_even = len({len(digits) for digits in behind}) < 2
+    return not is_even and not is_padded and any(digits[-1] == "0" for digits in longer)
 
 
-def _is_sign(place: int, text: str, before: set[tuple[int, str]]) -> bool:
-    is_first = place == 0 and text == "-"
-    return text.endswith("-") and (is_first or (place, text[:-1]) in before)
-
-
-def _value(word: str, doubt: str | None) -> Fraction:
-    """A number of a name; of a version its parts as one number."""
-    whole, point, fraction = word.partition(".")
-    if point and doubt == VERSIONS:
-        return int(whole) + Fraction(int(fraction), 10**MAX_NAME_BYTES)
-    return Fraction(word)
-
-
-VERSIONS, UNCLEAR = "versions", "unclear"
-
-
-def _doubt_about_decimals(fractions: Sequence[str]) -> str:
-    """Whether digits after a point count on (9, 10, 11) instead of being decimals; "" if not."""
-    if len(set(map(len, fractions))) < 2:
-        return ""  # both orders are the same
-    has_zeros_before = any(len(one) > 1 and one[0] == "0" for one in fractions)
-    if any(len(one) > 1 and one[-1] == "0" for one in fractions):
-        return UNCLEAR if has_zeros_before else VERSIONS
-    is_long = max(map(len, fractions)) >= LONG_FRACTION
-    return "" if has_zeros_before or is_long else UNCLEAR
-
-
-def _warn_of_order(ordered: list[Path], stems: Mapping[Path, list[str]], is_unclear: bool) -> None:
+def _warn_of_patterns(ordered: Sequence[Path]) -> None:
     is_twice = len({path.stem for path in ordered}) < len(ordered)
     patterns = Counter(
-        "#".join(stems[path][::2]).replace("-#", "#") + path.suffix.lower() * is_twice
+        re.sub(r"-?#", "#", _NUMBER.sub("#", path.stem.lower())) + path.suffix.lower() * is_twice
         for path in ordered
     )
-    if is_unclear:
-        warn(
-            f"{ordered[0].parent}: names such as {ordered[0].name} and {ordered[1].name} are "
-            "sorted as decimals (0.15 before 0.2); if they count (1.9, 1.10), write zeros in front"
-        )
     if len(patterns) > 1 and any("#" in one for one in patterns):
         shown_ones = few([f"{name} ({count})" for name, count in patterns.most_common()], 3)
         warn(

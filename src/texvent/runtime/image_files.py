@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import struct
+from mmap import mmap
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,8 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, one_line
 from texvent.runtime.memory import check_claim
 
+DAMAGE = (struct.error, ValueError, IndexError, KeyError)
+"""Raised where the head of an image is damaged."""
 COPIES = 3
 """An image is decoded, its colours change places, and it is handed on."""
 _JPEG_SIZE = re.compile(rb"\xff[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]...(....)(.)", re.DOTALL)
@@ -23,20 +27,30 @@ _TEXT_SIZE = re.compile(
 )
 """Of Radiance HDR, and of PNM."""
 _JPEG_2000 = b"\xff\x4f\xff\x51"
-MOST_HEAD_BYTES = 4096
-_TIFF_TAGS = {256: "width", 257: "height", 258: "bits", 277: "channels"}
+HEAD_BYTES = 4096
+"""An animation says that it is one before its first pixels."""
+TIFF_HEADS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+WIDTH, HEIGHT, BITS, PHOTOMETRIC, CHANNELS = 256, 257, 258, 262, 277
+"""Tags of TIFF."""
 
 
 def decode_image(path: Path, flags: int) -> NDArray[Any]:
     """The image of a file, [H, W] or [H, W, channels], as `cv2.imdecode` gives it with these flags.
 
     Raises:
-        FileFormatError: it cannot be decoded, or would fill the memory.
+        FileFormatError: it cannot be decoded, is an animation, or would fill the memory.
     """
     import cv2  # only images need it
 
     data = path.read_bytes()
-    check_claim(stated_bytes(data), path, copies=COPIES)
+    if is_animation(data[:HEAD_BYTES]):
+        raise FileFormatError(
+            f"{path} is an animation, not one image; give it as the source by itself"
+        )
+    claimed = 0
+    with contextlib.suppress(*DAMAGE):  # then the decoder says what is wrong
+        claimed = stated_bytes(data)
+    check_claim(claimed, path, copies=COPIES)
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), flags) if data else None
     except cv2.error as error:
@@ -48,26 +62,31 @@ def decode_image(path: Path, flags: int) -> NDArray[Any]:
     return np.asarray(image)
 
 
+def is_animation(head: bytes) -> bool:
+    """Whether an image file that begins like this is an animated PNG or WebP."""
+    if head.startswith(b"\x89PNG"):
+        return b"acTL" in head
+    return head[8:16] == b"WEBPVP8X" and bool(head[20:21] and head[20] & 2)
+
+
 def stated_bytes(data: bytes) -> int:
     """Bytes of the pixels that an image has by its head; 0 where its format is another.
 
     PNG, JPEG, TIFF, BMP, GIF, WebP, JPEG 2000, AVIF, Radiance HDR, PNM.
+
+    Raises:
+        Exception: one of `DAMAGE`; the head is damaged.
     """
-    try:
-        return _stated_bytes(data)
-    except (struct.error, ValueError, IndexError, KeyError):  # the decoder says what is wrong
-        return 0
-
-
-def _stated_bytes(data: bytes) -> int:
     width, height, channels, bits = 0, 0, 3, 8
     if data[:4] == b"\x89PNG":
         width, height, bits = struct.unpack_from(">IIB", data, 16)
         channels = {0: 1, 4: 2, 6: 4}.get(data[25], 3)
     elif data[:2] == b"\xff\xd8":
         width, height, channels = _jpeg_size(data)
-    elif data[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
-        width, height, channels, bits = _tiff_size(data)
+    elif data[:4] in TIFF_HEADS:
+        tags = tiff_tags(data)
+        width, height = tags[WIDTH], tags[HEIGHT]
+        channels, bits = tags.get(CHANNELS, 1), tags.get(BITS, 8)
     elif data[:2] == b"BM":
         width, height = map(abs, struct.unpack_from("<ii", data, 18))
     elif data[:4] == b"GIF8":
@@ -76,7 +95,7 @@ def _stated_bytes(data: bytes) -> int:
         width, height = _webp_size(data)
     elif data[4:8] in (b"jP  ", b"ftyp") or data[:4] == _JPEG_2000:
         width, height, bits = *_boxed_size(data), 16
-    elif found := _TEXT_SIZE.match(data[:MOST_HEAD_BYTES]):
+    elif found := _TEXT_SIZE.match(data[:HEAD_BYTES]):
         width, height = int(found[1] or found[3]), int(found[2] or found[4])
         bits = 32 if found[1] else 16
     return width * height * channels * max(bits // 8, 1)
@@ -92,23 +111,27 @@ def _jpeg_size(data: bytes) -> tuple[int, int, int]:
     return width, height, found[2][0]
 
 
-def _tiff_size(data: bytes) -> tuple[int, int, int, int]:
-    """Width, height, channels and bits of the first page; of BigTIFF too."""
+def tiff_tags(data: bytes | mmap) -> dict[int, int]:
+    """The first value of each tag of whole numbers, of the first page; of BigTIFF too.
+
+    Raises:
+        Exception: one of `DAMAGE`; the head is damaged.
+    """
     order = "<" if data[:1] == b"I" else ">"
-    is_big = data[2 if order == "<" else 3] == 43
-    start = struct.unpack_from(order + ("Q" if is_big else "I"), data, 8 if is_big else 4)[0]
-    count = struct.unpack_from(order + ("Q" if is_big else "H"), data, start)[0]
-    first, length = (start + 8, 20) if is_big else (start + 2, 12)
-    facts = {"channels": 1, "bits": 8}
-    for place in range(first, min(first + count * length, len(data)), length):
-        tag, kind, size = struct.unpack_from(order + ("HHQ" if is_big else "HHI"), data, place)
-        value = place + (12 if is_big else 8)
-        if tag in _TIFF_TAGS:
-            if size * 2 > (8 if is_big else 4):  # the bits of each channel are elsewhere
-                value = struct.unpack_from(order + ("Q" if is_big else "I"), data, value)[0]
-            form = {1: "B", 3: "H", 4: "I", 16: "Q"}[kind]
-            facts[_TIFF_TAGS[tag]] = struct.unpack_from(order + form, data, value)[0]
-    return facts["width"], facts["height"], facts["channels"], facts["bits"]
+    is_big = b"+" in data[2:4]
+    # Formats of an offset and a count of tags; bytes of a place, before the first tag, and of one.
+    offset, count, room, gap, length = ("Q", "Q", 8, 8, 20) if is_big else ("I", "H", 4, 2, 12)
+    start = struct.unpack_from(order + offset, data, room)[0]
+    last = start + gap + length * struct.unpack_from(order + count, data, start)[0]
+    tags = {}
+    for place in range(start + gap, min(last, len(data)), length):
+        tag, kind, size = struct.unpack_from(order + "HH" + offset, data, place)
+        if form := {1: "B", 3: "H", 4: "I", 16: "Q"}.get(kind):
+            value = place + length - room
+            if size * struct.calcsize(form) > room:  # the values are elsewhere
+                value = struct.unpack_from(order + offset, data, value)[0]
+            tags[tag] = struct.unpack_from(order + form, data, value)[0]
+    return tags
 
 
 def _boxed_size(data: bytes) -> tuple[int, int]:

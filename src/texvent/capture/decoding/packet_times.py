@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,7 +10,6 @@ import numpy as np
 from av.container import InputContainer
 from av.error import FFmpegError
 from av.video.stream import VideoStream
-from numpy.typing import NDArray
 
 FEW_TICKS = 10
 """Frames closer than this many ticks of the file's clock have intervals wrong by more than 5 %."""
@@ -28,56 +26,32 @@ class PacketTimes:
     constant_rate: Fraction | None
     """Frames per second where the file's clock is too coarse for its rate, and all times are those
     of this rate, rounded; else None."""
-    is_stated: bool = True
-    """Whether the file states that rate; else it is a fit."""
 
 
 def needs_packet_times(stream: VideoStream) -> bool:
     """Whether a file does not say how many frames it has, or its clock is coarse for its rate."""
-    return not stream.frames or any(map(_is_coarse(stream), _rates(stream)))
+    return not stream.frames or bool(_coarse_rates(stream))
 
 
-def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes | None:
-    """Read all packets of a stream; what is damaged ends the count, and decoding says so.
-
-    Returns:
-        None where packets have no time.
-    """
-    times: list[int] = []
+def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes:
+    """Read all packets of a stream; what is damaged ends the count, and decoding says so."""
+    times: list[int | None] = []
     with contextlib.suppress(FFmpegError):
         for packet in container.demux(stream):
             if packet.size and not packet.is_discard:
-                if packet.pts is None:
-                    return None
                 times.append(packet.pts)
+    if None in times:
+        return PacketTimes(len(times), 0, None)
     ticks = np.sort(np.array(times, np.int64))
-    repeats = int(np.count_nonzero(np.diff(ticks) == 0))
-    stated = _rates(stream)
-    rates = [*stated, *(_fitted_rates(ticks, stream) if repeats else ())]
-    coarse = filter(_is_coarse(stream), rates)
-    rate = next((rate for rate in coarse if _is_rounded(ticks, rate, stream)), None)
-    return PacketTimes(len(times), 0 if rate else repeats, rate, rate in stated)
+    for rate, ticks_per_frame in _coarse_rates(stream).items():
+        even = np.arange(len(ticks)) * ticks_per_frame
+        if len(ticks) > 1 and (np.abs(ticks - ticks[0] - even) <= 1).all():
+            return PacketTimes(len(times), 0, rate)
+    return PacketTimes(len(times), int(np.count_nonzero(np.diff(ticks) == 0)), None)
 
 
-def _rates(stream: VideoStream) -> list[Fraction]:
+def _coarse_rates(stream: VideoStream) -> dict[Fraction, float]:
+    """Rates that the file states for which its clock is coarse, and their ticks for each frame."""
     stated = (stream.average_rate, stream.guessed_rate, stream.base_rate)
-    return [Fraction(rate) for rate in stated if rate]
-
-
-def _fitted_rates(ticks: NDArray[np.int64], stream: VideoStream) -> list[Fraction]:
-    """Frames per second from the first frame to the last."""
-    span = int(ticks[-1] - ticks[0])
-    return [Fraction(len(ticks) - 1, span) / stream.time_base] if span and stream.time_base else []
-
-
-def _is_coarse(stream: VideoStream) -> Callable[[Fraction], bool]:
-    tick_s = stream.time_base or Fraction(0)
-    return lambda rate: tick_s * rate * FEW_TICKS > 1
-
-
-def _is_rounded(ticks: NDArray[np.int64], rate: Fraction, stream: VideoStream) -> bool:
-    """Whether all times are less than a tick from frames of that rate."""
-    if len(ticks) < 2 or stream.time_base is None:
-        return False
-    even = np.arange(len(ticks)) * float(1 / (rate * stream.time_base))
-    return bool((np.abs(ticks - ticks[0] - even) <= 1).all())
+    ticks = {Fraction(rate): float(1 / (rate * (stream.time_base or 1))) for rate in stated if rate}
+    return {rate: count for rate, count in ticks.items() if count < FEW_TICKS}

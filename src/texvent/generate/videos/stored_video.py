@@ -28,7 +28,7 @@ from av.video.stream import VideoStream
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
-from texvent.runtime.media_files import open_media, raise_scarcity
+from texvent.runtime.media_files import open_media_file, raise_scarcity
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, Transfer, encode_half
 from texvent.video import (
@@ -103,7 +103,7 @@ def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> Store
 def reopen(path: Path) -> StoredVideo | None:
     """A video that `write_video` wrote, with what made it, or None for any other file."""
     try:
-        with open_media(str(path)) as container:
+        with open_media_file(path) as container:
             if not container.streams.video:
                 return None
             stream = container.streams.video[0]
@@ -218,7 +218,7 @@ def _full_scale(frame: Frame) -> PixelArray:
 
 def _decode(path: Path) -> Iterator[PixelArray]:
     try:
-        with open_media(str(path)) as container:
+        with open_media_file(path) as container:
             if not container.streams.video:
                 raise FileFormatError(f"{path} holds no video")
             stream = container.streams.video[0]

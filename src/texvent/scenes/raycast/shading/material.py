@@ -59,7 +59,7 @@ def _typed_blend(typing_context: Any, address: Any, places: Any, weights: Any) -
 
 def _blend(address: int, places: Corners, weights: Sample) -> Sample:
     rows = [[texel_at(address, place + lane) for lane in range(4)] for place in places]
-    a, b, c, d = (np.float64(weights) @ np.float64(rows)).tolist()
+    a, b, c, d = (np.array(weights) @ np.array(rows, np.float64)).tolist()
     return a, b, c, d
 
 
