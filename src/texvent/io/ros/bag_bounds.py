@@ -12,9 +12,8 @@ import bz2
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,39 +22,22 @@ import yaml
 
 from texvent._require import require
 from texvent.errors import FileFormatError, one_line
-from texvent.io.aedat.aedat4_container import load_zstd, unpack_lz4, unpack_zstd
+from texvent.io.aedat.aedat4_container import load_zstd, unpack_bz2, unpack_lz4, unpack_zstd
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES
 from texvent.runtime.memory import check_proportion, most_unpacked
 
 FOLDER_FACTS = "metadata.yaml"
 MCAP_MAGIC, SQLITE_MAGIC = b"\x89MCAP", b"SQLite format 3"
-MAX_CHUNK_BYTES = 256 * 2**20
-"""ROS writes chunks of less than a megabyte."""
 PIECE_BYTES = 2**20
 
 
 def bound_chunks(bag: Any) -> None:
-    """Let rosbags' reader of an open ROS 1 bag unpack no chunk beyond `MAX_CHUNK_BYTES`."""
-    bounded = {
-        bz2.decompress: bz2.BZ2Decompressor,
-        lz4.frame.decompress: lz4.frame.LZ4FrameDecompressor,
-    }
+    """Let rosbags' reader of an open ROS 1 bag unpack chunks only as far as packets go."""
+    bounded = {bz2.decompress: unpack_bz2, lz4.frame.decompress: unpack_lz4}
     for position, chunk in bag.chunks.items():
-        make = bounded.get(chunk.decompressor)
-        if make is not None:
-            bag.chunks[position] = chunk._replace(decompressor=partial(_unpack, make))
-
-
-def _unpack(make: Callable[[], Any], data: bytes) -> bytes:
-    decompressor = make()
-    unpacked: bytes = decompressor.decompress(data, max_length=MAX_CHUNK_BYTES)
-    if not decompressor.eof:
-        raise FileFormatError(
-            f"a chunk ends early or unpacks to more than {MAX_CHUNK_BYTES} bytes; the bag is "
-            "damaged, or made to fill the memory"
-        )
-    return unpacked
+        unpack = bounded.get(chunk.decompressor, chunk.decompressor)
+        bag.chunks[position] = chunk._replace(decompressor=unpack)
 
 
 @contextmanager
