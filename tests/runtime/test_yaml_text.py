@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import InputError
+from texvent.io.calibration import read_calibration
 from texvent.runtime.yaml_text import load_yaml
 from texvent.settings.config_files import read_config
-from texvent.io.calibration import read_calibration
 
 
 def doubling(form: str, levels: int = 40) -> str:
