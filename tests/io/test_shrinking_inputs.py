@@ -73,7 +73,7 @@ CONTENTS = {
 def test_every_format_of_records_and_rows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    for module in ("byte_blocks", "text_files"):
+    for module in ("byte_blocks", "text.codecs"):
         monkeypatch.setattr(f"texvent.io.{module}.BLOCK_BYTES", 1 << 16)
     path = tmp_path / name
     path.write_bytes(CONTENTS[name])

@@ -182,22 +182,6 @@ def stated_unit(path: Path, stored: Any) -> TimeUnit | None:
     )
 
 
-def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
-    """Polarity coded 0/1 (or false/true) or −1/+1 as uint8, 1 = ON; other values stay wrong.
-
-    Raises:
-        InputError: a value is none of −1, 0 and 1, or −1 and 0 both occur.
-    """
-    if p.size == 0 or p.dtype == np.uint8:
-        return np.asarray(p, dtype=np.uint8)
-    if p.dtype.kind not in "biuf":
-        raise InputError(f"polarity holds {shown(p.dtype)}; it must be 0/1 or -1/+1 (OFF/ON)")
-    values = set(np.unique(p).tolist())
-    if not (values <= {0, 1} or values <= {-1, 1}):
-        raise InputError(f"polarity holds {sorted(values)[:4]}; it must be 0/1 or -1/+1 (OFF/ON)")
-    return (p > 0).astype(np.uint8)
-
-
 def stream_from_file(
     path: Path, columns: Mapping[str, NDArray[Any]], size: SensorSize, metadata: Mapping[str, Any]
 ) -> EventStream:
@@ -211,7 +195,7 @@ def stream_from_file(
             columns["x"],
             columns["y"],
             columns["t"],
-            binary_polarity(columns["p"]),
+            columns["p"],
             size,
             metadata,
             *(columns.get(name) for name in OPTIONAL_COLUMNS),

@@ -2,15 +2,13 @@
 
 Events outside the sensor are dropped. Times are judged by what follows them, 100 events at most:
 
-* A few stamps in a row that are far from those before and after are strays, and dropped.
+* A few stamps in a row, after which the clock leaps back to where it was, are strays, and dropped.
 * Where the clock falls and stays low it was set anew (its times then continue those before) or,
   after a fall by 2^31 or 2^32 µs, it turned over (they count on).
-* A leap that stays high is a pause.
-* Times that step back by some ms are sorted among the last million events; what comes later still
-  is dropped.
-
-At both ends of a recording less follows. There stamps are strays if a single flipped bit or days
-are between them and the rest, or if they fall, unless a clock seems to start at zero.
+* A leap that stays high is a pause; but a few events that are more than 10 minutes from all others,
+  at an end of the recording, are strays.
+* Times that step back by some ms, or for a while by less than a second, are sorted among the last
+  million events; what comes later still is dropped.
 
 Of a file that ends in damage, all before it is read.
 """
@@ -42,18 +40,12 @@ LATEST_US = 1_000_000
 """... by less than this: those before it are late, and sorted."""
 DISORDER_US = 50_000
 """Times that step back by less are sorted."""
-LEAP_GAPS = 8
-"""A leap is longer than so many usual gaps between events."""
 TURNS_US = (1 << 31, 1 << 32)
 """Ranges of clocks that turn over."""
 LONGEST_TURN_US = 60_000_000
 """Between the last event before a turn and the first after it."""
-LONGEST_PAUSE_US = 86_400_000_000
+LONGEST_PAUSE_US = 600_000_000
 """A few events before or after a longer one, at an end of the recording, are strays."""
-SURELY_APART = 50
-"""A flipped bit is seen if it moves a time so much farther than where it may have been."""
-LEAST_RESTART = 3
-"""So many events from zero on, and in order, are a clock that was set anew near an end."""
 
 
 @dataclass
@@ -167,7 +159,6 @@ class _Clock:
         at = self._skipped
         is_kept[:at], added[0] = False, self._added_us
         steps = np.abs(np.diff(stored, prepend=self._latest_us))
-        usual_us = int(np.median(steps))
         for jump in np.flatnonzero(steps > DISORDER_US).tolist():
             if not at <= jump < ready:
                 continue
@@ -175,11 +166,11 @@ class _Clock:
             future = stored[jump : jump + LOOK_EVENTS]
             is_end = is_last and len(future) <= MOST_STRAYS
             past = stored[:jump][is_kept[:jump]] if self._kept < MOST_STRAYS else future
-            if 0 < len(past) < len(future) and _is_false_start(past, future, usual_us):
+            if 0 < len(past) < len(future) and _is_false_start(past, future):
                 is_kept[:jump] = False
                 self._kept, self._latest_us = 0, int(future[0])
             before_us = self._added_us
-            at = jump + self._strays(future, usual_us, is_end=is_end)
+            at = jump + self._strays(future, is_end=is_end)
             is_kept[jump:at] = False
             added[jump] += self._added_us - before_us
         self._pass(stored[at:ready])
@@ -194,27 +185,23 @@ class _Clock:
             self._latest_us = max(int(times.max()), self._latest_us or int(times[0]))
             self._kept += len(times)
 
-    def _strays(self, future: _Times, usual_us: int, *, is_end: bool) -> int:
+    def _strays(self, future: _Times, *, is_end: bool) -> int:
         """Number of strays after which the clock goes on; a reset or turn before them is joined."""
         latest_us = self._latest_us or 0
-        leap_us = max(DISORDER_US, LEAP_GAPS * usual_us)
         step_us = int(future[0]) - latest_us
-        if -DISORDER_US <= step_us <= leap_us:
+        if abs(step_us) <= DISORDER_US or _is_late(future, latest_us):
             return 0
-        if step_us > 0:
-            found = _strays_above(future, latest_us, leap_us)
-            is_apart = is_end and not found and _is_apart(future, latest_us, usual_us)
-            return len(future) if is_apart else found
-        found = _strays_below(future, latest_us, leap_us)
-        if found or _is_late(future, latest_us):
+        found = _strays_before_return(future, latest_us)
+        if found:
             return found
         turn_us = next((t for t in TURNS_US if 0 <= step_us + t <= LONGEST_TURN_US), 0)
-        if is_end and not turn_us and not _restarts(future):
+        if is_end and not turn_us and abs(step_us) > LONGEST_PAUSE_US:
             return len(future)
-        self._added_us += turn_us or -step_us
-        self._latest_us = int(future[0])
-        self._counts.clock_turns += turn_us > 0
-        self._counts.clock_resets += turn_us == 0
+        if step_us < 0:
+            self._added_us += turn_us or -step_us
+            self._latest_us = int(future[0])
+            self._counts.clock_turns += turn_us > 0
+            self._counts.clock_resets += turn_us == 0
         return 0
 
     def _count(self, times: _Times, is_kept: NDArray[np.bool_]) -> None:
@@ -225,25 +212,14 @@ class _Clock:
         self._reached_us = int(reached[-1])
 
 
-def _strays_above(future: _Times, latest_us: int, leap_us: int) -> int:
-    """Number of times before those that are back at the clock; 0: the leap is a pause."""
+def _strays_before_return(future: _Times, latest_us: int) -> int:
+    """Number of times before a leap back to the clock; 0: it stays away."""
     window = future[: MOST_STRAYS + 1]
-    away = np.minimum.accumulate(np.abs(window - latest_us))
-    is_back = (window[1:] >= latest_us - DISORDER_US) & (window[1:] - latest_us < away[:-1] // 2)
-    if not is_back.any():
-        return 0
-    found = int(is_back.argmax()) + 1
-    rest, level_us = future[found : found + MOST_STRAYS], int(window[:found].min())
-    # After a pause, a few strays may lie before it.
-    lower = _strays_below(rest, level_us, leap_us)
-    return 0 if 0 < lower < found and 2 * np.count_nonzero(rest >= level_us) > len(rest) else found
-
-
-def _strays_below(future: _Times, latest_us: int, leap_us: int) -> int:
-    """Number of times before a leap back to the clock; 0: it stays low."""
-    window, fall_us = future[: MOST_STRAYS + 1], latest_us - int(future[0])
-    is_back = window[1:] >= latest_us - min(DISORDER_US, fall_us // 4)
-    is_back &= np.diff(window) > min(leap_us, fall_us // 2)
+    away = np.abs(window - latest_us)
+    half = np.minimum.accumulate(away)[:-1] // 2
+    # A clock that was set anew may come back too, step by step.
+    least = np.where(window[:-1] < latest_us, away[0] // 2, half)
+    is_back = (away[1:] < half) & (np.abs(np.diff(window)) > least)
     return int(is_back.argmax()) + 1 if is_back.any() else 0
 
 
@@ -251,34 +227,14 @@ def _is_late(future: _Times, latest_us: int) -> bool:
     """Whether many events come late: the clock leaps back to just where it was."""
     fall_us = latest_us - int(future[0])
     is_back = np.abs(future[1:] - latest_us) <= min(DISORDER_US, fall_us // 4)
-    return fall_us <= LATEST_US and bool((is_back & (np.diff(future) > fall_us // 2)).any())
+    return 0 < fall_us <= LATEST_US and bool((is_back & (np.diff(future) > fall_us // 2)).any())
 
 
-def _is_false_start(past: _Times, future: _Times, usual_us: int) -> bool:
+def _is_false_start(past: _Times, future: _Times) -> bool:
     """Whether the few times before a jump are strays, and the recording begins after it."""
-    first_us, before_us = int(future[0]), int(past.max())
-    if abs(first_us - before_us) <= DISORDER_US:
-        return False
-    if first_us > before_us:
-        is_apart = before_us < 0 <= first_us or _is_apart(past, first_us, usual_us)
-        return is_apart and not _strays_above(future, before_us, DISORDER_US)
-    if _strays_below(future, before_us, DISORDER_US):
-        return False
-    return not (_restarts(past) and _restarts(future[:MOST_STRAYS]))
-
-
-def _is_apart(few: _Times, other_us: int, usual_us: int) -> bool:
-    """Whether days, or a flipped bit each, are between a few times and the clock beside them."""
-    apart_us, near_us = int(np.abs(few - other_us).min()), (len(few) + LEAP_GAPS) * usual_us
-    flipped = few[:, None] ^ (1 << np.arange(62))
-    is_bit = (np.abs(flipped - other_us) <= near_us).any(axis=1).all()
-    return apart_us > LONGEST_PAUSE_US or bool(is_bit and apart_us > SURELY_APART * near_us)
-
-
-def _restarts(times: _Times) -> bool:
-    """Whether times are those of a clock that was set to zero."""
-    is_from_zero = 0 <= int(times[0]) < DISORDER_US
-    return len(times) >= LEAST_RESTART and is_from_zero and bool(times[-1] > times[0])
+    before_us = int(past.max())
+    is_far = abs(int(future[0]) - before_us) > LONGEST_PAUSE_US
+    return is_far and not _strays_before_return(future, before_us)
 
 
 def _joined(first: _Columns, second: _Columns) -> _Columns:

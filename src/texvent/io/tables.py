@@ -189,39 +189,76 @@ class EventTable:
             FileFormatError: the times cannot be meant in the unit that they seem to have, or the
                 polarities are of no code.
         """
-        in_time, in_p = (arrays[self.columns[name].array] for name in "tp")
-        of_time, of_p = self.columns["t"].of, self.columns["p"].of
-        count = in_time.shape[0]
-        known = stated_or_given(path, self.unit, options)
-        unit = known or guess_unit(of_time(sample_of(in_time, count)))
-        offset_us = 0 if offset is None else int(to_microseconds(path, offset, unit)[0])
-        code = PolarityCode(path, of_p(sample_of(in_p, count)))
+        in_time = arrays[self.columns["t"].array]
+        count, of_time = in_time.shape[0], self.columns["t"].of
+        is_known = self.unit is not None or options.time_unit is not None
+        samples = {
+            "t": of_time(np.asarray(in_time[-1:]) if is_known else sample_of(in_time, count)),
+            "p": self.columns["p"].of(sample_of(arrays[self.columns["p"].array], count)),
+        }
+        values = ColumnValues(path, count, samples, self.unit, options, offset)
         own = dict(self.extra)
         if "label" in own and not (sample_of(arrays[own["label"]], count) <= 1).all():
             del own["label"]  # classes of another program
 
-        def times(start: int, stop: int) -> NDArray[np.int64]:
-            return in_us(np.asarray(in_time[start:stop]))
-
-        def in_us(stored: NDArray[Any]) -> NDArray[np.int64]:
-            found = to_microseconds(path, of_time(stored), unit, is_guessed=known is None)
-            return found + offset_us if offset_us else found
-
         def read(start: int, stop: int) -> Columns:
             parts = {name: np.asarray(arrays[name][start:stop]) for name in self.arrays}
-            stored = {
-                name: self.columns[name].of(parts[self.columns[name].array]) for name in "xyp"
-            }
-            pixels = {name: whole_numbers(path, stored[name]) for name in "xy"}
-            extra = {name: parts[array] for name, array in own.items()}
-            t = in_us(parts[self.columns["t"].array])
-            return {**pixels, **extra, "p": code.binary(stored["p"]), "t": t}
+            stored = {name: column.of(parts[column.array]) for name, column in self.columns.items()}
+            return {**values.columns(stored), **{name: parts[own[name]] for name in own}}
 
-        if count:
-            check_precision(path, of_time(np.asarray(in_time[count - 1 : count])), unit)
-        if known is None and count:
-            check_rate(path, count, (int(times(0, 1)[0]), int(times(count - 1, count)[0])), unit)
-        return TimedRows(count, lambda index: int(times(index, index + 1)[0]), read, block)
+        def time_us(index: int) -> int:
+            return int(values.times_us(of_time(np.asarray(in_time[index : index + 1])))[0])
+
+        return TimedRows(count, time_us, read, block)
+
+
+class ColumnValues:
+    """Values of stored columns as those of events: unit and code of polarity are judged once.
+
+    Args:
+        path: the file, for messages.
+        count: number of events.
+        samples: times t and polarities p from all over the file, from the first to the last; of
+            times whose unit is known the last is enough.
+        stated: unit of the times, where the file states it.
+        options: the unit, where it does not.
+        offset: added to all times, in their unit; [1].
+
+    Raises:
+        FileFormatError: the times cannot be meant in the unit that they seem to have, or the
+            polarities are of no code.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        count: int,
+        samples: Mapping[str, NDArray[Any]],
+        stated: TimeUnit | None,
+        options: ReadOptions,
+        offset: NDArray[Any] | None = None,
+    ) -> None:
+        times, known = samples["t"], stated_or_given(path, stated, options)
+        self._path, self._is_guessed, self._offset_us = path, known is None, 0
+        self._unit = known or guess_unit(times)
+        if offset is not None:
+            self._offset_us = int(to_microseconds(path, offset, self._unit)[0])
+        self._code = PolarityCode(path, samples["p"])
+        check_precision(path, times[-1:], self._unit)
+        if self._is_guessed and len(times):
+            first_us, last_us = self.times_us(times[[0, -1]]).tolist()
+            check_rate(path, count, (first_us, last_us), self._unit)
+
+    def times_us(self, stored: NDArray[Any]) -> NDArray[np.int64]:
+        """Times, µs."""
+        found = to_microseconds(self._path, stored, self._unit, is_guessed=self._is_guessed)
+        return found + self._offset_us if self._offset_us else found
+
+    def columns(self, stored: Mapping[str, NDArray[Any]]) -> Columns:
+        """x, y, t and p of some rows."""
+        pixels = {name: whole_numbers(self._path, stored[name]) for name in "xy"}
+        p, t = self._code.binary(stored["p"]), self.times_us(stored["t"])
+        return {**pixels, "p": p, "t": t}
 
 
 def find_tables(path: Path, arrays: Mapping[str, Array], options: ReadOptions) -> list[EventTable]:

@@ -14,7 +14,6 @@ from texvent.errors import FileFormatError
 from texvent.io.aedat import aedat4_container
 from texvent.io.aedat.aedat4_container import load_zstd
 from texvent.io.files import load, save
-from texvent.io.ros import bag_bounds
 from texvent.io.ros.messages import EVENT_PACKET
 from texvent.runtime import memory
 from texvent.sensor import SensorSize
@@ -51,8 +50,8 @@ def test_compressed_bags_are_read(compressed: tuple[Path, Any]) -> None:
 def test_a_chunk_that_would_fill_the_memory_is_refused(
     compressed: tuple[Path, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(bag_bounds, "MAX_CHUNK_BYTES", 10_000)
-    with pytest.raises(FileFormatError, match="unpacks to more than 10000 bytes"):
+    monkeypatch.setattr(aedat4_container, "MAX_PACKET_BYTES", 10_000)
+    with pytest.raises(FileFormatError, match="unpacks to more than 0 MiB"):
         load(compressed[0])
 
 

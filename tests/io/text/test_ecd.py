@@ -8,8 +8,8 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io import text_files as text_rows
 from texvent.io.files import load, open_events, save
+from texvent.io.text import codecs as text_rows
 from texvent.sensor import SensorSize
 
 RECORDED = "0.003811000 96 133 0\n0.003820001 127 171 1\n0.003820999 13 34 1\n"

@@ -15,6 +15,7 @@ Source: iniVation, AEDAT 4.0 file format.
 
 from __future__ import annotations
 
+import bz2
 import os
 import struct
 from collections.abc import Callable, Iterator
@@ -80,6 +81,15 @@ def unpack_zstd(data: bytes) -> bytes:
     return _unpack(zstd.ZstdDecompressor(), data, zstd.ZstdError, "Zstandard")
 
 
+def unpack_bz2(data: bytes) -> bytes:
+    """What bzip2 packed.
+
+    Raises:
+        FileFormatError: it is damaged, cut off or too large.
+    """
+    return _unpack(bz2.BZ2Decompressor(), data, OSError, "bzip2")
+
+
 def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str) -> bytes:
     # In steps: with one large limit, LZ4 sets the whole of it aside for every packet.
     step = max(65_536, 4 * len(data))
@@ -94,7 +104,7 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
             total += len(part)
     except (failure, EOFError, MemoryError) as error:
         raise FileFormatError(f"a packet is damaged ({name}: {one_line(error)})") from error
-    if not decompressor.eof:
+    if not decompressor.eof or total > MAX_PACKET_BYTES:
         what = "is cut off"
         if total >= MAX_PACKET_BYTES:
             what = f"unpacks to more than {MAX_PACKET_BYTES // 2**20} MiB"

@@ -20,16 +20,8 @@ from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns
 from texvent.io.input_checks import begins_with, reporting_damage
 from texvent.io.metadata import metadata_from_json
-from texvent.io.polarity import PolarityCode
-from texvent.io.reading import (
-    ReadOptions,
-    check_precision,
-    check_rate,
-    guess_unit,
-    stated_or_given,
-    to_microseconds,
-)
-from texvent.io.tables import find_columns, spelled, whole_numbers
+from texvent.io.reading import ReadOptions
+from texvent.io.tables import ColumnValues, find_columns, spelled
 
 PACKET_EVENTS = 2**18
 EXTRA = "parquet"
@@ -77,25 +69,15 @@ def _open_table(path: Path) -> Iterator[Any]:
 
 
 def _read_blocks(path: Path, order: Mapping[str, str], options: ReadOptions) -> Iterator[Columns]:
-    known = stated_or_given(path, spelled(order["t"])[1], options)
     with _open_table(path) as table:
-        ends = {name: _ends(table, column) for name, column in order.items() if name in "tp"}
-        unit = known or guess_unit(ends["t"])
-        in_us = partial(to_microseconds, path, unit=unit, is_guessed=known is None)
-        code = PolarityCode(path, ends["p"])
-        check_precision(path, ends["t"][-1:], unit)
-        if known is None and len(ends["t"]):
-            first_us, last_us = in_us(ends["t"])[[0, -1]].tolist()
-            check_rate(path, table.metadata.num_rows, (first_us, last_us), unit)
+        samples = {name: _ends(table, order[name]) for name in "tp"}
+        count, unit = table.metadata.num_rows, spelled(order["t"])[1]
+        values = ColumnValues(path, count, samples, unit, options)
         for batch in table.iter_batches(PACKET_EVENTS, columns=list(order.values())):
-            stored = {name: _values(batch, column) for name, column in order.items()}
-            pixels = {name: whole_numbers(path, stored[name]) for name in "xy"}
-            yield {**pixels, "p": code.binary(stored["p"]), "t": in_us(stored["t"])}
-
-
-def _values(batch: Any, column: str) -> NDArray[Any]:
-    values: NDArray[Any] = batch[column].to_numpy(zero_copy_only=False)
-    return values
+            stored = {
+                name: batch[column].to_numpy(zero_copy_only=False) for name, column in order.items()
+            }
+            yield values.columns(stored)
 
 
 def _ends(table: Any, column: str) -> NDArray[Any]:

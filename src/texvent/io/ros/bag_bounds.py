@@ -11,10 +11,8 @@ from __future__ import annotations
 import bz2
 import shutil
 import sqlite3
-import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,40 +20,24 @@ import lz4.frame
 import yaml
 
 from texvent._require import require
-from texvent.errors import FileFormatError, one_line
-from texvent.io.aedat.aedat4_container import load_zstd, unpack_lz4, unpack_zstd
+from texvent.errors import FileFormatError, one_line, shown
+from texvent.io.aedat.aedat4_container import load_zstd, unpack_bz2, unpack_lz4, unpack_zstd
+from texvent.io.atomic import temporary_folder
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES
 from texvent.runtime.memory import check_proportion, most_unpacked
 
 FOLDER_FACTS = "metadata.yaml"
 MCAP_MAGIC, SQLITE_MAGIC = b"\x89MCAP", b"SQLite format 3"
-MAX_CHUNK_BYTES = 256 * 2**20
-"""ROS writes chunks of less than a megabyte."""
 PIECE_BYTES = 2**20
 
 
 def bound_chunks(bag: Any) -> None:
-    """Let rosbags' reader of an open ROS 1 bag unpack no chunk beyond `MAX_CHUNK_BYTES`."""
-    bounded = {
-        bz2.decompress: bz2.BZ2Decompressor,
-        lz4.frame.decompress: lz4.frame.LZ4FrameDecompressor,
-    }
+    """Let rosbags' reader of an open ROS 1 bag unpack chunks only as far as packets go."""
+    bounded = {bz2.decompress: unpack_bz2, lz4.frame.decompress: unpack_lz4}
     for position, chunk in bag.chunks.items():
-        make = bounded.get(chunk.decompressor)
-        if make is not None:
-            bag.chunks[position] = chunk._replace(decompressor=partial(_unpack, make))
-
-
-def _unpack(make: Callable[[], Any], data: bytes) -> bytes:
-    decompressor = make()
-    unpacked: bytes = decompressor.decompress(data, max_length=MAX_CHUNK_BYTES)
-    if not decompressor.eof:
-        raise FileFormatError(
-            f"a chunk ends early or unpacks to more than {MAX_CHUNK_BYTES} bytes; the bag is "
-            "damaged, or made to fill the memory"
-        )
-    return unpacked
+        unpack = bounded.get(chunk.decompressor, chunk.decompressor)
+        bag.chunks[position] = chunk._replace(decompressor=unpack)
 
 
 @contextmanager
@@ -74,8 +56,8 @@ def bounded_bag(path: Path, extra: str) -> Iterator[tuple[Path, bool]]:
             yield path, False
             return
         # rosbags goes by the extension.
-        with tempfile.TemporaryDirectory() as temporary:
-            named = Path(temporary, f"bag{suffix}")
+        with temporary_folder() as folder:
+            named = folder / f"bag{suffix}"
             named.symlink_to(path.absolute())
             yield named, False
         return
@@ -87,8 +69,7 @@ def bounded_bag(path: Path, extra: str) -> Iterator[tuple[Path, bool]]:
                 _check_file(file, extra)
         yield path, mode == "message"
         return
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary)
+    with temporary_folder() as folder:
         names = [Path(str(name)).name for name in facts.get("relative_file_paths") or ()]
         for name in names:
             _unpack_file(path / name, folder / Path(name).stem)
@@ -189,16 +170,12 @@ def _check_tables(path: Path) -> None:
     address = f"{path.absolute().as_uri()}?mode=ro&immutable=1"
     try:
         with closing(sqlite3.connect(address, uri=True)) as database:
-            found = database.execute("PRAGMA table_list").fetchall()
-            computed = [name for schema, name, kind, *_ in found if kind in ("view", "virtual")]
-            computed += [
-                name
-                for (name,) in database.execute(
-                    "SELECT DISTINCT l.name FROM pragma_table_list l, pragma_table_xinfo(l.name) x "
-                    "WHERE x.hidden > 1"
-                )
-            ]
+            computed = database.execute(
+                "SELECT name FROM pragma_table_list WHERE type IN ('view', 'virtual') UNION ALL "
+                "SELECT l.name FROM pragma_table_list l, pragma_table_xinfo(l.name) x "
+                "WHERE x.hidden > 1"
+            ).fetchone()
     except sqlite3.Error as error:
         raise FileFormatError(f"{path} is damaged or not a bag ({one_line(error)})") from error
     if computed:
-        raise FileFormatError(f"{path} computes the values of {computed[0][:40]!r}; no bag does")
+        raise FileFormatError(f"{path} computes the values of {shown(computed[0])}; no bag does")

@@ -1,0 +1,1 @@
+"""Text formats: Event Camera Dataset, E2VID, CSV."""
