@@ -119,7 +119,7 @@ def test_another_training_is_not_continued(
     assert main(words) == 2
     assert "learning_rate was 0.01, is 0.02" in capsys.readouterr().err
     specification.write_text(specification.read_text().replace("0.02", "0.01"))
-    write_shard(tmp_path / "bars", "paper", "train", 1, {"one more": bar(0, 24)}, labels=LABELS)
+    write_shard(tmp_path / "bars", "paper", "train", 1, {"one-more": bar(0, 24)}, labels=LABELS)
     assert main(words) == 2
     assert "samples was 24 (" in capsys.readouterr().err
     path = tmp_path / "run" / "checkpoint.pt"
