@@ -284,8 +284,7 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
 
 def is_cover(stream: VideoStream) -> bool:
     """Whether a stream is the picture of a cover, which players show beside music."""
-    # The first releases of PyAV 14 do not tell.
-    return bool(int(getattr(stream, "disposition", 0)) & ATTACHED_PICTURE)
+    return bool(stream.disposition & type(stream.disposition)(ATTACHED_PICTURE))
 
 
 def _check_claim(path: Path, stream: VideoStream) -> None:
