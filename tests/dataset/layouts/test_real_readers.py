@@ -80,7 +80,7 @@ def test_pycocotools_indexes_the_images(tmp_path: Path) -> None:
 
     (tmp_path / "train").mkdir()
     LAYOUTS["coco"].write(crossing(), tmp_path / "train/abc")
-    LAYOUTS["coco"].finish(tmp_path, [crossing()], ("car", "man"), False)
+    LAYOUTS["coco"].finish(tmp_path, [crossing()], ("car", "man"))
     found = COCO(str(tmp_path / "train/annotations.json"))
     (men,) = {one["category_id"] for one in found.loadAnns(found.getAnnIds(catIds=[2]))}
     assert (men, found.loadCats([2])[0]["name"], len(found.getImgIds())) == (2, "man", 5)
