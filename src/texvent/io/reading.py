@@ -183,6 +183,17 @@ def to_microseconds(
     return whole // (per_second // MICROSECONDS)
 
 
+def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
+    """Which values can be times in a unit, as `to_microseconds` takes them."""
+    if values.dtype.kind in "mM":
+        return ~np.isnat(values)
+    if values.dtype.kind == "f":
+        return np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit]
+    if values.dtype.kind == "u":
+        return values < np.uint64(1 << 63)
+    return np.full(len(values), values.dtype.kind in "bi")
+
+
 def refuse_fractions(path: Path, times: NDArray[np.float64]) -> None:
     """Refuse fractions among times that were taken for whole µs.
 
@@ -214,14 +225,14 @@ def check_precision(path: Path, times: NDArray[Any], unit: TimeUnit) -> None:
 
 
 def check_rate(
-    path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit, *, is_all: bool = True
+    path: Path, count: int, times_us: NDArray[np.int64], unit: TimeUnit, *, is_all: bool = True
 ) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
 
     Args:
         path: the file.
-        count: number of events ...
-        range_us: ... in this time.
+        count: number of events.
+        times_us: of events from all over the file; a few wrong ones and pauses say nothing.
         unit: as guessed.
         is_all: whether they are all events of the file.
 
@@ -231,11 +242,15 @@ def check_rate(
     Warns:
         TexventWarning: another unit is as likely.
     """
-    span_us = range_us[1] - range_us[0]
-    is_slow = count * MICROSECONDS < LEAST_HZ * span_us and count >= LEAST_EVENTS
-    rate = count * MICROSECONDS / max(span_us, 1)
-    is_too_late = range_us[1] > LATEST_GUESSED_US and count >= LEAST_EVENTS
-    if not (is_slow or is_too_late):
+    if min(count, len(times_us)) < LEAST_EVENTS:
+        return
+    usual = _without_outliers(np.sort(times_us.astype(np.float64)))
+    first_us, last_us = float(usual[0]), float(usual[-1])
+    gaps = np.sort(np.diff(usual))
+    busy_us = float(gaps[: -_few(len(gaps))].mean()) * count
+    span_us = last_us - first_us
+    rate = count * MICROSECONDS / max(min(span_us, busy_us), 1)
+    if rate >= LEAST_HZ and last_us <= LATEST_GUESSED_US:
         other = _as_likely(count, span_us, rate, unit) if is_all else None
         if other is not None:
             seconds = span_us / MICROSECONDS
@@ -251,12 +266,23 @@ def check_rate(
     name = likely[0] if likely else "s, ms, us or ns"
     raise TimeUnitError(
         f"{path}: its times read as {unit} make {count:,} events in {span_us / MICROSECONDS:,.0f} "
-        f"s from {range_us[0] / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
+        f"s from {first_us / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
         f"time_unit (--time-unit {name})"
     )
 
 
-def _as_likely(count: int, span_us: int, rate: float, unit: TimeUnit) -> TimeUnit | None:
+def _few(count: int) -> int:
+    """Number of values that may be outliers: a hundredth, at least one."""
+    return max(count // 100, 1)
+
+
+def _without_outliers(ordered: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values in order without those that are further from most than most are from each other."""
+    low, high = ordered[_few(len(ordered))], ordered[-1 - _few(len(ordered))]
+    return ordered[(ordered >= 2 * low - high) & (ordered <= 2 * high - low)]
+
+
+def _as_likely(count: int, span_us: float, rate: float, unit: TimeUnit) -> TimeUnit | None:
     """Another unit of times that were guessed, if a recording of this span and rate is unusual."""
     if count < LEAST_DOUBTED or span_us <= 0:
         return None
