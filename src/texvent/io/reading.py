@@ -247,11 +247,11 @@ def check_rate(
     usual = _without_outliers(np.sort(times_us.astype(np.float64)))
     first_us, last_us = float(usual[0]), float(usual[-1])
     gaps = np.sort(np.diff(usual))
-    busy_us = float(gaps[: -_few(len(gaps))].mean()) * count
     span_us = last_us - first_us
-    rate = count * MICROSECONDS / max(min(span_us, busy_us), 1)
+    busy_us = min(float(gaps[: -_few(len(gaps))].mean()) * count, span_us)
+    rate = count * MICROSECONDS / max(busy_us, 1)
     if rate >= LEAST_HZ and last_us <= LATEST_GUESSED_US:
-        other = _as_likely(count, span_us, rate, unit) if is_all else None
+        other = _as_likely(count, span_us, busy_us, unit) if is_all else None
         if other is not None:
             seconds = span_us / MICROSECONDS
             meant = seconds * PER_SECOND[unit] / PER_SECOND[other]
@@ -271,6 +271,20 @@ def check_rate(
     )
 
 
+def warn_of_strays(path: Path, times_us: NDArray[np.int64]) -> None:
+    """Warn of a few times that are very far from all others, which a repair would drop."""
+    if len(times_us) < LEAST_EVENTS:
+        return
+    ordered = np.sort(times_us.astype(np.float64))
+    usual = _without_outliers(ordered)
+    beyond_us = max(usual[0] - ordered[0], ordered[-1] - usual[-1])
+    if beyond_us > LONG_US:
+        warn(
+            f"{path}: a few of its times are {beyond_us / MICROSECONDS:,.0f} s from all others; "
+            "if they are wrong, repair=True (--repair) drops them"
+        )
+
+
 def _few(count: int) -> int:
     """Number of values that may be outliers: a hundredth, at least one."""
     return max(count // 100, 1)
@@ -282,11 +296,12 @@ def _without_outliers(ordered: NDArray[np.float64]) -> NDArray[np.float64]:
     return ordered[(ordered >= 2 * low - high) & (ordered <= 2 * high - low)]
 
 
-def _as_likely(count: int, span_us: float, rate: float, unit: TimeUnit) -> TimeUnit | None:
+def _as_likely(count: int, span_us: float, busy_us: float, unit: TimeUnit) -> TimeUnit | None:
     """Another unit of times that were guessed, if a recording of this span and rate is unusual."""
     if count < LEAST_DOUBTED or span_us <= 0:
         return None
-    if span_us > LONG_US and rate < SPARSE_HZ:
+    rate = count * MICROSECONDS / max(busy_us, 1)
+    if busy_us > LONG_US and rate < SPARSE_HZ:
         return {"s": "ms", "us": "ns"}.get(unit)  # type: ignore[return-value]
     usual_hz = LIKELY_HZ if span_us < MOMENT_US else 10 * LIKELY_HZ
     is_short = span_us < SHORT_US and rate >= 1000 * usual_hz

@@ -32,6 +32,7 @@ from texvent.io.reading import (
     stated_or_given,
     to_microseconds,
     unit_in_name,
+    warn_of_strays,
 )
 from texvent.io.repair import UNREADABLE_US
 from texvent.sensor import SensorSize
@@ -251,7 +252,10 @@ class ColumnValues:
         self._code = PolarityCode(path, p[PolarityCode.are_likely(p)] if options.repair else p)
         check_precision(path, times[-1:], self._unit)
         if self._is_guessed:
-            check_rate(path, count, self.times_us(times), self._unit)
+            times_us = self.times_us(times)
+            check_rate(path, count, times_us, self._unit)
+            if not options.repair:
+                warn_of_strays(path, times_us)
 
     def times_us(self, stored: NDArray[Any]) -> NDArray[np.int64]:
         """Times, µs."""
