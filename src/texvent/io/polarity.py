@@ -76,7 +76,7 @@ class PolarityCode:
             )
         fits = [np.isin(values, code) for code in CODES]
         most = max(int(one.sum()) for one in fits)
-        return np.logical_or.reduce([one for one in fits if int(one.sum()) == most])
+        return np.asarray(np.any([one for one in fits if int(one.sum()) == most], axis=0))
 
     def _from_words(self, values: NDArray[Any]) -> NDArray[np.float64]:
         texts, places = np.unique(values.astype("U16"), return_inverse=True)

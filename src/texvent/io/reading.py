@@ -188,9 +188,9 @@ def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
     if values.dtype.kind in "mM":
         return ~np.isnat(values)
     if values.dtype.kind == "f":
-        return np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit]
+        return np.asarray(np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
     if values.dtype.kind == "u":
-        return values < np.uint64(1 << 63)
+        return np.asarray(values < np.uint64(1 << 63))
     return np.full(len(values), values.dtype.kind in "bi")
 
 
@@ -293,7 +293,7 @@ def _few(count: int) -> int:
 def _without_outliers(ordered: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values in order without those that are further from most than most are from each other."""
     low, high = ordered[_few(len(ordered))], ordered[-1 - _few(len(ordered))]
-    return ordered[(ordered >= 2 * low - high) & (ordered <= 2 * high - low)]
+    return np.asarray(ordered[(ordered >= 2 * low - high) & (ordered <= 2 * high - low)])
 
 
 def _as_likely(count: int, span_us: float, busy_us: float, unit: TimeUnit) -> TimeUnit | None:
