@@ -186,7 +186,7 @@ def to_microseconds(
 def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
     """Which values can be times in a unit, as `to_microseconds` takes them."""
     if values.dtype.kind in "mM":
-        return ~np.isnat(values)
+        return np.asarray(~np.isnat(values))
     if values.dtype.kind == "f":
         return np.asarray(np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
     if values.dtype.kind == "u":
