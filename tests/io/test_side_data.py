@@ -37,7 +37,7 @@ def slow_evt3(words: list[int]) -> list[tuple[int, int, int]]:
     for word in words:
         kind, value = word >> 12, word & 0xFFF
         if kind == 8:
-            turns += high - value >= 2048
+            turns += high - value >= 3840
             low = low if value == high else 0
             high = value
         elif kind == 6:

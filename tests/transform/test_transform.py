@@ -130,6 +130,7 @@ def test_a_lens_without_distortion_moves_nothing() -> None:
     events = stream([(0, 0, 1, 1), (7, 5, 2, 0), (3, 2, 3, 1)])
     straight = Calibration((10, 10, 4, 3))
     assert undistort(packets(events), straight).collect().equals(events)
+    assert undistort(events, straight).equals(events), "a stream gives a stream"
 
 
 def test_a_calibration_file_is_nine_numbers(tmp_path: Path) -> None:

@@ -223,7 +223,7 @@ def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPack
     kept = sum(len(block["t"]) for block in repair_blocks(contents.blocks(), size, counts))
     if counts.cut_off and not kept:
         raise FileFormatError(counts.cut_off)
-    counts.unreadable_rows = sum(contents.left_out)
+    counts.unreadable_rows += sum(contents.left_out)
     counts.cut_off = counts.cut_off.removeprefix(f"{path} ").removeprefix(f"{path}: ")
     facts = counts.facts()
     if facts:

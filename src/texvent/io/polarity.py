@@ -66,6 +66,18 @@ class PolarityCode:
         is_on: NDArray[np.bool_] = is_one if on == 1 else numbers == on
         return is_on.astype(np.uint8)
 
+    @staticmethod
+    def are_likely(values: NDArray[Any]) -> NDArray[np.bool_]:
+        """Which values are of the codes that fit most of them."""
+        if values.dtype.kind in "OSU":
+            words = [str(one).strip().lower() for one in values.tolist()]
+            return np.array(
+                [word in WORDS or word.lstrip("+-").isdecimal() for word in words], bool
+            )
+        fits = [np.isin(values, code) for code in CODES]
+        most = max(int(one.sum()) for one in fits)
+        return np.asarray(np.any([one for one in fits if int(one.sum()) == most], axis=0))
+
     def _from_words(self, values: NDArray[Any]) -> NDArray[np.float64]:
         texts, places = np.unique(values.astype("U16"), return_inverse=True)
         words = [text.strip().lower() for text in texts.tolist()]

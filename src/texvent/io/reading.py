@@ -183,6 +183,17 @@ def to_microseconds(
     return whole // (per_second // MICROSECONDS)
 
 
+def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
+    """Which values can be times in a unit, as `to_microseconds` takes them."""
+    if values.dtype.kind in "mM":
+        return np.asarray(~np.isnat(values))
+    if values.dtype.kind == "f":
+        return np.asarray(np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
+    if values.dtype.kind == "u":
+        return np.asarray(values < np.uint64(1 << 63))
+    return np.full(len(values), values.dtype.kind in "bi")
+
+
 def refuse_fractions(path: Path, times: NDArray[np.float64]) -> None:
     """Refuse fractions among times that were taken for whole µs.
 
@@ -214,14 +225,14 @@ def check_precision(path: Path, times: NDArray[Any], unit: TimeUnit) -> None:
 
 
 def check_rate(
-    path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit, *, is_all: bool = True
+    path: Path, count: int, times_us: NDArray[np.int64], unit: TimeUnit, *, is_all: bool = True
 ) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
 
     Args:
         path: the file.
-        count: number of events ...
-        range_us: ... in this time.
+        count: number of events.
+        times_us: of events from all over the file; a few wrong ones and pauses say nothing.
         unit: as guessed.
         is_all: whether they are all events of the file.
 
@@ -231,12 +242,16 @@ def check_rate(
     Warns:
         TexventWarning: another unit is as likely.
     """
-    span_us = range_us[1] - range_us[0]
-    is_slow = count * MICROSECONDS < LEAST_HZ * span_us and count >= LEAST_EVENTS
-    rate = count * MICROSECONDS / max(span_us, 1)
-    is_too_late = range_us[1] > LATEST_GUESSED_US and count >= LEAST_EVENTS
-    if not (is_slow or is_too_late):
-        other = _as_likely(count, span_us, rate, unit) if is_all else None
+    if min(count, len(times_us)) < LEAST_EVENTS:
+        return
+    usual = _without_outliers(np.sort(times_us.astype(np.float64)))
+    first_us, last_us = float(usual[0]), float(usual[-1])
+    gaps = np.sort(np.diff(usual))
+    span_us = last_us - first_us
+    busy_us = min(float(gaps[: -_few(len(gaps))].mean()) * count, span_us)
+    rate = count * MICROSECONDS / max(busy_us, 1)
+    if rate >= LEAST_HZ and last_us <= LATEST_GUESSED_US:
+        other = _as_likely(count, span_us, busy_us, unit) if is_all else None
         if other is not None:
             seconds = span_us / MICROSECONDS
             meant = seconds * PER_SECOND[unit] / PER_SECOND[other]
@@ -251,16 +266,42 @@ def check_rate(
     name = likely[0] if likely else "s, ms, us or ns"
     raise TimeUnitError(
         f"{path}: its times read as {unit} make {count:,} events in {span_us / MICROSECONDS:,.0f} "
-        f"s from {range_us[0] / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
+        f"s from {first_us / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
         f"time_unit (--time-unit {name})"
     )
 
 
-def _as_likely(count: int, span_us: int, rate: float, unit: TimeUnit) -> TimeUnit | None:
+def warn_of_strays(path: Path, times_us: NDArray[np.int64]) -> None:
+    """Warn of a few times that are very far from all others, which a repair would drop."""
+    if len(times_us) < LEAST_EVENTS:
+        return
+    ordered = np.sort(times_us.astype(np.float64))
+    usual = _without_outliers(ordered)
+    beyond_us = max(usual[0] - ordered[0], ordered[-1] - usual[-1])
+    if beyond_us > LONG_US:
+        warn(
+            f"{path}: a few of its times are {beyond_us / MICROSECONDS:,.0f} s from all others; "
+            "if they are wrong, repair=True (--repair) drops them"
+        )
+
+
+def _few(count: int) -> int:
+    """Number of values that may be outliers: a hundredth, at least one."""
+    return max(count // 100, 1)
+
+
+def _without_outliers(ordered: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values in order without those that are further from most than most are from each other."""
+    low, high = ordered[_few(len(ordered))], ordered[-1 - _few(len(ordered))]
+    return np.asarray(ordered[(ordered >= 2 * low - high) & (ordered <= 2 * high - low)])
+
+
+def _as_likely(count: int, span_us: float, busy_us: float, unit: TimeUnit) -> TimeUnit | None:
     """Another unit of times that were guessed, if a recording of this span and rate is unusual."""
     if count < LEAST_DOUBTED or span_us <= 0:
         return None
-    if span_us > LONG_US and rate < SPARSE_HZ:
+    rate = count * MICROSECONDS / max(busy_us, 1)
+    if busy_us > LONG_US and rate < SPARSE_HZ:
         return {"s": "ms", "us": "ns"}.get(unit)  # type: ignore[return-value]
     usual_hz = LIKELY_HZ if span_us < MOMENT_US else 10 * LIKELY_HZ
     is_short = span_us < SHORT_US and rate >= 1000 * usual_hz

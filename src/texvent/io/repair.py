@@ -32,6 +32,8 @@ BATCH_EVENTS = 2**18
 """Events judged at once: how a file was cut into blocks changes nothing."""
 HELD_EVENTS = 2**20
 """Events that are held back to be sorted."""
+UNREADABLE_US = -(1 << 63)
+"""Time of a row that holds no event."""
 MOST_STRAYS = 100
 """More wrong stamps in a row are a clock of their own."""
 LOOK_EVENTS = 2**14
@@ -65,7 +67,7 @@ class RepairCounts:
     clock_turns: int = 0
     """Falls of the clock by its range, that were joined."""
     unreadable_rows: int = 0
-    """Rows of a text that are no events, which are dropped."""
+    """Rows that are no events, which are dropped."""
     cut_off: str = ""
     """Damage that ended the reading."""
 
@@ -127,8 +129,10 @@ def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[C
 
 def _on_sensor(block: Columns, size: SensorSize, counts: RepairCounts) -> _Columns:
     x, y = (np.asarray(block[name]).astype(np.int64, copy=False) for name in "xy")
-    inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
-    counts.outside_sensor += int(inside.size - np.count_nonzero(inside))
+    is_read = np.asarray(block["t"]) != UNREADABLE_US
+    inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height) & is_read
+    counts.unreadable_rows += int(is_read.size - np.count_nonzero(is_read))
+    counts.outside_sensor += int(np.count_nonzero(is_read) - np.count_nonzero(inside))
     return {name: np.asarray(column)[inside] for name, column in block.items()}
 
 

@@ -24,6 +24,7 @@ from texvent.io.reading import (
     ReadOptions,
     TimeUnit,
     UnknownLayoutError,
+    are_times,
     check_precision,
     check_rate,
     guess_unit,
@@ -31,7 +32,9 @@ from texvent.io.reading import (
     stated_or_given,
     to_microseconds,
     unit_in_name,
+    warn_of_strays,
 )
+from texvent.io.repair import UNREADABLE_US
 from texvent.sensor import SensorSize
 
 Array: TypeAlias = Any
@@ -238,16 +241,21 @@ class ColumnValues:
         options: ReadOptions,
         offset: NDArray[Any] | None = None,
     ) -> None:
-        times, known = samples["t"], stated_or_given(path, stated, options)
+        known = stated_or_given(path, stated, options)
+        times = samples["t"][are_times(samples["t"], known or "s")]
         self._path, self._is_guessed, self._offset_us = path, known is None, 0
+        self._repairs = options.repair
         self._unit = known or guess_unit(times)
         if offset is not None:
             self._offset_us = int(to_microseconds(path, offset, self._unit)[0])
-        self._code = PolarityCode(path, samples["p"])
+        p = samples["p"]
+        self._code = PolarityCode(path, p[PolarityCode.are_likely(p)] if options.repair else p)
         check_precision(path, times[-1:], self._unit)
-        if self._is_guessed and len(times):
-            first_us, last_us = self.times_us(times[[0, -1]]).tolist()
-            check_rate(path, count, (first_us, last_us), self._unit)
+        if self._is_guessed:
+            times_us = self.times_us(times)
+            check_rate(path, count, times_us, self._unit)
+            if not options.repair:
+                warn_of_strays(path, times_us)
 
     def times_us(self, stored: NDArray[Any]) -> NDArray[np.int64]:
         """Times, µs."""
@@ -255,7 +263,19 @@ class ColumnValues:
         return found + self._offset_us if self._offset_us else found
 
     def columns(self, stored: Mapping[str, NDArray[Any]]) -> Columns:
-        """x, y, t and p of some rows."""
+        """x, y, t and p of some rows; in repair those that are none get the time of no event."""
+        is_sound = self._are_sound(stored) if self._repairs else np.ones(1, bool)
+        if not is_sound.all() and is_sound.any():
+            at = np.where(is_sound, np.arange(len(is_sound)), is_sound.argmax())
+            found = self._all_sound({name: one[at] for name, one in stored.items()})
+            return {**found, "t": np.where(is_sound, found["t"], UNREADABLE_US)}
+        return self._all_sound(stored)
+
+    def _are_sound(self, stored: Mapping[str, NDArray[Any]]) -> NDArray[np.bool_]:
+        sound = are_times(stored["t"], self._unit) & PolarityCode.are_likely(stored["p"])
+        return sound & are_whole(stored["x"]) & are_whole(stored["y"])
+
+    def _all_sound(self, stored: Mapping[str, NDArray[Any]]) -> Columns:
         pixels = {name: whole_numbers(self._path, stored[name]) for name in "xy"}
         p, t = self._code.binary(stored["p"]), self.times_us(stored["t"])
         return {**pixels, "p": p, "t": t}
@@ -397,6 +417,13 @@ def _named_table(path: Path, arrays: Mapping[str, Array], options: ReadOptions) 
     return EventTable(group or "events", {name: columns[name] for name in "xytp"}, stated)
 
 
+def are_whole(values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which values are whole numbers that pixels may have."""
+    if values.dtype.kind != "f":
+        return np.ones(len(values), bool)
+    return np.asarray((np.abs(values) < 2**31) & (values == np.rint(values)))
+
+
 def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
     """Pixels or polarities as integers, of any type they are stored as.
 
@@ -405,6 +432,6 @@ def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
     """
     if values.dtype.kind != "f":
         return values
-    if not (np.abs(values) < 2**31).all() or (values != np.rint(values)).any():
+    if not are_whole(values).all():
         raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
     return values.astype(np.int64)

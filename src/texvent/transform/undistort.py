@@ -13,7 +13,7 @@ from texvent.errors import InputError, warn
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize, warn_of_far_centre
-from texvent.transform.packets import move_events, note_edit
+from texvent.transform.packets import Recording, move_events, note_edit, packets_of
 
 ITERATIONS = 50
 """Of the fixed-point search; it stops earlier where it has settled."""
@@ -102,7 +102,7 @@ class Calibration:
         return radial, np.stack([du, dv], axis=-1)
 
 
-def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
+def undistort(events: Recording, calibration: Calibration) -> Recording:
     """Every event in the pixel where a lens without distortion would have put it.
 
     Places are rounded to whole pixels, so some pixels get the events of two and some none;
@@ -118,7 +118,7 @@ def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
 
     def changed() -> Iterator[EventStream]:
         given = kept = 0
-        for packet in events:
+        for packet in packets_of(events):
             moved = places[packet.y, packet.x]
             following = move_events(packet, moved[:, 0], moved[:, 1], packet.size)
             given, kept = given + len(packet), kept + len(following)
@@ -134,5 +134,7 @@ def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
     if calibration.is_equidistant:
         facts["model"] = "equidistant"
     facts = facts if calibration.places is None else {"map": "rectify_map"}
+    if isinstance(events, EventStream):
+        return note_edit(next(changed()), events, undistort=facts)
     moved = EventPackets(LazyPackets(changed), events.size, events.metadata)
     return note_edit(moved, events, undistort=facts)

@@ -47,7 +47,7 @@ def decode_evt3(data: bytes) -> list[Event]:
         elif kind == 0b0110:
             low = value
         elif kind == 0b1000:
-            turns += 1 if high is not None and high - value >= 2048 else 0
+            turns += 1 if high is not None and high - value >= 3840 else 0
             low = low if value == high else 0
             high = value
         elif kind in (0b0010, 0b0100, 0b0101):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.io import block_writer, byte_blocks, metadata
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
@@ -23,6 +23,24 @@ from .prophesee_files import (
 )
 
 EVT = ("evt2", "evt21", "evt3")
+
+
+@pytest.mark.parametrize(("format", "bits"), [("evt2", 28), ("evt21", 28), ("evt3", 12)])
+def test_a_lone_wrong_high_time_is_damage_not_a_turn(
+    tmp_path: Path, format: str, bits: int
+) -> None:
+    words = []
+    for at in range(1000):
+        high = at ^ (1 << bits - 1 if at == 500 else 0)
+        event = {"evt2": [0], "evt21": [1], "evt3": [0x6000, 0, 0x2000]}[format]
+        words += [8 << 60 | high << 32 if format == "evt21" else 8 << bits | high, *event]
+    path = write_words(tmp_path, format, words)
+    with pytest.raises(FileFormatError, match=r"time decreases .*--repair"):
+        load(path)
+    with pytest.warns(TexventWarning, match="stray times: 1"):
+        times = load(path, repair=True).t
+    step_us = 4096 if format == "evt3" else 64
+    assert times.tolist() == [at * step_us for at in range(1000) if at != 500]
 
 
 @pytest.mark.parametrize("format", EVT)

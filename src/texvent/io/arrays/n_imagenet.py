@@ -20,14 +20,12 @@ import numpy as np
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.io.arrays.npz import NpzCodec, array_names
+from texvent.io.arrays.npz import N_IMAGENET, NpzCodec, array_names
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
 from texvent.io.metadata import metadata_to_json
-from texvent.io.reading import TimeUnit
 from texvent.sensor import SensorSize
 
-ARRAY = "event_data"
 SENSOR = SensorSize(640, 480)
 """Of the recordings of the data set."""
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
@@ -38,11 +36,10 @@ class NImageNetCodec(NpzCodec):
 
     name: ClassVar[str] = "n-imagenet"
     limits: ClassVar[FormatLimits] = FormatLimits("N-ImageNet npz", 1 << 16, 1 << 63)
-    unit: ClassVar[TimeUnit | None] = "us"
 
     def recognises(self, path: Path) -> bool:
         """True if it is an archive with an array event_data."""
-        return ARRAY in array_names(path)
+        return N_IMAGENET in array_names(path)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -57,7 +54,7 @@ class NImageNetCodec(NpzCodec):
 
         yield write
         arrays: dict[str, Any] = {
-            ARRAY: np.concatenate(blocks),
+            N_IMAGENET: np.concatenate(blocks),
             "width": np.int64(target.size.width),
             "height": np.int64(target.size.height),
             "texvent": np.array(metadata_to_json(target.metadata)),

@@ -52,6 +52,8 @@ from texvent.runtime.memory import check_claim
 from texvent.sensor import SensorSize
 
 BLOCK_EVENTS = 2**18
+N_IMAGENET = "event_data"
+"""Array of N-ImageNet, whose times are µs."""
 FIXED_POINT = 32
 """Steps of a pixel in the coordinates of BS-ERGB."""
 FAR_BEYOND = 4
@@ -80,8 +82,6 @@ class NpzCodec(BlockCodec):
     )
 
     takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
-    unit: ClassVar[TimeUnit | None] = None
-    """Unit of time where the file states none."""
 
     def recognises(self, path: Path) -> bool:
         """True if it is a zip archive of arrays."""
@@ -90,7 +90,8 @@ class NpzCodec(BlockCodec):
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The archive's arrays of events, in memory."""
         arrays = open_arrays(path)
-        unit = stated_unit(path, arrays.get("timestamp_scale_ms")) or self.unit
+        unit = stated_unit(path, arrays.get("timestamp_scale_ms"))
+        unit = unit or ("us" if N_IMAGENET in arrays else None)
         return stored_contents(path, arrays, options, unit=unit)
 
     @contextmanager

@@ -20,7 +20,7 @@ from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns
 from texvent.io.input_checks import begins_with, reporting_damage
 from texvent.io.metadata import metadata_from_json
-from texvent.io.reading import ReadOptions
+from texvent.io.reading import ReadOptions, TimeUnit
 from texvent.io.tables import ColumnValues, find_columns, spelled
 
 PACKET_EVENTS = 2**18
@@ -52,7 +52,9 @@ class ParquetCodec(BlockReader):
         metadata: dict[str, Any] = {}
         if b"texvent" in facts:
             metadata = metadata_from_json(path, facts[b"texvent"])
-        return FileContents(size, metadata, partial(_read_blocks, path, order, options))
+        return FileContents(
+            size, metadata, partial(_read_blocks, path, order, options, "us" if metadata else None)
+        )
 
 
 @contextmanager
@@ -68,10 +70,13 @@ def _open_table(path: Path) -> Iterator[Any]:
         yield table
 
 
-def _read_blocks(path: Path, order: Mapping[str, str], options: ReadOptions) -> Iterator[Columns]:
+def _read_blocks(
+    path: Path, order: Mapping[str, str], options: ReadOptions, own: TimeUnit | None
+) -> Iterator[Columns]:
+    """Events in the order of the file; `own`: unit of files that texvent wrote."""
     with _open_table(path) as table:
         samples = {name: _ends(table, order[name]) for name in "tp"}
-        count, unit = table.metadata.num_rows, spelled(order["t"])[1]
+        count, unit = table.metadata.num_rows, spelled(order["t"])[1] or own
         values = ColumnValues(path, count, samples, unit, options)
         for batch in table.iter_batches(PACKET_EVENTS, columns=list(order.values())):
             stored = {

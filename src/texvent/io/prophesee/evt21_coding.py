@@ -25,14 +25,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.io.clocks import SLACK
 from texvent.runtime.jit import jit
 
 WORD = "<u4"
 DECODER_STATE = (0, -1)
 """Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
 TIME_HIGH = 8
-HALF_TURN = 1 << 27
-"""A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""
+LEAST_FALL = (1 << 28) // SLACK * (SLACK - 1)
+"""A fall of TIME_HIGH by this much or more is a wrap of its 28 bits; others are damage."""
 VECTOR = 32
 DE_BRUIJN = 0x077C_B531
 """Its product with 2^i differs in the upper five bits for every i."""
@@ -80,7 +81,7 @@ def decode_words(
                 count += 1
         elif kind == TIME_HIGH:
             fresh = upper & 0xFFF_FFFF
-            if high - fresh > HALF_TURN:
+            if high - fresh >= LEAST_FALL:
                 turns += 1
             high = fresh
     state[0], state[1] = turns, high

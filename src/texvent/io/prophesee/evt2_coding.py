@@ -16,14 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.io.clocks import SLACK
 from texvent.runtime.jit import jit
 
 WORD = "<u4"
 DECODER_STATE = (0, -1)
 """Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
 TIME_HIGH = 8
-HALF_TURN = 1 << 27
-"""A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""
+LEAST_FALL = (1 << 28) // SLACK * (SLACK - 1)
+"""A fall of TIME_HIGH by this much or more is a wrap of its 28 bits; others are damage."""
 
 
 @jit
@@ -57,7 +58,7 @@ def decode_words(
                 count += 1
         elif kind == TIME_HIGH:
             fresh = word & 0xFFF_FFFF
-            if high - fresh > HALF_TURN:
+            if high - fresh >= LEAST_FALL:
                 turns += 1
             high = fresh
             base = ((turns << 28) | high) << 6

@@ -11,9 +11,10 @@
      1              row of events of another kind, skipped until the next ADDR_Y
      others         triggers and continuations, skipped
 
-Coordinates below 2048. The counter wraps every 2^24 µs (16.78 s): a fall of TIME_HIGH by 2048 or
-more is a wrap. texvent writes the last and the first value of every turn that a silence spans, so
-long silences survive. Times below 2^42 µs (51 days): beyond, that padding would pass 1 MB.
+Coordinates below 2048. The counter wraps every 2^24 µs (16.78 s): a fall of TIME_HIGH by a whole
+turn less at most a sixteenth is a wrap; other falls are damage, and times fall with them. texvent
+writes the last and the first value of every turn that a silence spans, so long silences survive.
+Times below 2^42 µs (51 days): beyond, that padding would pass 1 MB.
 
 Every event is written as ADDR_X: OpenEB loses events in vector words that do not come as
 12 + 12 + 8. A new time repeats the row, as the cameras do.
@@ -28,6 +29,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.io.clocks import SLACK
 from texvent.runtime.jit import jit
 
 WORD = "<u2"
@@ -39,7 +41,7 @@ the next vector word."""
 ENCODER_STATE = (0, 0, -1, -1)
 """Turns and high of the time; row (−1: to be written); time of the last event, µs (−1: none)."""
 ADDR_Y, OTHER_Y, ADDR_X, VECT_BASE_X, VECT_12, VECT_8, TIME_LOW, TIME_HIGH = 0, 1, 2, 3, 4, 5, 6, 8
-HALF_TURN = 1 << 11
+LEAST_FALL = (1 << 12) // SLACK * (SLACK - 1)
 """A fall of TIME_HIGH by this much or more is a wrap of its 12 bits."""
 
 
@@ -156,7 +158,7 @@ def _next_time(
     value = word & 0xFFF
     if word >> 12 == TIME_LOW:
         return turns, high, value
-    if high - value >= HALF_TURN:
+    if high - value >= LEAST_FALL:
         turns += 1
     # Until its low half follows, a new high half means its first µs.
     return turns, value, low if value == high else np.int64(0)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.io.block_writer import Columns
+from texvent.io.clocks import SLACK
 
 TIME_LOW, TIME_HIGH, TRIGGER = 6, 8, 10
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
@@ -60,7 +61,7 @@ def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Co
         highs = np.where(kinds == TIME_HIGH, field_of(words, coding.high), -1)
         highs = _forward(highs, high)
         before = np.concatenate([[high], highs[:-1]])
-        wraps = (before - highs) >= 1 << (coding.high[1] - 1)
+        wraps = (before - highs) >= (1 << coding.high[1]) // SLACK * (SLACK - 1)
         turn = turns + np.cumsum(wraps)
         if coding.low is None:
             # A new high time means its first µs until its low bits follow.

@@ -30,6 +30,8 @@ from functools import partial
 from pathlib import Path
 from typing import BinaryIO, ClassVar, cast
 
+import numpy as np
+
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
@@ -42,6 +44,7 @@ from texvent.io.reading import (
     ReadOptions,
     TimeUnit,
     check_rate,
+    sample_of,
 )
 from texvent.io.text.dialect import STOP_US, Dialect, find_dialect
 from texvent.sensor import SensorSize
@@ -124,6 +127,8 @@ class TextCodec(BlockCodec):
             options if options.size or size is None else replace(options, size=SensorSize(*size))
         )
         dialect = find_dialect(path, sample, sized, self.default, later)
+        if size is not None:
+            dialect = replace(dialect, is_stated=True)  # texvent's own
         left_out: list[int] = []
         parse = dialect.parse
         if options.repair:
@@ -145,21 +150,18 @@ class TextCodec(BlockCodec):
     def _read(
         self, path: Path, dialect: Dialect, parse: Callable[[Path, bytes], Columns]
     ) -> Iterator[Columns]:
-        first_us = last_us = count = 0
+        count, samples = 0, []
         with self.open_text(path) as file:
             file.read(dialect.start)
             for block in read_text_blocks(file):
                 columns = parse(path, block)
-                times = columns["t"]
-                if len(times):
-                    first_us = int(times[0]) if count == 0 else first_us
-                    last_us = int(times[-1])
-                    count += len(times)
-                    if not dialect.is_stated:
-                        check_rate(path, count, (first_us, last_us), dialect.unit, is_all=False)
+                count += len(columns["t"])
+                samples.append(sample_of(columns["t"], len(columns["t"])))
+                if not dialect.is_stated and len(samples) == 1:
+                    check_rate(path, count, samples[0], dialect.unit, is_all=False)
                 yield columns
-        if not dialect.is_stated and count:
-            check_rate(path, count, (first_us, last_us), dialect.unit)
+        if not dialect.is_stated and samples:
+            check_rate(path, count, np.concatenate(samples), dialect.unit)
 
 
 class EcdCodec(TextCodec):

@@ -37,6 +37,10 @@ EXACT = 2**52
 WORD = re.compile(rb"(?<![^\s,;])([a-z]+|[+-])(?![^\s,;])", re.IGNORECASE)
 """A value that may be a word of polarity."""
 SIZE_LINE = rb"\s*(\d{1,9})\s+(\d{1,9})\s*"
+WHOLE_US = re.compile(r"[-+]?\d+\.\d{6}")
+"""A time in seconds as the Event Camera Dataset and E2VID write it: whole µs."""
+CUT_DIGITS = (6, 7)
+"""Digits that "%g" and single precision keep."""
 SAMPLE_ROWS = 2000
 COMMENTS = ("#", "%", "//")
 
@@ -190,12 +194,17 @@ def find_dialect(
     named = unit_in_name(names[places["t"]])[1] if names else None
     stated = stated_or_given(path, named, options)
     _check_digits(path, times, stated or "us")
+    if (stated or "s") == "s":
+        _check_decimals(path, times)
+    label = places.get("label")
+    if label is not None and any(len(row) > label and _as_number(row[label]) > 1 for row in rows):
+        del places["label"]  # classes of another program
     return Dialect(
         delimiter,
         len(names or (rows[0] if rows else words)),
         places,
         stated or ("us" if times and all(map(_is_whole, times)) else "s"),
-        stated is not None,
+        stated is not None or (bool(times) and all(map(WHOLE_US.fullmatch, times))),
         start,
         size,
         any(word.lower() in WORDS for word in polarities),
@@ -295,6 +304,19 @@ def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
                     "write all their digits"
                 )
                 return
+
+
+def _check_decimals(path: Path, times: list[str]) -> None:
+    """Warn of seconds such as 1700.01 that were cut to 6 or 7 digits, most before the point."""
+    parts = [word.lstrip("+-").partition(".") for word in times if "e" not in word.lower()]
+    before, after = (max((len(part[at]) for part in parts), default=0) for at in (0, 2))
+    is_coarse = 2 * len(set(times)) < len(times)
+    if is_coarse and 0 < after < before and before + after in CUT_DIGITS:
+        step_us = 10 ** (6 - after)
+        warn(
+            f"{path}: its times, such as {shown(times[-1])}, have steps of {step_us:,} µs; "
+            "write all their digits"
+        )
 
 
 def _places(
