@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.events import EventStream
 
 PENDULUM = Path(__file__).parents[1] / "docs" / "examples" / "plot_17_pendulum.py"
@@ -96,3 +96,16 @@ def test_a_controller_that_sees_only_events_keeps_a_rod_upright():
     assert np.abs(ran["upright"]).max() < np.radians(8)
     assert np.abs(ran["fallen"][-1]) > np.radians(90)
     assert len(ran["fallen"]) < ran["STEPS"]
+
+
+def test_times_in_ms_are_warned_of_once():
+    camera = texvent.EventCamera((2, 2), noise="none")
+    with pytest.warns(TexventWarning, match="33 µs apart.*if times are ms") as said:
+        for index in range(6):
+            camera.step(np.full((2, 2), 50 + index, np.uint8), 33 * index)
+    assert len(said) == 1
+
+
+def test_a_missing_frame_is_named():
+    with pytest.raises(InputError, match="is None, no frame"):
+        texvent.EventCamera((2, 2)).step(None, 0)

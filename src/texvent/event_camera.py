@@ -14,6 +14,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Self, Unpack
 
+from texvent.capture.frame_times import warn_of_unit
 from texvent.capture.intensity_scale import ScaleCheck, caller_pixels
 from texvent.capture.linear_light import decode_light
 from texvent.config import CaptureConfig
@@ -29,6 +30,8 @@ from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.protocol import Simulator
 from texvent.video import Frame, FrameStream
 
+TIMES_JUDGED = 4
+"""Frames after which the unit of their times is judged."""
 USED_CAPTURE = ("white_level", "fit", "transfer")
 """Options of recorded frames that have a meaning for single ones."""
 
@@ -109,6 +112,10 @@ class EventCamera:
         self._frames.append(source)
         events = self._joined(self._simulator.advance(next(self._pairs)))
         self._stopped = None
+        if len(self._times_us) < TIMES_JUDGED:
+            self._times_us.append(t_us)
+            if len(self._times_us) == TIMES_JUDGED:
+                warn_of_unit(self._times_us, "t_us")
         return events
 
     def finish(self) -> EventStream:
@@ -138,6 +145,7 @@ class EventCamera:
         self.close()
 
     def _start(self) -> SensorSize:
+        self._times_us: list[int] = []
         stream: FrameStream = _SteppedFrames(self.frame_size, self._frames)
         video, capture = decode_light(stream, self.settings.source)
         # Linear light is checked where it is decoded.

@@ -90,7 +90,7 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
         InputError: they are not integers, not one-dimensional, or do not strictly increase.
 
     Warns:
-        TexventWarning: they are more than `HIGHEST_FPS`, so they are probably no µs.
+        TexventWarning: as `warn_of_unit`.
     """
     times = whole_numbers(t_us, origin, f"whole microseconds ({HOW_TO_ROUND})")
     if times.ndim != 1 or times.dtype.kind == "b":
@@ -99,13 +99,23 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
             f"{list(times.shape)}. For seconds: {HOW_TO_ROUND}"
         )
     check_increasing([int(time) for time in times], origin)
-    step = float(np.median(np.diff(times))) if len(times) > 1 else math.inf
-    if 0 < step < MICROSECONDS / HIGHEST_FPS:
+    warn_of_unit(times, origin)
+    return FrameTimes(listed_us=[int(time) for time in times], origin=origin)
+
+
+def warn_of_unit(times_us: Any, origin: str) -> None:
+    """Warn of times that are probably no µs, since there are more than `HIGHEST_FPS`.
+
+    Args:
+        times_us: [N] integers, strictly increasing.
+        origin: what to call them in messages.
+    """
+    step = float(np.median(np.diff(times_us))) if len(times_us) > 1 else math.nan
+    if step < MICROSECONDS / HIGHEST_FPS:
         warn(
             f"{origin}: frames are {step:g} µs apart, {MICROSECONDS / step:,.0f} per second; if "
             "times are ms, multiply them by 1000"
         )
-    return FrameTimes(listed_us=[int(time) for time in times], origin=origin)
 
 
 def check_increasing(times_us: Sequence[int], origin: str, hint: str = "") -> None:
@@ -222,11 +232,14 @@ def _microseconds(text: str, unit: str, where: str) -> int:
     """Exact: a float64 of a Unix time in ns would be off by up to 128 ns."""
     try:
         time_us = round(parse_fraction(text) * 1_000_000 / PER_SECOND[unit])
-        if abs(time_us) >= 2**63:
-            raise ValueError(text)
     except (ValueError, ZeroDivisionError):
         raise FileFormatError(
             f"{where} begins with {shown(text)}; each line must begin with a time in {unit}, "
-            "optionally followed by a file name"
+            "optionally followed by a file name; a header begins with #"
         ) from None
+    if abs(time_us) >= 2**63:
+        raise FileFormatError(
+            f"{where}: {shown(text)} {unit} is beyond 64 bits of µs, so it is probably of a smaller "
+            "unit, such as ns; give `timestamps_unit`"
+        )
     return time_us

@@ -95,6 +95,8 @@ def caller_pixels(image: Any, where: str) -> PixelArray:
     Raises:
         InputError: another shape, type or mode, or masked values.
     """
+    if image is None:
+        raise InputError(f"{where} is None, no frame; did the reader fail or end?")
     if isinstance(image, (str, bytes, Path)):
         raise InputError(
             f"{where} is the name {shown(image)}; a list holds images, not their names: give the "

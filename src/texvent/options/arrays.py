@@ -113,7 +113,7 @@ def whole_us(value: Any, what: str) -> int:
         >>> whole_us(np.float32(2000), "t_us")
         2000
     """
-    meant = "whole microseconds, such as round(seconds * 1_000_000)"
+    meant = "one number of whole microseconds, such as round(seconds * 1_000_000)"
     if hasattr(value, "__array__"):
         array = whole_numbers(value, what, meant)
         if array.ndim == 0 and array.dtype.kind != "b":

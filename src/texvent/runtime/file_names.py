@@ -86,7 +86,7 @@ def in_natural_order(paths: Iterable[Path]) -> list[Path]:
     Warns:
         TexventWarning: names are of more than one pattern.
     """
-    words = {path: _NUMBER.split(path.stem.lower()) for path in paths}
+    words = {path: _NUMBER.split(_text(path)) for path in paths}
     # Texts and numbers take turns; those after the last number are no sign.
     columns = [*map(set, itertools.zip_longest(*(one[:-1] for one in words.values())))]
     counted = [_counts_behind_point(column) for column in columns]
@@ -108,6 +108,11 @@ def in_natural_order(paths: Iterable[Path]) -> list[Path]:
     return ordered
 
 
+def _text(path: Path) -> str:
+    """The name to be read, with decimal commas as points."""
+    return path.stem.lower().replace(",", ".")
+
+
 def _counts_behind_point(numbers: Iterable[str | None]) -> bool:
     """Whether digits after points are whole numbers: decimals of any length end in no zero."""
     behind = [number.partition(".")[2] for number in numbers if number and "." in number]
@@ -120,7 +125,7 @@ def _counts_behind_point(numbers: Iterable[str | None]) -> bool:
 def _warn_of_patterns(ordered: Sequence[Path]) -> None:
     is_twice = len({path.stem for path in ordered}) < len(ordered)
     patterns = Counter(
-        re.sub(r"-?#", "#", _NUMBER.sub("#", path.stem.lower())) + path.suffix.lower() * is_twice
+        re.sub(r"-?#", "#", _NUMBER.sub("#", _text(path))) + path.suffix.lower() * is_twice
         for path in ordered
     )
     if len(patterns) > 1 and any("#" in one for one in patterns):

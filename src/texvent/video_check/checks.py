@@ -141,7 +141,11 @@ CHECKS = (
         is_failure=False,
         needs="jumps",
         is_found=lambda one: one["jumps"] > 0,
-        value=lambda one: f"{one['jumps']:.0f}, of up to {one['longest_jump_s']:,.6g} s",
+        value=lambda one: (
+            f"{one['jumps']:.0f}, of up to {one['longest_jump_s']:,.6g} s"
+            if one["jumps"]
+            else "none"
+        ),
         limit=f"{SHORTEST_US // MICROSECONDS} s and {RATIO} usual steps",
         effect="noise alone fills it; an hour or more is refused",
         help="`fps`; `start`, `stop`: one part",
