@@ -100,9 +100,9 @@ def test_a_controller_that_sees_only_events_keeps_a_rod_upright():
 
 def test_times_in_ms_are_warned_of_once():
     camera = texvent.EventCamera((2, 2), noise="none")
+    frames = [np.full((2, 2), 50 + index, np.uint8) for index in range(6)]
     with pytest.warns(TexventWarning, match="33 µs apart.*if times are ms") as said:
-        for index in range(6):
-            camera.step(np.full((2, 2), 50 + index, np.uint8), 33 * index)
+        _ = [camera.step(frame, 33 * index) for index, frame in enumerate(frames)]
     assert len(said) == 1
 
 

@@ -239,7 +239,7 @@ def _microseconds(text: str, unit: str, where: str) -> int:
         ) from None
     if abs(time_us) >= 2**63:
         raise FileFormatError(
-            f"{where}: {shown(text)} {unit} is beyond 64 bits of µs, so it is probably of a smaller "
-            "unit, such as ns; give `timestamps_unit`"
+            f"{where}: {shown(text)} {unit} is beyond 64 bits of µs, so it is probably of a "
+            "smaller unit, such as ns; give `timestamps_unit`"
         )
     return time_us
