@@ -131,7 +131,7 @@ def test_dsec_det_windows_between_images(tmp_path: Path) -> None:
 
 def test_dsec_det_names_the_sequences_of_splits_that_share_a_folder(tmp_path: Path) -> None:
     samples = [crossing(key=key, split=split) for key, split in (("a", "train"), ("b", "val"))]
-    LAYOUTS["dsec-det"].finish(tmp_path, samples, (), False)
+    LAYOUTS["dsec-det"].finish(tmp_path, samples, ())
     found = yaml.safe_load((tmp_path / "train_val_test_split.yaml").read_text())
     assert found == {"train": ["a"], "val": ["b"]}
 
@@ -167,7 +167,7 @@ def test_coco_has_an_image_of_every_instant_with_events_behind_it(tmp_path: Path
         tmp_path / "train"
     ).mkdir() is None else None
     LAYOUTS["coco"].finish(
-        tmp_path, [sample, crossing(key="b", boxes=sample.boxes[:0])], ("car", "man"), False
+        tmp_path, [sample, crossing(key="b", boxes=sample.boxes[:0])], ("car", "man")
     )
     found = json.loads((tmp_path / "train/annotations.json").read_text())
     assert found["categories"][1] == {"id": 2, "name": "man", "supercategory": "object"}
