@@ -185,7 +185,7 @@ def test_pictures_of_pillow_are_read_by_the_meaning_of_their_mode(mode, door):
     [
         ([one.convert("I") for one in PICTURES], "pixels of type int32"),
         (["a.png", "b.png"], "is the name 'a.png'.*give the folder"),
-        ([None, None], "type object"),
+        ([None, None], "is None, no frame"),
         ([(one, 1) for one in LEVELS], "cannot be read as an array"),
         ([LEVELS[0], UNIT[1]], "probably 0..1.*white_level=1"),
         ([LEVELS[0], LEVELS[1][:9]], "24x9"),

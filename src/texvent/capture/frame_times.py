@@ -111,7 +111,7 @@ def warn_of_unit(times_us: Any, origin: str) -> None:
         origin: what to call them in messages.
     """
     step = float(np.median(np.diff(times_us))) if len(times_us) > 1 else math.nan
-    if step < MICROSECONDS / HIGHEST_FPS:
+    if 0 < step < MICROSECONDS / HIGHEST_FPS:
         warn(
             f"{origin}: frames are {step:g} µs apart, {MICROSECONDS / step:,.0f} per second; if "
             "times are ms, multiply them by 1000"

@@ -96,7 +96,7 @@ class VideoFile(FrameSource):
         self, container: InputContainer, stream: VideoStream, first: VideoFrame
     ) -> None:
         """Say what else the file may be meant for, and what its frames may hold."""
-        videos = [one for one in container.streams.video if not is_cover(one)]
+        videos = [one for one in container.streams.video if has_decoder(one) and not is_cover(one)]
         if len(videos) > 1:
             sizes = [f"{one.width}x{one.height}" for one in videos]
             warn(
@@ -270,6 +270,8 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
             raise FileFormatError(f"{path} holds no video stream")
         if is_cover(stream):
             raise FileFormatError(f"{path} holds no video stream, but the picture of a cover")
+        if not has_decoder(stream):
+            raise FileFormatError(f"{path} is coded in a way that libav does not know")
         stream.thread_type = "AUTO"
         _check_claim(path, stream)
         try:
@@ -285,6 +287,12 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
 def is_cover(stream: VideoStream) -> bool:
     """Whether a stream is the picture of a cover, which players show beside music."""
     return bool(stream.disposition & type(stream.disposition)(ATTACHED_PICTURE))
+
+
+def has_decoder(stream: VideoStream) -> bool:
+    """Whether libav knows a decoder of a stream; without one it has no size either."""
+    context: object = stream.codec_context
+    return context is not None
 
 
 def _check_claim(path: Path, stream: VideoStream) -> None:
