@@ -13,6 +13,7 @@ import pytest
 from tests.dataset.conftest import make_set
 
 import texvent.dataset
+from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export
 from texvent.dataset.generation.shards import TarShardWriter, read_members, read_record
 from texvent.dataset.preview import choose_samples, write_sample_page
@@ -132,6 +133,23 @@ def test_no_fact_of_a_sample_leaves_the_output(received: Path, tmp_path: Path) -
     before = files_beside(tmp_path, out)
     use(folder, out)
     assert files_beside(tmp_path, out) == before
+
+
+def test_links_of_a_received_set_lead_nowhere(
+    received: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, elsewhere = tmp_path / "set", tmp_path / "elsewhere"
+    shutil.copytree(received, folder)
+    elsewhere.mkdir()
+    (elsewhere / "page").write_text("mine")
+    (folder / "samples.html").symlink_to(elsewhere / "page")
+    assert main(["dataset", "sample", str(folder), "--overwrite"]) == 2
+    assert "leads out of" in capsys.readouterr().err
+    shutil.rmtree(folder / "paper")
+    (folder / "paper").symlink_to(elsewhere)
+    assert main(["dataset", "make", str(folder), "--workers", "1", "-q"]) == 2
+    assert "leads out of" in capsys.readouterr().err
+    assert [(one.name, one.read_text()) for one in elsewhere.iterdir()] == [("page", "mine")]
 
 
 def test_a_list_replaces_only_what_the_export_wrote(received: Path, tmp_path: Path) -> None:

@@ -250,18 +250,31 @@ def test_an_index_can_send_neither_too_much_nor_too_slowly(
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
 
 
+@pytest.mark.parametrize("page", [b"[]", b"null", b'{"files": 5}', b"9" * 9000, b"[" * 200_000])
+def test_a_page_of_an_index_that_is_none_is_one_line(
+    tmp_path, register, monkeypatch, httpserver_of, page
+):
+    register(toy()[0])
+    kind = "application/vnd.pypi.simple.v1+json"
+    address = httpserver_of({"/toy/": [page]}, is_chunked=False, kind=kind)
+    monkeypatch.setenv("PIP_INDEX_URL", address)
+    monkeypatch.setenv("NO_PROXY", "*")
+    with pytest.raises(TexventError, match="cannot be fetched: the package index"):
+        pull("toy", folder=tmp_path)
+
+
 @pytest.fixture
 def httpserver_of():
     """Serves bodies, path → parts, on this machine."""
     servers = []
 
-    def serve(bodies, *, is_chunked):
+    def serve(bodies, *, is_chunked, kind="text/html"):
         class Handler(http.server.BaseHTTPRequestHandler):
             protocol_version = "HTTP/1.1" if is_chunked else "HTTP/1.0"
 
             def do_GET(self):
                 self.send_response(200)
-                self.send_header("Content-Type", "text/html")
+                self.send_header("Content-Type", kind)
                 if is_chunked:
                     self.send_header("Transfer-Encoding", "chunked")
                 self.end_headers()

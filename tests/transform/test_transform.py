@@ -178,6 +178,7 @@ WRONG = {
         *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}", "cam0: {intrinsics: " + "[" * 5000),
         "1: {intrinsics: [1, 1, 1, .nan]}",
         "cam0: {intrinsics: [0, 1, 1, 1]}",
+        *(f"cam0: {{intrinsics: [9, 9, 9, {one}]}}" for one in ("true", '"9"', "null", "[9]")),
         MERGES + "cam0: {intrinsics: [1, 1, 1, 1]}",
         ALIASES + KALIBR.replace("pinhole", "*a39"),
         ALIASES + KALIBR.replace("equidistant", "*a39"),

@@ -10,7 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError, one_line, shown
+from texvent.errors import (
+    FileFormatError,
+    InputError,
+    is_address,
+    one_line,
+    shown,
+    without_password,
+)
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.scenes.spec.scene import Scene
@@ -169,6 +176,10 @@ def _path_of(where: str, entry: Mapping[Any, Any], column: str) -> str | None:
     path = entry.get(column) or None
     if path is not None and not isinstance(path, str):
         raise FileFormatError(f"{where}: {column} is {shown(path)}; it must be a path")
+    if path is not None and is_address(path):
+        raise FileFormatError(
+            f"{where}: {column} is the address {without_password(path)}; a list names files"
+        )
     return path
 
 

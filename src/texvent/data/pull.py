@@ -159,7 +159,15 @@ def _download(
         ) from error
     except _TooMuch as error:
         raise TexventError(f"{archive.filename} cannot be fetched: {error}. {by_hand}") from error
-    except (requests.RequestException, UnsupportedContentTypeError) as error:
+    # Pages are checked by pydantic, whose errors are ValueErrors.
+    except (
+        requests.RequestException,
+        UnsupportedContentTypeError,
+        ValueError,
+        RecursionError,
+    ) as error:
+        if isinstance(error, TexventError):
+            raise
         raise TexventError(
             f"{archive.filename} cannot be fetched: the package index did not answer "
             f"({type(error).__name__}); check the network and try again. {by_hand}"

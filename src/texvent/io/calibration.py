@@ -124,8 +124,8 @@ def _read_kalibr(path: Path, text: bytes, camera: str) -> Calibration:
             f"{path}: {shown(shape)} with distortion {shown(model)} is not read; "
             f"texvent reads pinhole cameras with {', '.join(MODELS)}"
         )
-    fx, fy, cx, cy = (float(value) for value in facts["intrinsics"])
-    lens = tuple(float(value) for value in facts.get("distortion_coeffs") or ())
+    fx, fy, cx, cy = map(_number, facts["intrinsics"])
+    lens = tuple(map(_number, facts.get("distortion_coeffs") or ()))
     if (model == "none" and any(lens)) or (model != "none" and len(lens) != 4):
         count = "no" if model == "none" else "four"
         raise FileFormatError(f"{path}: {model} has {count} coefficients, not {shown(lens)}")
@@ -137,3 +137,10 @@ def _read_kalibr(path: Path, text: bytes, camera: str) -> Calibration:
         size = checked_size(int(width), int(height))
     known_lens = () if model == "none" else lens
     return Calibration((fx, fy, cx, cy), known_lens, model == "equidistant", size)
+
+
+def _number(value: Any) -> float:
+    """A number of a YAML file; neither a text nor a truth value."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError(f"{shown(value)} is no number")
+    return float(value)

@@ -16,7 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line, shown
+from texvent.errors import (
+    FileFormatError,
+    InputError,
+    MissingDependencyError,
+    is_address,
+    one_line,
+    shown,
+    without_password,
+)
 from texvent.events import OPTIONAL_COLUMNS, EventStream
 from texvent.io.reading import PER_SECOND, TimeUnit
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
@@ -65,6 +73,8 @@ def refuse_missing(path: Path, what: str = "file") -> None:
     """
     if path.exists():
         return
+    if is_address(str(path)):  # a path keeps one of its slashes
+        raise InputError(f"{without_password(str(path))} is an address; here a {what} is read")
     if re.fullmatch(r"/dev/video\d+", path.as_posix()):
         if sys.platform != "linux":
             camera = "dshow -i video=NAME" if sys.platform == "win32" else "avfoundation -i 0"

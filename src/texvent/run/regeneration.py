@@ -24,7 +24,7 @@ def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> Fr
     Args:
         metadata: of an event file, as a run stores it.
         with_files: whether a scene may show pictures and models that the metadata name, with their
-            digests: whoever sent the file chose them, and the result shows them.
+            digests: the sender of the file chose them, and the result shows them.
 
     Returns:
         The video, not rendered before it is iterated; None where the recording was not made by

@@ -55,7 +55,7 @@ def usable_path(path: str | Path) -> Path:
 
 
 def inside(folder: Path, place: str) -> Path:
-    """The path of a file in a folder, made of words of a file that somebody may have sent.
+    """The path of a file in a folder, made of words of a file from others.
 
     Raises:
         FileFormatError: it would be the folder itself or lie outside, by `..`, by links or as an

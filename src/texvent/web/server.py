@@ -31,7 +31,7 @@ CALL_BYTES = 2**16
 READ_S, SEND_S = 10.0, 60.0
 """How long a whole request may take to arrive, and an answer to be taken."""
 MOST_CONNECTIONS = 64
-"""Requests that are arriving; a further one ends the oldest, whoever made it."""
+"""Requests that are arriving; a further one ends the oldest."""
 NO_TOKEN = (
     "the token of this server is missing, or is that of a server that has ended; "
     "open the address that texvent printed when it started"

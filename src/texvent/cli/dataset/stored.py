@@ -29,6 +29,7 @@ from texvent.dataset.statistics import (
 )
 from texvent.dataset.verify import Findings, verify
 from texvent.errors import ConfigError
+from texvent.runtime.file_names import inside
 from texvent.runtime.threads import count_threads
 
 MOST_LINES = 20
@@ -200,7 +201,7 @@ def run_sample(arguments: Sequence[str]) -> int:
     from texvent.dataset.preview import choose_samples, write_sample_page  # brings OpenCV
 
     options = _parse("sample", arguments, SampleOptions())
-    out = options.folder / "samples.html" if options.out is None else options.out
+    out = inside(options.folder, "samples.html") if options.out is None else options.out
     if out.suffix.lower() not in (".html", ".htm"):
         raise ConfigError(f"out is {out}; name a page, .html")
     dataset = StoredDataset.open(options.folder)

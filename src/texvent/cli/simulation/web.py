@@ -43,7 +43,7 @@ class PageOptions:
         check_range("port", self.port, 0, 65_535)
         if self.quiet and not self.browser:
             raise ConfigError(
-                "--quiet and --no-browser leave nobody who knows the address; give one of them"
+                "--quiet and --no-browser show the address nowhere; leave one of them out"
             )
 
 

@@ -47,6 +47,7 @@ from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
+from texvent.runtime.file_names import inside
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
@@ -97,7 +98,7 @@ def _make_shard(
     retry_failed: bool,
 ) -> Generator[None]:
     """Make a shard and add its record to `records`; pauses after every clip."""
-    path, seconds = folder / shard.path, 0.0
+    path, seconds = inside(folder, shard.path.as_posix()), 0.0
     old = is_complete(recipe, folder, shard) if retry_failed else None
     kept = {one.key: one for one in old.samples if one.status != FAILED} if old else {}
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -146,7 +147,7 @@ def is_complete(recipe: Recipe, folder: Path, shard: Shard) -> ShardRecord | Non
     Raises:
         FileFormatError: the record is damaged.
     """
-    path = folder / shard.path
+    path = inside(folder, shard.path.as_posix())
     record = read_record(path)
     if record is None or record.identity != recipe.identity or not path.is_file():
         return None
@@ -296,7 +297,8 @@ class StoredVideos:
     """The videos of a shard of the first stage."""
 
     def __init__(self, folder: Path, shard: Shard, scratch: Path) -> None:
-        self._shard, self._path, self._scratch = shard, folder / shard.path, scratch
+        self._shard, self._scratch = shard, scratch
+        self._path = inside(folder, shard.path.as_posix())
         record = read_record(self._path)
         if record is None:
             raise InputError(f"{self._path} is not made yet; make the shards of videos first")

@@ -82,7 +82,7 @@ def clip_frames(
 
 
 def _check_files(video: FrameStream, path: Path, sample: SampleRecord) -> None:
-    """Refuse a scene that shows other files than it did; the data set may be somebody else's.
+    """Refuse a scene that shows other files than it did; the data set may come from others.
 
     Raises:
         InputError: see above.
