@@ -139,15 +139,21 @@ def write_run(
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
         steps = replace(simulation, warns=True).steps(on_scene_change)
         early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
-        found = simulation.video.metadata
-        late = {name: one for name, one in found.items() if at_first.get(name) != one}
-        # Only a video that was read says how many of its frames were dropped.
-        added = {"source": {**facts.get("source", {}), **late}} if late else {}
-        added |= {} if early is None else early.facts
+        added = _found_late(simulation, at_first, facts)
+        added.update({} if early is None else early.facts)
         for output in (writer, preview, truth) if added else ():
             if output is not None:
                 output.add_metadata(added)
     return early
+
+
+def _found_late(
+    simulation: Simulation, at_first: Mapping[str, Any], facts: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Facts of the source with those that only reading it tells, such as the frames dropped."""
+    found = simulation.video.metadata
+    late = {name: one for name, one in found.items() if at_first.get(name) != one}
+    return {"source": {**facts.get("source", {}), **late}} if late else {}
 
 
 def _run_steps(
