@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -27,11 +27,13 @@ def test_times_go_on_through_turns_whatever_the_blocks(
     bits: int, start: int, steps: list[int], cut: int
 ) -> None:
     times = start + np.cumsum(steps)
+    # Before the first turn, a time that rises far is only later.
+    assume((times >> bits).min() == times[0] >> bits)
     stored = times % (1 << bits)
     clock = TurningClock(bits)
     found = np.concatenate([clock.unroll(stored[:cut]), clock.unroll(stored[cut:])])
     assert (np.diff(found) == np.diff(times)).all()
-    assert found[0] == stored[0] or steps[0] < 0
+    assert found[0] == stored[0]
 
 
 def aedat2(times: NDArray[np.int64]) -> tuple[str, bytes]:
