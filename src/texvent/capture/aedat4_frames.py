@@ -14,7 +14,7 @@ Source: iniVation, AEDAT 4.0 file format and dv-processing's description of fram
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -74,6 +74,13 @@ class Aedat4Frames(FrameSource):
         }
         fps = None if times is None else times.fps
         self._facts = SourceFacts(self._find_size(), fps, frame_count, metadata)
+
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of all frames, µs; pixels are passed over."""
+        if self._times is not None:
+            return self._times.of(self.frame_count or 0)
+        return [read_exposure(table)[0] for table in self._tables()]
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order; see the class for what can go wrong."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from typing import Any
 
 from numpy.typing import NDArray
@@ -63,6 +63,11 @@ class ArrayFrames(FrameSource):
         self._scale = ScaleCheck() if check_scale else None
         if check_scale and not is_live:
             self._scale = check_whole_scale(self._images(self._frames), "the array")
+
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of all frames, µs; None of an iterator."""
+        return None if self.frame_count is None else self._times.of(self.frame_count)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order.

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from texvent.sensor import SensorSize
-from texvent.video import Frame, NotebookFrames, describe_stream
+from texvent.video import Frame, FrameStream, NotebookFrames, Video, describe_stream
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,8 @@ class FrameSource(NotebookFrames, ABC):
     """A `FrameStream` that states `SourceFacts`; subclasses set them and iterate."""
 
     _facts: SourceFacts
+    _source: FrameStream
+    """Of some: the stream whose frames they change one by one."""
 
     @property
     def size(self) -> SensorSize:
@@ -58,9 +60,19 @@ class FrameSource(NotebookFrames, ABC):
         """Where the frames come from."""
         return self._facts.metadata
 
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of all frames where they are known without reading them, µs."""
+        return known_times_us(getattr(self, "_source", None))
+
     def __repr__(self) -> str:
         return describe_stream(self)
 
     @abstractmethod
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order."""
+
+
+def known_times_us(stream: FrameStream | None) -> Sequence[int] | None:
+    """Times of all frames of a stream that knows them without reading its frames, µs."""
+    return stream.times_us if isinstance(stream, FrameSource | Video) else None

@@ -52,6 +52,10 @@ class FrameTimes:
             )
         return int(self.listed_us[index])
 
+    def of(self, frames: int) -> Sequence[int]:
+        """All listed times, or those of so many frames, µs."""
+        return self.listed_us or [self(index) for index in range(frames)]
+
     def check_count(self, frames: int) -> None:
         """Refuse a list of another length than there are frames.
 

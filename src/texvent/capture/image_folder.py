@@ -114,6 +114,11 @@ class ImageFolder(FrameSource):
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, self._times.fps, total, metadata)
 
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of all frames, µs."""
+        return self._times.of(sum(count for _, count in self._stacks))
+
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource, SourceFacts, known_times_us
 from texvent.capture.intensity_scale import ScaleCheck, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
@@ -74,6 +74,15 @@ class PreparedFrames(FrameSource):
         if self.size == self._source.size:
             return self._source.metadata
         return {**self._source.metadata, "size_before_fit": str(self._source.size)}
+
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of the source's frames from start to stop, where it knows them, µs."""
+        times_us = known_times_us(self._source)
+        if not times_us:
+            return None
+        start_us, stop_us = _ends_us(self._config)
+        return [t_us for t_us in times_us if start_us <= t_us - times_us[0] < stop_us]
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""

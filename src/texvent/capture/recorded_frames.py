@@ -65,7 +65,7 @@ class DsecFrames(FrameSource):
     """
 
     def __init__(self, folder: Path) -> None:
-        self._images = ImageFolder(folder / DSEC_IMAGES, timestamps=folder / DSEC_TIMES, unit="us")
+        self._source = ImageFolder(folder / DSEC_IMAGES, timestamps=folder / DSEC_TIMES, unit="us")
         rectified = _read_places(folder / RECTIFY_MAP)
         homography = _read_homography(folder / CALIBRATION)
         height, width = rectified.shape[:2]
@@ -76,8 +76,8 @@ class DsecFrames(FrameSource):
         )
         self._facts = SourceFacts(
             SensorSize(width, height),
-            self._images.fps,
-            self._images.frame_count,
+            self._source.fps,
+            self._source.frame_count,
             {"source": str(folder), "kind": "DSEC sequence"},
         )
 
@@ -85,7 +85,7 @@ class DsecFrames(FrameSource):
         """Frames in order, read one by one; places that no frame shows are black."""
         import cv2  # only frames of DSEC need it here
 
-        for frame in self._images:
+        for frame in self._source:
             pixels = cv2.remap(
                 np.asarray(frame.pixels), self._column, self._row, interpolation=cv2.INTER_LINEAR
             )

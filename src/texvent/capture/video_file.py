@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -16,7 +16,11 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decoding.packet_times import needs_packet_times, read_packet_times
+from texvent.capture.decoding.packet_times import (
+    PacketTimes,
+    needs_packet_times,
+    read_packet_times,
+)
 from texvent.capture.decoding.pixels import PixelReader, coding_facts
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
@@ -44,10 +48,10 @@ class VideoFile(FrameSource):
     """The frames of a video file; every iteration opens the file anew.
 
     Times are the file's own presentation times, `round(pts · time_base · 10⁶)` in exact
-    arithmetic, counted from the first frame, unless `times` are given. Where the file's clock is
-    too coarse for its rate (Matroska counts milliseconds) and all times are those of a constant
-    rate, rounded, that rate gives them. Other frames that repeat the time of the frame before
-    (some recorders write them) are dropped, counted in `metadata` and warned of.
+    arithmetic, counted from the first frame, unless `times` are given. Where the file states a
+    rate and all times are those of this rate, rounded to its clock (Matroska counts milliseconds),
+    the rate gives them. Other frames that repeat the time of the frame before (some recorders
+    write them) are dropped, counted in `metadata` and warned of.
 
     Raises:
         InputError: the file does not exist.
@@ -58,7 +62,7 @@ class VideoFile(FrameSource):
     def __init__(self, path: Path, times: FrameTimes | None = None) -> None:
         self._path = path
         self._times = times
-        self._is_counting = False
+        self._packets: PacketTimes | None = None
         with _opened(path) as (container, stream):
             comment = container.metadata.get("comment", "")
             if comment == PREVIEW_MARK:
@@ -111,18 +115,29 @@ class VideoFile(FrameSource):
             )
 
     def _count_packets(self) -> int:
-        """Frames that will be shown; finds a coarse file's constant rate.
-
-        Costs a pass over the file, without decoding.
-        """
-        with _opened(self._path) as (container, stream):
-            found = read_packet_times(container, stream)
+        """Frames that will be shown; finds the constant rate of a file whose clock rounds it."""
+        found = self._read_packets()
         if self._times is not None:
             return found.count
-        if found.constant_rate is not None:
-            self._rate, self._is_counting = found.constant_rate, True
+        self._rate = found.constant_rate or self._rate
         self._note_repeats(found.repeats, found.count)
         return found.count - found.repeats
+
+    def _read_packets(self) -> PacketTimes:
+        """Facts of all packets: one pass over the file, without decoding."""
+        if self._packets is None:
+            with _opened(self._path) as (container, stream):
+                self._packets = read_packet_times(container, stream)
+        return self._packets
+
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """Times of all frames, as the packets have them, µs; None where they have none."""
+        found = self._read_packets()
+        times = self._times or (FrameTimes(fps=self._rate) if self._rate else None)
+        if self._times is None and found.times_us is not None:
+            return [*map(int, found.times_us)]
+        return None if times is None else times.of(found.count)
 
     def _note_repeats(self, dropped: int, count: int) -> None:
         """Count frames that repeat a time, and warn of them once."""
@@ -138,7 +153,8 @@ class VideoFile(FrameSource):
         clock = PresentationClock(self._path, self._times, self._rate)
         with _opened(self._path) as (container, stream):
             is_mixed_up = container.format.name == AVI and stream.codec_context.has_b_frames
-            clock.is_counting = self._is_counting or is_mixed_up
+            clock.is_counting = is_mixed_up
+            clock.is_even = self._packets is not None and self._packets.constant_rate is not None
             frames, reader = self._decode(container, stream), PixelReader(self._path)
             while True:
                 try:
@@ -199,6 +215,8 @@ class PresentationClock:
     """End of the last frame, on the file's own clock."""
     is_counting: bool = False
     """Whether frames have the times of the nominal rate, whatever the file says."""
+    is_even: bool = False
+    """Whether the file's times are those of the nominal rate, rounded."""
     first_pts_us: Fraction = Fraction(0)
     """Presentation time of the first frame, before it is shifted to 0."""
 
@@ -235,7 +253,11 @@ class PresentationClock:
         t_us = round(pts_us - self.first_pts_us)
         duration_us = round((frame.duration or 0) * frame.time_base * MICROSECONDS)
         self.end_us = max(self.end_us, t_us + duration_us)
-        return t_us
+        if not self.is_even or not self.rate:
+            return t_us
+        is_clear = 2 * self.rate * frame.time_base < 1
+        index = round(t_us * self.rate / MICROSECONDS) if is_clear else self.count
+        return frame_time_us(index, self.rate)
 
     def _nominal_time_us(self) -> int:
         if self.times is None and self.rate is None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 
+from texvent.capture.frame_source import known_times_us
+from texvent.pairs.time_jump import check_times
 from texvent.pipeline import Simulation
 from texvent.run.prepare import estimate_bytes
 
@@ -18,7 +20,11 @@ def estimate_run(simulation: Simulation) -> str:
 
     Raises:
         InputError: the frames cannot be used.
+
+    Warns:
+        TexventWarning: of jumps in time, wherever they are.
     """
+    check_times(known_times_us(simulation.video) or ())
     total = simulation.video.frame_count
     size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
     memory = f"memory about {size}, however long the clip is"

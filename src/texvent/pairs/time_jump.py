@@ -10,11 +10,12 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
 from texvent.errors import InputError, warn
-from texvent.video import MICROSECONDS, Frame
+from texvent.video import MICROSECONDS
 
 SHORTEST_US = 10 * MICROSECONDS
 """Shorter gaps are pauses."""
@@ -30,10 +31,34 @@ def is_jump(step_us: int, others_us: Sequence[int]) -> bool:
     """Whether a step is far longer than others, or far too long where there is no other."""
     if not others_us:
         return step_us >= LONGEST_US
-    return step_us >= max(SHORTEST_US, RATIO * float(np.median(others_us)))
+    return step_us >= SHORTEST_US and step_us >= RATIO * float(np.median(others_us))
 
 
-def watch_steps(frames: Iterable[Frame], *, is_live: bool) -> Iterator[Frame]:
+class Timed(Protocol):
+    """A frame, or its time alone."""
+
+    @property
+    def t_us(self) -> int:
+        """Time, µs."""
+        ...
+
+
+class Instant(NamedTuple):
+    """The time of a frame without its pixels."""
+
+    t_us: int
+
+
+AnyTimed = TypeVar("AnyTimed", bound=Timed)
+
+
+def check_times(times_us: Iterable[int]) -> None:
+    """Refuse or warn of jumps, as `watch_steps`, before any frame is read."""
+    for _ in watch_steps(map(Instant, times_us), is_live=False):
+        pass
+
+
+def watch_steps(frames: Iterable[AnyTimed], *, is_live: bool) -> Iterator[AnyTimed]:
     """The frames as they come; a jump is said before anything is made of it.
 
     Args:
@@ -49,7 +74,7 @@ def watch_steps(frames: Iterable[Frame], *, is_live: bool) -> Iterator[Frame]:
     """
     steps: deque[int] = deque(maxlen=MOST_STEPS)
     source = iter(frames)
-    last: Frame | None = None
+    last: AnyTimed | None = None
     while (frame := next(source, None)) is not None:
         if last is not None:
             step = frame.t_us - last.t_us

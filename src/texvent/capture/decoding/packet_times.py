@@ -1,4 +1,4 @@
-"""Times of a video's packets, read without decoding: count, repeats, and a rate that they round."""
+"""Times of a video's packets, read without decoding, and the constant rate that they round."""
 
 from __future__ import annotations
 
@@ -10,9 +10,15 @@ import numpy as np
 from av.container import InputContainer
 from av.error import FFmpegError
 from av.video.stream import VideoStream
+from numpy.typing import NDArray
 
-FEW_TICKS = 10
-"""Frames closer than this many ticks of the file's clock have intervals wrong by more than 5 %."""
+from texvent.video import MICROSECONDS
+
+ROUNDING_TICKS = 1.02
+"""Times of one rate, rounded or truncated to ticks, differ from even ones by values that lie less
+than a tick apart; a little more if a file with a finer clock was made into this one."""
+SAME_RATE = 1e-5
+"""Files round rates: Matroska states 60000/1001 as 19001/317."""
 
 
 @dataclass(frozen=True)
@@ -21,16 +27,22 @@ class PacketTimes:
 
     count: int
     """Packets that hold a frame to be shown."""
-    repeats: int
-    """Those whose time another one before them has."""
+    times_us: NDArray[np.int64] | None
+    """Their times from the first, without repeats, µs; None where packets have none."""
     constant_rate: Fraction | None
-    """Frames per second where the file's clock is too coarse for its rate, and all times are those
-    of this rate, rounded; else None."""
+    """Frames per second where the file states a rate and all times are those of it, rounded."""
+
+    @property
+    def repeats(self) -> int:
+        """Packets whose time another one before them has."""
+        if self.times_us is None or self.constant_rate is not None:
+            return 0
+        return self.count - len(self.times_us)
 
 
 def needs_packet_times(stream: VideoStream) -> bool:
-    """Whether a file does not say how many frames it has, or its clock is coarse for its rate."""
-    return not stream.frames or bool(_coarse_rates(stream))
+    """Whether a file does not say how many frames it has, or its clock rounds its rate."""
+    return not stream.frames or any(ticks % 1 for ticks in _ticks_per_frame(stream).values())
 
 
 def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes:
@@ -40,18 +52,28 @@ def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketT
         for packet in container.demux(stream):
             if packet.size and not packet.is_discard:
                 times.append(packet.pts)
-    if None in times:
-        return PacketTimes(len(times), 0, None)
+    if not times or None in times:
+        return PacketTimes(len(times), None, None)
     ticks = np.sort(np.array(times, np.int64))
-    for rate, ticks_per_frame in _coarse_rates(stream).items():
-        even = np.arange(len(ticks)) * ticks_per_frame
-        if len(ticks) > 1 and (np.abs(ticks - ticks[0] - even) <= 1).all():
-            return PacketTimes(len(times), 0, rate)
-    return PacketTimes(len(times), int(np.count_nonzero(np.diff(ticks) == 0)), None)
+    ticks -= ticks[0]
+    rates = (rate for rate, step in _ticks_per_frame(stream).items() if _is_even(ticks, step))
+    tick_us = float((stream.time_base or 1) * MICROSECONDS)
+    times_us = np.rint(np.unique(ticks) * tick_us).astype(np.int64)
+    return PacketTimes(len(times), times_us, next(rates, None) if len(times) > 1 else None)
 
 
-def _coarse_rates(stream: VideoStream) -> dict[Fraction, float]:
-    """Rates that the file states for which its clock is coarse, and their ticks for each frame."""
+def _is_even(ticks: NDArray[np.int64], step: Fraction) -> bool:
+    return bool(np.ptp(ticks - np.arange(len(ticks)) * float(step)) < ROUNDING_TICKS)
+
+
+def _ticks_per_frame(stream: VideoStream) -> dict[Fraction, Fraction]:
+    """Ticks of the file's clock for each frame, by rates that it states, usual ones first."""
     stated = (stream.average_rate, stream.guessed_rate, stream.base_rate)
-    ticks = {Fraction(rate): float(1 / (rate * (stream.time_base or 1))) for rate in stated if rate}
-    return {rate: count for rate, count in ticks.items() if count < FEW_TICKS}
+    rates = [Fraction(rate) for rate in stated if rate]
+    usual = [
+        one
+        for rate in rates
+        for one in (Fraction(round(rate)), Fraction(round(rate * 1001 / 1000) * 1000, 1001))
+        if abs(one - rate) < SAME_RATE * rate
+    ]
+    return {rate: 1 / (rate * (stream.time_base or 1)) for rate in (*usual, *rates)}

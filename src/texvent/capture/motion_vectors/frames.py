@@ -70,7 +70,7 @@ class MotionFrames(FrameSource):
     def __init__(
         self, stream: FrameStream, stacks: Mapping[Role, FieldStack], config: CaptureConfig
     ) -> None:
-        self._stream, self._stacks, self._config = stream, stacks, config
+        self._source, self._stacks, self._config = stream, stacks, config
         self._convention, self._text = _convention(stacks, config)
         self._vectors = _vector_fields(stacks, self._convention)
         self._is_counted = stream.metadata.get("kind") != "video file"
@@ -90,7 +90,7 @@ class MotionFrames(FrameSource):
             InputError: a field of another size, of wrong values, or missing.
         """
         previous: Frame | None = None
-        for index, (frame, following) in enumerate(_with_next(self._stream)):
+        for index, (frame, following) in enumerate(_with_next(self._source)):
             yield replace(frame, motion=self._motion(index, previous, frame, following))
             previous = frame
 
@@ -103,7 +103,7 @@ class MotionFrames(FrameSource):
         Warns:
             TexventWarning: the vectors hardly explain what changes.
         """
-        frames = list(islice(self._stream, FRAMES_LOOKED_AT))
+        frames = list(islice(self._source, FRAMES_LOOKED_AT))
         for field in self._vectors:
             verdict = judge(self._neighbours(frames, field), self._convention, field.direction)
             if verdict is not None:
@@ -194,10 +194,10 @@ class MotionFrames(FrameSource):
     def _check_field(self, stored: NDArray[Any], field: _Field, index: int) -> None:
         where = f"{self._stacks[field.role].name}, frame {index}: the {field.direction} field"
         check_vectors(stored, where)
-        width, height = self._stream.size
+        width, height = self._source.size
         factor = width // stored.shape[1]
         if factor < 1 or (stored.shape[1] * factor, stored.shape[0] * factor) != (width, height):
-            raise InputError(wrong_size(where, stored.shape, self._stream.size))
+            raise InputError(wrong_size(where, stored.shape, self._source.size))
 
     def _depth(self, index: int, frame: Frame) -> NDArray[np.float32] | None:
         stored, where = self._plane("depth", index)
@@ -219,13 +219,13 @@ class MotionFrames(FrameSource):
 
     def _place(self, field: _Field, direction: Direction, index: int) -> int | None:
         """Where the field of a frame is in its stack; None if it has none."""
-        count, frames = self._stacks[field.role].count, self._stream.frame_count
+        count, frames = self._stacks[field.role].count, self._source.frame_count
         is_per_pair = frames is not None and count == frames - 1
         place = index - (direction == "backward" and is_per_pair)
         return place if 0 <= place < count else None
 
     def _check_count(self, stack: FieldStack, role: Role) -> None:
-        frames = self._stream.frame_count
+        frames = self._source.frame_count
         has_vectors = role in ("motion", "motion_back")
         if frames is None or not self._is_counted:
             return
