@@ -12,10 +12,10 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decoding.pixels import PixelReader, coding_facts
+from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_range
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.errors import InputError, is_address, without_password
+from texvent.errors import InputError, is_address, warn, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.media_files import only_self_contained, open_media, raise_scarcity
 from texvent.runtime.read_once import ReadOnce
@@ -71,6 +71,7 @@ class LiveFrames(FrameSource):
             **coding_facts(first),
         }
         size = checked_size(pixels.shape[1], pixels.shape[0])
+        warn_of_range(first, pixels, self._name)
         fps = times.fps if times else None
         self._facts = SourceFacts(size, fps, None, self._metadata, is_live=True)
 
@@ -91,6 +92,11 @@ class LiveFrames(FrameSource):
                     yield Frame(self._reader.read(frame), t_us)
                     last_us = t_us
                 else:
+                    if not self._metadata["frames_dropped"]:
+                        warn(
+                            f"{self._name}: frames are left out from {last_us} µs on, whose time "
+                            "is not after the one before; if they are evenly spaced, give `fps`"
+                        )
                     self._metadata["frames_dropped"] += 1
                 if request.number is not None:
                     return

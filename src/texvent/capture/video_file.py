@@ -18,10 +18,11 @@ from av.video.stream import VideoStream
 
 from texvent.capture.decoding.packet_times import (
     PacketTimes,
+    count_undelayed,
     needs_packet_times,
     read_packet_times,
 )
-from texvent.capture.decoding.pixels import PixelReader, coding_facts
+from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_range
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
@@ -79,6 +80,7 @@ class VideoFile(FrameSource):
                     f"{path} has no frame that can be decoded; it may be cut off or empty"
                 )
             self._warn_of_kind(container, stream, first)
+            self._warn_of_delays(container, stream)
             reader = PixelReader(path)
             pixels = reader.read(first)
             self._metadata: dict[str, Any] = {
@@ -91,6 +93,7 @@ class VideoFile(FrameSource):
                 **coding_facts(first, comment),
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
+            warn_of_range(first, pixels, str(path))
         if is_doubtful:
             count = self._count_packets()
         fps = times.fps if times else self._rate
@@ -114,6 +117,14 @@ class VideoFile(FrameSource):
                 "makes events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
             )
 
+    def _warn_of_delays(self, container: InputContainer, stream: VideoStream) -> None:
+        count = 0 if self._times else count_undelayed(self._path, container, stream)
+        if count:
+            warn(
+                f"{self._path} states no delay after {count} of its frames; each is shown for "
+                "0.1 s, as browsers do. Give the rate (`fps`)"
+            )
+
     def _count_packets(self) -> int:
         """Frames that will be shown; finds the constant rate of a file whose clock rounds it."""
         found = self._read_packets()
@@ -134,9 +145,10 @@ class VideoFile(FrameSource):
     def times_us(self) -> Sequence[int] | None:
         """Times of all frames, as the packets have them, µs; None where they have none."""
         found = self._read_packets()
-        times = self._times or (FrameTimes(fps=self._rate) if self._rate else None)
-        if self._times is None and found.times_us is not None:
+        is_own = self._times is None and found.constant_rate is None
+        if is_own and found.times_us is not None:
             return [*map(int, found.times_us)]
+        times = self._times or (FrameTimes(fps=self._rate) if self._rate else None)
         return None if times is None else times.of(found.count)
 
     def _note_repeats(self, dropped: int, count: int) -> None:

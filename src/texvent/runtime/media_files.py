@@ -26,6 +26,9 @@ LEADING_ELSEWHERE = frozenset(
 )
 """Formats whose files name other files and addresses, or are programs."""
 
+NO_DELAY = {"default_fps": "10"}
+"""Frames of an animated PNG without a delay take 0.1 s, as those of a GIF do and in browsers."""
+
 
 def open_media(address: Any, **options: Any) -> InputContainer:
     """Container of a stream or a device, whatever its titles are coded in.
@@ -44,7 +47,7 @@ def open_media(address: Any, **options: Any) -> InputContainer:
 def open_media_file(path: Path) -> InputContainer:
     """Container of a video file that leads to no other file; see `open_media`."""
     # With the protocol named, a colon in the path is not taken for one.
-    return open_media(f"file:{path}", options=only_self_contained())
+    return open_media(f"file:{path}", options={**only_self_contained(), **NO_DELAY})
 
 
 @functools.cache

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from dataclasses import dataclass
 from fractions import Fraction
+from mmap import ACCESS_READ, mmap
+from pathlib import Path
 
 import numpy as np
 from av.container import InputContainer
@@ -19,6 +22,12 @@ ROUNDING_TICKS = 1.02
 than a tick apart; a little more if a file with a finer clock was made into this one."""
 SAME_RATE = 1e-5
 """Files round rates: Matroska states 60000/1001 as 19001/317."""
+
+DELAYS = {
+    "gif": re.compile(rb"\x21\xf9\x04.(..).\0(?=[\x21\x2c])", re.DOTALL),
+    "apng": re.compile(rb"\0\0\0\x1afcTL.{20}(..)", re.DOTALL),
+}
+"""Delays of the frames of animations, by libav's names of the formats."""
 
 
 @dataclass(frozen=True)
@@ -77,3 +86,13 @@ def _ticks_per_frame(stream: VideoStream) -> dict[Fraction, Fraction]:
         if abs(one - rate) < SAME_RATE * rate
     ]
     return {rate: 1 / (rate * (stream.time_base or 1)) for rate in (*usual, *rates)}
+
+
+def count_undelayed(path: Path, container: InputContainer, stream: VideoStream) -> int:
+    """Frames of an animation after which it states no delay, or 0; the last one does not count."""
+    pattern = DELAYS.get(container.format.name)
+    if pattern is None:
+        return 0
+    with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as data:
+        delays = [found[1] for found in pattern.finditer(data)]
+    return delays[:-1].count(b"\0\0") + max(0, stream.frames - max(1, len(delays)))

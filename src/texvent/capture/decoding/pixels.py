@@ -14,9 +14,12 @@ from av.video.reformatter import ColorRange, VideoReformatter
 from numpy.typing import NDArray
 
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
+from texvent.errors import warn
 from texvent.runtime.media_files import raise_scarcity
 from texvent.video import PixelArray
 
+LIMITED = (16, 235)
+"""Black and white of limited range."""
 UNSPECIFIED = 2
 """libav's number of an unknown transfer characteristic."""
 
@@ -67,6 +70,27 @@ class PixelReader:
             raise_scarcity(error, self._name)
             raise
         return image.to_ndarray()
+
+
+def warn_of_range(frame: VideoFrame, pixels: PixelArray, name: str) -> None:
+    """Warn of grey that is marked as limited range, and may be.
+
+    libav reads and writes all grey as full range, but a file made from limited colour may keep its
+    mark.
+
+    Args:
+        frame: the first one.
+        pixels: its levels; some outside the limited range tell that they are full.
+        name: of the file or stream.
+    """
+    low, high = (round(level * np.iinfo(pixels.dtype).max / 255) for level in LIMITED)
+    is_limited = pixels.ndim == 2 and frame.color_range == ColorRange.MPEG
+    if is_limited and low <= pixels.min() and pixels.max() <= high:
+        warn(
+            f"{name} is grey and marked as limited range, which grey video hardly is: levels are "
+            "read as they are. If black is 16 and white 235, stretch them first "
+            "(ffmpeg -vf 'lutyuv=y=(val-16)*255/219')"
+        )
 
 
 def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
