@@ -9,6 +9,7 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
+from av.video.reformatter import ColorRange
 
 WIDTH, HEIGHT = 64, 48
 
@@ -28,8 +29,10 @@ class ClipWriter:
         stored: str = "yuv420p",
         given: str = "rgb24",
         times_ms: Sequence[int] | None = None,
-        rate: int = 25,
-        ticks: int = 1000,
+        rate: int | Fraction = 25,
+        ticks: int | Fraction = 1000,
+        first: int = 0,
+        is_limited: bool = False,
         rotation: int = 0,
         container: dict[str, str] | None = None,
         options: dict[str, str] | None = None,
@@ -39,13 +42,15 @@ class ClipWriter:
             stream = clip.add_stream(codec, rate=rate, options=options or {})
             stream.height, stream.width = frames[0].shape[:2]
             stream.pix_fmt = stored
-            stream.codec_context.time_base = Fraction(1, ticks)
+            stream.codec_context.time_base = 1 / Fraction(ticks)
+            if is_limited:
+                stream.codec_context.color_range = ColorRange.MPEG
             if rotation:
                 stream.set_display_rotation(rotation)
             for index, pixels in enumerate(frames):
                 frame = av.VideoFrame.from_ndarray(pixels, format=given)
-                frame.pts = times_ms[index] if times_ms else ticks // rate * index
-                frame.time_base = Fraction(1, ticks)
+                frame.pts = times_ms[index] if times_ms else ticks // rate * (index + first)
+                frame.time_base = 1 / Fraction(ticks)
                 clip.mux(stream.encode(frame))
             clip.mux(stream.encode(None))
         return path

@@ -1,5 +1,6 @@
 import errno
 import os
+from contextlib import nullcontext
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,6 +9,7 @@ import av
 import cv2
 import numpy as np
 import pytest
+from PIL import Image
 
 import texvent
 from texvent.capture import video_file
@@ -264,20 +266,55 @@ def test_a_lack_of_threads_or_memory_is_not_called_damage(clips, monkeypatch, nu
         list(frames_of(path))
 
 
+NTSC = Fraction(1000, 1001)
+
+
 @pytest.mark.parametrize(
     ("name", "codec", "rate"),
     [
-        *(("a.mkv", "libx264", rate) for rate in (120, 240, 1500, 2000, 5000)),
-        ("a.webm", "libvpx-vp9", 2000),
-        ("a.flv", "libx264", 240),
+        *(("a.mkv", "ffv1", rate) for rate in (24, 25, 30, 50, 60, 120, 240, 1000, 1500, 5000)),
+        *(("a.mkv", "ffv1", rate * NTSC) for rate in (24, 30, 60)),
+        *(("a.webm", "libvpx-vp9", rate) for rate in (60, 2000)),
+        *((name, "libx264", rate) for name in ("a.flv", "a.ts") for rate in (60 * NTSC, 240)),
     ],
 )
-def test_a_clock_too_coarse_for_a_constant_rate_loses_no_frame(clips, name, codec, rate):
-    path = clips.write(name, colours(20, 8), codec=codec, rate=rate, ticks=rate)
+@pytest.mark.parametrize("first", [0, 7])
+def test_a_constant_rate_replaces_times_that_a_clock_rounds(clips, name, codec, rate, first):
+    path = clips.write(name, colours(20, 8), codec=codec, rate=rate, ticks=rate, first=first)
     stream = open_frames(path, CaptureConfig())
     times = [frame.t_us for frame in stream]
-    assert stream.frame_count == 20
+    assert (stream.frame_count, stream.fps) == (20, rate)
+    assert times == stream.times_us or name != "a.mkv"
     assert times == [frame_time_us(i, Fraction(rate)) for i in range(20)]
+
+
+def test_times_that_no_rate_explains_stay(clips):
+    times_ms = [round(1000 * i / 60) + (i % 5 == 3) for i in range(20)]
+    path = clips.write("a.mkv", colours(20, 8), codec="ffv1", rate=60, times_ms=times_ms)
+    assert [frame.t_us for frame in VideoFile(path)] == [1000 * t for t in times_ms]
+
+
+@pytest.mark.parametrize("name", ["a.gif", "a.png"])
+@pytest.mark.parametrize("delays_ms", [[0, 0, 0], [50, 0, 50], [50, 50, 0]])
+def test_frames_without_a_delay_take_a_tenth_of_a_second_and_are_said(tmp_path, name, delays_ms):
+    images = [Image.fromarray(pixels) for pixels in colours(3, 20)]
+    images[0].save(
+        tmp_path / name, save_all=True, append_images=images[1:], duration=delays_ms, loop=0
+    )
+    count = delays_ms[:-1].count(0)
+    with pytest.warns(TexventWarning, match=f"after {count} of its") if count else nullcontext():
+        stream = open_frames(tmp_path / name, CaptureConfig())
+    steps = np.diff([frame.t_us for frame in stream])
+    assert steps == pytest.approx([1000 * (one or 100) for one in delays_ms[:-1]], abs=1)
+
+
+@pytest.mark.parametrize("lowest", [0, 20])
+def test_grey_that_is_marked_as_limited_range_is_read_as_it_is(clips, lowest):
+    grey = [np.clip(GREY, lowest, 230) for _ in range(2)]
+    path = clips.write("g.mkv", grey, codec="ffv1", stored="gray", given="gray", is_limited=True)
+    with pytest.warns(TexventWarning, match="marked as limited") if lowest else nullcontext():
+        stream = VideoFile(path)
+    assert np.array_equal(next(iter(stream)).pixels, grey[0])
 
 
 @pytest.mark.parametrize("times_ms", [[0, 0, 0, 40, 90, 90], [0, 40, 40, 40, 41, 41]])

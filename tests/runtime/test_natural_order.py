@@ -26,10 +26,26 @@ PLAIN = [
     ["frame-1", "frame-2", "frame-10"],  # a hyphen, not a sign
     ["frame.0001", "frame.0002", "frame.10000"],
     ["a", "b", "c"],
+    ["5e-05", "0.0001", "8e-02", "1e-01", "1.5e-01", "2e-01", "1e+00"],
+    ["cam0_000012", "cam0_000013", "cam1_000002"],
+    ["0_8", "0_9", "0_10", "0_11"],
+    ["1700000000_000000099", "1700000000_123456789", "1700000001_000000001"],
+    ["2024-01-31_12-00-00", "2024-02-01_01-00-00"],
+    ["01-02-2024", "02-02-2024", "03-02-2024"],
+    ["clip_9-30-00 am", "clip_10-00-00 am"],
+    ["999999999", "1000000000", "1700000000123456789"],
+    ["3f2504e0-1", "3f2504e0-2", "3f2504e0-10"],
 ]
 DOUBTFUL = [
     (["left_1", "left_2", "right_1", "right_2"], r"2 patterns of names: left_# \(2\), right_#"),
     (["0b12e", "3f9", "a7c4"], "3 patterns"),
+    (["01-02-2024", "31-01-2024"], "days stand before years"),
+    (["clip 02.11.2023", "clip 11.02.2022"], "days stand before years"),
+    (["1-00-00 pm", "12-59-58 pm"], "am and pm"),
+    (["0_1", "0_2", "0_15"], "counted or decimals"),
+    (["t0p1", "t0p2", "t0p15"], "counted or decimals"),
+    (["frame0-1", "frame0-2", "frame0-15"], "counted or decimals"),
+    (["0_1", "0_2", "0_05", "0_15"], "counted or decimals"),
 ]
 
 
@@ -37,8 +53,11 @@ DOUBTFUL = [
 def test_names_are_sorted_by_the_numbers_in_them(stems, doubt):
     paths = [Path("f") / f"{stem}.png" for stem in stems]
     mixed = random.Random(1).sample(paths, len(paths))
-    with pytest.warns(TexventWarning, match=doubt) if doubt else nullcontext():
+    with pytest.warns(TexventWarning, match=doubt) if doubt else nullcontext() as said:
         assert in_natural_order(mixed) == paths
+    if doubt:
+        assert len(said) == 1
+        assert numbering_gap(paths) is None
 
 
 def test_two_images_of_one_number_are_said():

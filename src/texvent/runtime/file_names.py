@@ -73,8 +73,18 @@ def inside(folder: Path, place: str) -> Path:
     return path
 
 
-_NUMBER = re.compile(r"((?<![\d.])\d+\.\d+(?!\.?\d)|\d+)")
+_EXPONENT = r"e[-+]\d{1,3}(?![\da-z])"
+_NUMBER = re.compile(
+    rf"((?<![\d.])\d+\.\d+{_EXPONENT}|(?<![\d.])\d+\.\d+(?!\.?\d)|(?<![\d.])\d+{_EXPONENT}|\d+)"
+)
 """A number in a name; a point counts where it is the only one between digits: 0.15, not 1.2.3."""
+_DATE = re.compile(r"(?<!\d)(\d\d?)([-._ ]?)(\d\d?)\2((?:19|20)\d\d)(?!\d)")
+"""A date whose year comes last."""
+_HOURS = re.compile(
+    r"(?<!\d)(0?[1-9]|1[0-2])[-._ ]([0-5]\d)(?:[-._ ]([0-5]\d))?[-_\s]?([ap])\.?m(?![a-z])"
+)
+_SPLIT_NUMBER = re.compile(r"(.*?)(?<!\d)(\d+)[_p-](\d+)\D*")
+"""A name that ends in 0_15 or 0p15, which may be 0.15."""
 
 
 def in_natural_order(paths: Iterable[Path]) -> list[Path]:
@@ -84,7 +94,7 @@ def in_natural_order(paths: Iterable[Path]) -> list[Path]:
     sign where another name has the same text without it: t-1, t0.
 
     Warns:
-        TexventWarning: names are of more than one pattern.
+        TexventWarning: names are of more than one pattern, or do not tell the order of time.
     """
     words = {path: _NUMBER.split(_text(path)) for path in paths}
     # Texts and numbers take turns; those after the last number are no sign.
@@ -104,7 +114,15 @@ def in_natural_order(paths: Iterable[Path]) -> list[Path]:
         return *parts, words[path][-1], path.suffix.lower(), path.name
 
     ordered = sorted(words, key=key)
-    _warn_of_patterns(ordered)
+    doubt = _order_doubt(ordered)
+    if doubt is None:
+        _warn_of_patterns(ordered)
+    else:
+        warn(
+            f"{ordered[0].parent}: names of images do not tell their order in time: {doubt}; they "
+            f"are taken by their numbers, {few([one.name for one in ordered], 3)}. List the files "
+            "with their times in images.txt"
+        )
     return ordered
 
 
@@ -116,10 +134,56 @@ def _text(path: Path) -> str:
 def _counts_behind_point(numbers: Iterable[str | None]) -> bool:
     """Whether digits after points are whole numbers: decimals of any length end in no zero."""
     behind = [number.partition(".")[2] for number in numbers if number and "." in number]
+    if any(number and "e" in number for number in numbers):
+        return False
     longer = [digits for digits in behind if len(digits) > 1]
     is_padded = any(digits[0] == "0" for digits in longer)
     is_even = len({len(digits) for digits in behind}) < 2
     return not is_even and not is_padded and any(digits[-1] == "0" for digits in longer)
+
+
+def _order_doubt(ordered: Sequence[Path]) -> str | None:
+    """Why files sorted by the numbers in their names may not be in order of time; None if they are.
+
+    Dates count if the order of names is not theirs.
+    """
+    texts = [_text(path) for path in ordered]
+    dates = [found.groups() for text in texts if (found := _DATE.search(text))]
+    if len(dates) == len(texts):
+        days_and_months = [(int(first), int(second)) for first, _, second, _ in dates]
+        for swap in (1, -1):
+            days, months = tuple(zip(*(one[::swap] for one in days_and_months), strict=True))
+            is_date = 1 <= min(days) <= max(days) <= 31 and 1 <= min(months) <= max(months) <= 12
+            read = [*zip((one[3] for one in dates), months, days, strict=True)]
+            if is_date and read != sorted(read):
+                return "days stand before years"
+    hours = [(text[: at.start()], at) for text in texts if (at := _HOURS.search(text))]
+    read = [
+        (before, f"{int(at[1]) % 12 + 12 * (at[4] == 'p'):02}", at[2], at[3] or "")
+        for before, at in hours
+    ]
+    if len(hours) == len(texts) and read != sorted(read):
+        return "hours are those of am and pm"
+    may_be = "digits behind _, p or - may be counted or decimals"
+    return may_be if _may_be_decimals(texts) else None
+
+
+def _may_be_decimals(texts: Sequence[str]) -> bool:
+    """Whether numbers behind _, p or - may be counted or decimals, which have another order."""
+    found = [one for text in texts if (one := _SPLIT_NUMBER.fullmatch(text))]
+    if len(found) < len(texts) or len({one[1] for one in found}) > 1 or len(found) < 2:
+        return False
+    counted = [(int(one[2]), int(one[3])) for one in found]
+    decimals = [Fraction(f"{one[2]}.{one[3]}") for one in found]
+    has_round = any(len(one[3]) > 1 and one[3].endswith("0") for one in found)
+    is_series = all(
+        first[0] != second[0] or second[1] - first[1] == 1
+        for first, second in itertools.pairwise(counted)
+    )
+    if has_round or is_series or decimals == sorted(decimals):
+        return False
+    even = {second - first for first, second in itertools.pairwise(sorted(decimals))}
+    return len(even) == 1 < len(found) - 1 or re.fullmatch(r"[a-z]?[-_]?", found[0][1]) is not None
 
 
 def _warn_of_patterns(ordered: Sequence[Path]) -> None:
@@ -144,7 +208,8 @@ def numbering_gap(files: Sequence[Path]) -> str | None:
         Their names, "a and b".
     """
     numbers = [int(found[-1]) for one in files if (found := re.findall(r"\d+", one.stem))]
-    if len(numbers) != len(files):
+    has_exponents = any(re.search(rf"\d{_EXPONENT}", one.stem.lower()) for one in files)
+    if len(numbers) != len(files) or has_exponents or _order_doubt(files) is not None:
         return None
     steps = [second - first for first, second in itertools.pairwise(numbers)]
     usual = min(steps, default=0)
