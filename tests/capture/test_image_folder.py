@@ -166,6 +166,7 @@ def tiff(pixels, photometric):
     entries = [
         *((256, width), (257, height), (258, 8 * pixels.itemsize), (259, 1), (262, photometric)),
         *((273, 8), (277, 1), (278, height), (279, len(data))),
+        (339, 3 if pixels.dtype.kind == "f" else 1),
     ]
     table = b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in entries)
     table = table.replace(struct.pack("<HHI", 262, 4, 1), struct.pack("<HHI", 262, 3, 1))
@@ -179,6 +180,12 @@ def test_a_tiff_whose_zero_is_white_is_turned_round(tmp_path, dtype):
     for number in range(2):
         (tmp_path / f"{number}.tif").write_bytes(tiff(np.full((4, 6), full - 7, dtype), 0))
     assert levels(tmp_path) == [7, 7]
+
+
+def test_a_tiff_of_floats_whose_zero_is_white_is_refused(tmp_path):
+    (tmp_path / "0.tif").write_bytes(tiff(np.full((4, 6), 1, np.float32), 0))
+    with pytest.raises(FileFormatError, match="floats whose zero is white"):
+        levels(tmp_path)
 
 
 @pytest.mark.parametrize("kind", ["P2", "P5"])

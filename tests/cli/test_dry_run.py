@@ -1,7 +1,10 @@
 """`--dry-run`: the first pairs say what the whole run would take."""
 
+from fractions import Fraction
 from pathlib import Path
 
+import av
+import cv2
 import numpy as np
 import pytest
 
@@ -23,6 +26,39 @@ def test_the_first_pairs_are_counted():
     first = texvent.simulate(FRAMES[: MOST_PAIRS + 1], fps=50, **OPTIONS)
     assert f"about {len(first) / MOST_PAIRS * 6:,.0f} events in " in said
     assert "4 of 6 pairs" in said
+
+
+def write_images(times_us):
+    Path("frames").mkdir()
+    for index in range(len(times_us)):
+        cv2.imwrite(f"frames/{index:03}.png", FRAMES[index % len(FRAMES)])
+    names = [f"{t_us / 1e6} {index:03}.png" for index, t_us in enumerate(times_us)]
+    Path("frames/images.txt").write_text("\n".join(names), encoding="utf-8")
+    return "frames"
+
+
+def write_film(times_us):
+    with av.open("film.mkv", "w") as clip:
+        stream = clip.add_stream("ffv1", rate=25)
+        stream.width, stream.height, stream.pix_fmt = 16, 12, "gray"
+        stream.codec_context.time_base = Fraction(1, 1000)
+        for index, t_us in enumerate(times_us):
+            frame = av.VideoFrame.from_ndarray(FRAMES[index % len(FRAMES)], format="gray")
+            frame.pts, frame.time_base = t_us // 1000, Fraction(1, 1000)
+            clip.mux(stream.encode(frame))
+        clip.mux(stream.encode(None))
+    return "film.mkv"
+
+
+@pytest.mark.parametrize("write", [write_images, write_film])
+def test_a_dry_run_finds_the_jumps_that_the_run_finds(write, capsys):
+    late = [40_000 * i + 86_400_000_000 * (i >= 10) for i in range(12)]
+    words = ["simulate", write(late), "--noise", "none", "--previews", "none"]
+    for more in (["--dry-run"], ["-o", "a.h5"]):
+        assert main([*words, *more]) == 2
+        assert "after 0.36 s the next frame is 86,400 s later" in capsys.readouterr().err
+    assert main([*words, "--dry-run", "--stop", "0.3"]) == 0
+    assert "later" not in capsys.readouterr().err
 
 
 def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):

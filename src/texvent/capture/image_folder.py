@@ -39,6 +39,8 @@ NETPBM = (".pgm", ".ppm", ".pnm")
 DEPTH_AND_COLOUR, TIFF_FLAGS = 6, -1
 """OpenCV's: grey stays grey, 16-bit and float stay, alpha goes, JPEG orientation is applied; and as
 it is stored, since alpha would go silently, though OpenCV has multiplied a TIFF's colours by it."""
+WHITE_IS_ZERO, CIELAB = 0, 8
+"""Of PhotometricInterpretation."""
 STACK_BYTES = 32 * 2**20
 """Of a TIFF stack, images of this size are read at a time."""
 MAX_BYTE = 255
@@ -197,7 +199,14 @@ def _checked(image: NDArray[Any], path: Path, white_level: float | None) -> Pixe
             )
         image = image[..., 2::-1]
     pixels = usable_pixels(np.ascontiguousarray(image), str(path))
-    if path.suffix.lower() in TIFF and image.dtype == np.uint16 and _has_white_zero(path):
+    meaning = _photometric(path) if path.suffix.lower() in TIFF else None
+    if meaning == CIELAB or (meaning == WHITE_IS_ZERO and image.dtype.kind == "f"):
+        kind = "CIE L*a*b*" if meaning == CIELAB else "of floats whose zero is white"
+        raise FileFormatError(
+            f"image {path} is {kind}, which OpenCV does not read by its meaning; save it as RGB or "
+            "grey whose zero is black"
+        )
+    if meaning == WHITE_IS_ZERO and image.dtype == np.uint16:  # OpenCV turns 8 bits round itself
         pixels = np.iinfo(np.uint16).max - pixels
     elif path.suffix.lower() in NETPBM and white_level is None:
         full = np.iinfo(pixels.dtype).max
@@ -205,10 +214,10 @@ def _checked(image: NDArray[Any], path: Path, white_level: float | None) -> Pixe
     return pixels
 
 
-def _has_white_zero(path: Path) -> bool:
-    """Whether a TIFF says that 0 is white (PhotometricInterpretation 0), which OpenCV ignores."""
+def _photometric(path: Path) -> int | None:
+    """The PhotometricInterpretation that a TIFF states."""
     with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        return tiff_tags(data).get(PHOTOMETRIC) == 0
+        return tiff_tags(data).get(PHOTOMETRIC)
 
 
 def _netpbm_white(path: Path, full: int) -> int:

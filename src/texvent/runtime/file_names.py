@@ -148,6 +148,8 @@ def _order_doubt(ordered: Sequence[Path]) -> str | None:
     Dates count if the order of names is not theirs.
     """
     texts = [_text(path) for path in ordered]
+    if not texts:
+        return None
     dates = [found.groups() for text in texts if (found := _DATE.search(text))]
     if len(dates) == len(texts):
         days_and_months = [(int(first), int(second)) for first, _, second, _ in dates]
@@ -158,11 +160,11 @@ def _order_doubt(ordered: Sequence[Path]) -> str | None:
             if is_date and read != sorted(read):
                 return "days stand before years"
     hours = [(text[: at.start()], at) for text in texts if (at := _HOURS.search(text))]
-    read = [
+    moments = [
         (before, f"{int(at[1]) % 12 + 12 * (at[4] == 'p'):02}", at[2], at[3] or "")
         for before, at in hours
     ]
-    if len(hours) == len(texts) and read != sorted(read):
+    if len(hours) == len(texts) and moments != sorted(moments):
         return "hours are those of am and pm"
     may_be = "digits behind _, p or - may be counted or decimals"
     return may_be if _may_be_decimals(texts) else None

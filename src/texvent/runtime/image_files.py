@@ -57,7 +57,8 @@ def decode_image(path: Path, flags: int) -> NDArray[Any]:
         raise FileFormatError(f"image {path} is damaged: {one_line(error)}") from error
     if image is None:
         raise FileFormatError(
-            f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
+            f"image {path} cannot be decoded; it may be cut off, damaged, of over 2^30 pixels, or "
+            "of pixels that OpenCV does not read; save it as PNG or TIFF of 8 or 16 bits"
         )
     return np.asarray(image)
 
