@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.intensity_scale import ScaleCheck, caller_pixels, check_whole_scale
+from texvent.capture.intensity_scale import caller_pixels
 from texvent.errors import InputError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.options.arrays import as_array
@@ -27,12 +27,10 @@ class ArrayFrames(FrameSource):
     Args:
         frames: uint8, uint16 (65535 is white), float on the 0..255 scale, or bool.
         times: a frame rate, or one time per frame.
-        check_scale: whether the scale is in doubt; see `ScaleCheck`.
         metadata: where they come from.
 
     Raises:
-        InputError: wrong shape or pixel type, no frame, another number of times than frames, or
-            floats that are probably 0..1.
+        InputError: wrong shape or pixel type, no frame, or another number of times than frames.
     """
 
     def __init__(
@@ -40,7 +38,6 @@ class ArrayFrames(FrameSource):
         frames: Iterable[Any],
         times: FrameTimes,
         *,
-        check_scale: bool = True,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
         is_array = hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
@@ -60,9 +57,6 @@ class ArrayFrames(FrameSource):
         facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, times.fps, count, facts, is_live)
-        self._scale = ScaleCheck() if check_scale else None
-        if check_scale and not is_live:
-            self._scale = check_whole_scale(self._images(self._frames), "the array")
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order.
@@ -75,16 +69,9 @@ class ArrayFrames(FrameSource):
 
     def _run(self, images: Iterable[Any]) -> Iterator[Frame]:
         count = 0
-        for count, pixels in enumerate(self._images(images), start=1):
-            if self._scale is not None:
-                self._scale.look_at_stream(pixels, f"frame {count - 1}")
-            yield Frame(pixels, self._times(count - 1))
-        if self._scale is not None:
-            self._scale.conclude("the stream")
+        for count, image in enumerate(images, start=1):
+            yield Frame(caller_pixels(image, f"frame {count - 1}"), self._times(count - 1))
         self._times.check_count(count)
-
-    def _images(self, images: Iterable[Any]) -> Iterator[PixelArray]:
-        return (caller_pixels(image, f"frame {index}") for index, image in enumerate(images))
 
     def _peek(self, is_live: bool) -> PixelArray:
         """The first image; an iterator gets it back in front."""

@@ -50,6 +50,34 @@ def as_array(values: Any, what: str) -> NDArray[Any]:
         ) from error
 
 
+def usable_pixels(pixels: NDArray[Any], where: str) -> NDArray[Any]:
+    """Pixels of a type that `Frame` takes, without loss, or a clear refusal.
+
+    Args:
+        pixels: [..., H, W] or [..., H, W, 3] of any type.
+        where: what to call them in messages.
+
+    Returns:
+        uint8, uint16, float32 and float64 as they are; bool as uint8 0 and 255; float16 as
+        float32.
+
+    Raises:
+        InputError: another type. Wide and signed integers are refused because they may mean
+            0..255 or 0..65535, and guessing wrong gives dark frames and hardly any event.
+    """
+    if pixels.dtype in (np.uint8, np.uint16, np.float32, np.float64):
+        return pixels
+    if pixels.dtype == np.bool_:
+        return pixels.astype(np.uint8) * np.uint8(255)
+    if pixels.dtype == np.float16:
+        return pixels.astype(np.float32)
+    raise InputError(
+        f"{where} has pixels of type {pixels.dtype}; allowed: uint8 (0..255), uint16 (0..65535), "
+        "float (0..255 unless white_level says otherwise), bool. Convert with "
+        ".astype(np.uint8) or .astype(np.uint16)"
+    )
+
+
 def _levels_of_pillow(image: Any) -> Any:
     """An image of Pillow as grey, RGB or numbers; palettes by their colours, alpha goes."""
     mode = str(image.mode)

@@ -14,7 +14,7 @@ from texvent._registry import suggest
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
 from texvent.capture.image_folder import coding_facts, count_images, read_image
-from texvent.capture.intensity_scale import caller_pixels, check_whole_scale, scale_to_levels
+from texvent.capture.intensity_scale import caller_pixels, scale_to_levels
 from texvent.capture.linear_light import (
     FULL_SCALE,
     GAMMA,
@@ -22,6 +22,7 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
+from texvent.capture.scale_check import check_image_scale
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
@@ -138,5 +139,5 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
     if coding == GAMMA and white_level is not None:
         pixels = scale_to_levels(pixels, white_level)
     elif coding == GAMMA:
-        check_whole_scale([pixels], where)
+        check_image_scale(pixels, where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
