@@ -355,7 +355,7 @@ class StreamChecker:
         if not -LATEST_US <= frame.t_us <= LATEST_US:
             raise InputError(
                 f"{where} lies outside ±{LATEST_US} µs (285 years); give a higher fps, or times "
-                "that count from a later moment"
+                "in µs, not ns, that count from a later moment"
             )
         if self._size is not None and frame.size != self._size:
             raise InputError(f"{where} is {frame.size}, the frames before it are {self._size}")

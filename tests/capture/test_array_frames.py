@@ -5,7 +5,7 @@ import pytest
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import InputError, TexventWarning
 
 AT_100 = CaptureConfig(fps=Fraction(100))
 
@@ -65,8 +65,12 @@ def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):
         (np.zeros((4, 6), np.uint8), "One image holds no change"),
         (np.zeros((2, 4, 6, 4), np.uint8), r"Drop the alpha channel"),
         (np.zeros((2, 3, 4, 6), np.uint8), r"Channels come last"),
-        (np.zeros((2, 4, 6), np.int64), r"type int64.*\.astype\(np\.uint8\)"),
+        (np.zeros((2, 4, 6), np.int64), r"type int64.*np\.asarray\(frames, np\.uint8\)"),
+        (np.zeros((1, 9, 4, 6), np.uint8), r"frames\[0\]|moveaxis"),
+        (np.zeros((2, 4, 6, 2), np.uint8), r"alpha channel: frames\[..., 0\]"),
         (3, "cannot read frames from int"),
+        (b"abc", "cannot read frames from bytes"),
+        ({0: np.zeros((4, 6))}, "cannot read frames from dict"),
     ],
 )
 def test_wrong_arrays_are_refused_with_advice(pixels, message):
@@ -85,3 +89,8 @@ def test_wrong_arrays_are_refused_with_advice(pixels, message):
 def test_wrong_times_are_refused(t_us, message):
     with pytest.raises(InputError, match=message):
         open_frames(ramp(np.uint8), CaptureConfig(), t_us=t_us)
+
+
+def test_one_colour_image_that_reads_as_slender_frames_is_said():
+    with pytest.warns(TexventWarning, match=r"as 40 frames of 3x32; if the last axis is colour"):
+        open_frames(np.full((40, 32, 3), 90, np.uint8), AT_100)

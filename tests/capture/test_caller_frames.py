@@ -167,14 +167,31 @@ def test_values_that_cannot_be_light_name_their_remedy(door):
         assert re.search(remedy, said(door, images)[-1])
 
 
+class Exported:
+    """An array of another library."""
+
+    def __init__(self, array):
+        self.__dlpack__, self.__dlpack_device__ = array.__dlpack__, array.__dlpack_device__
+
+
+@pytest.mark.parametrize("form", [memoryview, Exported])
+def test_a_whole_video_may_be_the_array_of_another_library(form):
+    given = form(np.ascontiguousarray(LEVELS))
+    assert texvent.simulate(given, fps=100, **CLEAN) == through_array(LEVELS, **CLEAN)
+
+
 @named(OF_IMAGES)
-@pytest.mark.parametrize("form", ["nested lists", "float16", "bool", "channel", "Fortran"])
+@pytest.mark.parametrize(
+    "form", ["nested lists", "float16", "bool", "channel", "Fortran", "memory", "DLPack"]
+)
 def test_images_in_any_form_are_taken_alike(form, door):
     forms = {
         "nested lists": [(one * 1.0).tolist() for one in LEVELS],
         "float16": LEVELS.astype(np.float16),
         "bool": LEVELS > 128,
         "channel": LEVELS[..., None],
+        "memory": [memoryview(np.ascontiguousarray(one)) for one in LEVELS],
+        "DLPack": [Exported(np.ascontiguousarray(one)) for one in LEVELS],
         "Fortran": [np.asfortranarray(one) for one in LEVELS],
     }
     plain = ((LEVELS > 128) * 255).astype(np.uint8) if form == "bool" else LEVELS
@@ -214,7 +231,10 @@ def test_pictures_of_pillow_are_read_by_the_meaning_of_their_mode(mode, door):
         ([None, None], "is None, no frame"),
         ([(one, 1) for one in LEVELS], "cannot be read as an array"),
         ([LEVELS[0], LEVELS[1][:9]], "24x9"),
-        (LEVELS[..., None].repeat(2, axis=-1), r"got shape .*2\]"),
+        (LEVELS[..., None].repeat(2, axis=-1), r"got shape .*2\]. Drop .*\[..., 0\]"),
+        (LEVELS[..., None].repeat(4, axis=-1), r"got shape .*4\]. Drop .*\[..., :3\]"),
+        (LEVELS[:, None].repeat(3, axis=1), r"got shape .*np.moveaxis\(frames, -3, -1\)"),
+        ([LEVELS, LEVELS], r"got shape \[5, .*one by one"),
         (LEVELS[:, :0], r"got shape \[0, 24\]"),
     ],
 )

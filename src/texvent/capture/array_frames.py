@@ -10,13 +10,17 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.intensity_scale import caller_pixels
-from texvent.errors import InputError, shown
+from texvent.capture.intensity_scale import caller_pixels, shape_hint
+from texvent.errors import InputError, shown, warn
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.options.arrays import as_array
+from texvent.options.arrays import as_array, is_array_like
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
+
+ONE_IMAGE = ". One image holds no change; stack at least two"
+SLENDER = 8
+"""Images are hardly more slender than this, nor fewer than the columns of one."""
 
 
 class ArrayFrames(FrameSource):
@@ -40,8 +44,7 @@ class ArrayFrames(FrameSource):
         *,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
-        is_array = hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
-        if is_array and not isinstance(frames, Iterator):
+        if is_array_like(frames) and not isinstance(frames, Iterator):
             frames = _checked_array(as_array(frames, "the array"))
         elif isinstance(frames, StoredArray):
             _check_shape(frames.shape)
@@ -94,21 +97,17 @@ def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
 
 def _check_shape(shape: tuple[int, ...]) -> None:
     if len(shape) == 3 or (len(shape) == 4 and shape[-1] in (1, 3)):
+        if len(shape) == 3 and SLENDER * shape[2] < min(shape[:2]):
+            warn(
+                f"frames of shape {list(shape)} are read as {shape[0]} frames of "
+                f"{shape[2]}x{shape[1]}; if the last axis is colour, give several images, and if "
+                "it is time, np.moveaxis(frames, -1, 0)"
+            )
         return
     raise InputError(
         f"frames must be [N, H, W] or [N, H, W, 3]; got shape {shown(list(shape))}"
-        + _shape_hint(shape)
+        + (ONE_IMAGE if len(shape) == 2 else shape_hint(shape[1:]))
     )
-
-
-def _shape_hint(shape: tuple[int, ...]) -> str:
-    if len(shape) == 2:
-        return ". One image holds no change; stack at least two"
-    if len(shape) == 4 and shape[-1] == 4:
-        return ". Drop the alpha channel: frames[..., :3]"
-    if len(shape) == 4 and shape[1] in (1, 3):
-        return ". Channels come last: frames.transpose(0, 2, 3, 1)"
-    return ""
 
 
 def _refuse_if_empty(is_empty: bool) -> None:

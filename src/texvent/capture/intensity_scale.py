@@ -60,9 +60,24 @@ def caller_pixels(image: Any, where: str) -> PixelArray:
             f"{where} is the name {shown(image)}; a list holds images, not their names: give the "
             "folder of the files, or open them one by one"
         )
-    pixels = usable_pixels(as_array(image, where), where)
+    pixels = as_array(image, where)
     if pixels.ndim == 3 and pixels.shape[-1] == 1:
         pixels = pixels[..., 0]
-    if not (pixels.ndim == 2 or (pixels.ndim == 3 and pixels.shape[-1] == 3)) or 0 in pixels.shape:
-        raise InputError(f"{where} must be [H, W] or [H, W, 3]; got shape {list(pixels.shape)}")
-    return pixels
+    shape = pixels.shape
+    if not (len(shape) == 2 or (len(shape) == 3 and shape[-1] == 3)) or 0 in shape:
+        raise InputError(
+            f"{where} must be [H, W] or [H, W, 3]; got shape {list(shape)}{shape_hint(shape)}"
+        )
+    return usable_pixels(pixels, where)
+
+
+def shape_hint(shape: tuple[int, ...]) -> str:
+    """Advice for an image of another shape; what it says also holds for a stack of them."""
+    if len(shape) != 3 or 0 in shape:
+        return ""
+    if shape[-1] in (2, 4):
+        channels = "0" if shape[-1] == 2 else ":3"
+        return f". Drop the alpha channel: frames[..., {channels}]"
+    if shape[0] in (1, 3, 4):
+        return ". Channels come last: np.moveaxis(frames, -3, -1)"
+    return ". One axis too many: give images one by one, such as frames[0]"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import stat
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -23,6 +23,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, is_address
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
+from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import usable_path
 from texvent.runtime.image_files import HEAD_BYTES, is_animation
 from texvent.sensor import SensorSize
@@ -80,7 +81,9 @@ def open_frames(
         if is_whole and stream is source and size in (None, stream.size):
             return stream
         return PreparedFrames(stream, config, size=size)
-    elif isinstance(source, Iterable) or hasattr(source, "__array__"):
+    elif is_array_like(source) or (
+        isinstance(source, Iterable) and not isinstance(source, bytes | bytearray | Mapping | Set)
+    ):
         stream = _open_array(source, config, given)
     else:
         raise InputError(

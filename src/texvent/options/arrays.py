@@ -17,6 +17,12 @@ from texvent.errors import InputError, one_line, shown
 HOW_TO_ROUND = "np.rint(seconds * 1e6).astype(np.int64)"
 
 
+def is_array_like(values: Any) -> bool:
+    """Whether an object says itself that it is an array, unlike a list or a generator."""
+    names = ("__array__", "__array_interface__", "__cuda_array_interface__", "__dlpack__")
+    return isinstance(values, memoryview) or any(hasattr(values, name) for name in names)
+
+
 def as_array(values: Any, what: str) -> NDArray[Any]:
     """Values as a plain array of native byte order; a view of the caller's where that is possible.
 
@@ -74,7 +80,7 @@ def usable_pixels(pixels: NDArray[Any], where: str) -> NDArray[Any]:
     raise InputError(
         f"{where} has pixels of type {pixels.dtype}; allowed: uint8 (0..255), uint16 (0..65535), "
         "float (0..255 unless white_level says otherwise), bool. Convert with "
-        ".astype(np.uint8) or .astype(np.uint16)"
+        "np.asarray(frames, np.uint8) or np.asarray(frames, np.uint16)"
     )
 
 

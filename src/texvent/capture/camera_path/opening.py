@@ -25,6 +25,7 @@ from texvent.capture.linear_light import (
 from texvent.capture.scale_check import check_image_scale
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
+from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, check_intensity
@@ -121,7 +122,7 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
             raise InputError(f"{path} holds several images; leave camera out, or save one of them")
         pixels, where, kind = read_image(path, config.white_level), str(path), "still image"
         coded = coding_facts([path])
-    elif hasattr(source, "__array__") or hasattr(source, "getbands"):
+    elif is_array_like(source) or hasattr(source, "getbands"):
         pixels, where, kind = caller_pixels(source, "the image of camera"), "the image", "array"
         coded = {}
     else:
