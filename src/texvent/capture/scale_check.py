@@ -136,7 +136,7 @@ class _Evidence:
 
     def _doubt_of_white(self, white: float) -> str | None:
         """The same where `white_level` is given."""
-        if self._dtype.kind != "f" and white > np.iinfo(self._dtype).max:
+        if self._dtype.kind != "f" and white > 2 * np.iinfo(self._dtype).max:
             return f"{self._dtype}, which never comes near white_level={white:g}; check it"
         if self._above_white == 0 or not self._is_overexposed(white):
             return None
