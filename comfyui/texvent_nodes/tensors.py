@@ -7,10 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError
+from texvent.errors import InputError, warn
 from texvent.options.arrays import as_array
 
 WHITE = 255.0
+OVERSHOOT = 0.25
+"""Resized images exceed 0..1 by as much."""
+FEW = 0.1
+"""Share of highlights."""
 
 
 def frames_of(images: Any) -> NDArray[np.float32]:
@@ -24,7 +28,10 @@ def frames_of(images: Any) -> NDArray[np.float32]:
 
     Raises:
         InputError: another shape or type, fewer than two images, or values that are not finite or
-            mostly above 1.
+            often far beyond 0..1.
+
+    Warns:
+        TexventWarning: a few are, and are cut.
     """
     given = as_array(images, "images")
     if given.dtype.kind != "f":
@@ -42,11 +49,17 @@ def frames_of(images: Any) -> NDArray[np.float32]:
         )
     if not np.isfinite(pixels).all():
         raise InputError("images hold NaN or infinite values; check the node that makes them")
-    if np.count_nonzero(pixels > 1) > pixels.size / 2:
-        raise InputError(
-            f"images hold values up to {pixels.max():g}, most of them above 1; an IMAGE is 0..1, "
-            "so divide them by their white"
+    share = np.count_nonzero((pixels > 1 + OVERSHOOT) | (pixels < -OVERSHOOT)) / pixels.size
+    if share:
+        beyond = (
+            f"images hold values from {pixels.min():g} to {pixels.max():g}, a share of {share:.2g} "
+            "far beyond the 0..1 of an IMAGE"
         )
+        if share > FEW:
+            raise InputError(
+                f"{beyond}; divide them by their white, and of -1..1 take (images + 1) / 2"
+            )
+        warn(f"{beyond}; they are cut")
     pixels = np.clip(pixels, 0.0, 1.0) * np.float32(WHITE)
     return pixels[..., 0] if pixels.shape[3] == 1 else pixels[..., :3]
 

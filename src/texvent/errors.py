@@ -47,7 +47,7 @@ def shown(value: object) -> str:
     """
     try:
         # NumPy's numbers as they print.
-        value = value.item() if getattr(value, "size", None) == 1 else value  # type: ignore[attr-defined]
+        value = value.item() if getattr(value, "ndim", None) == 0 else value  # type: ignore[attr-defined]
         value = _without_passwords(value) if isinstance(value, str) else value
         # Never the whole: a few aliases in a YAML file print as gigabytes.
         text = " ".join(_SHORT.repr(value).split())

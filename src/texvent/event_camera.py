@@ -14,9 +14,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Self, Unpack
 
-from texvent.capture.frame_times import warn_of_unit
-from texvent.capture.intensity_scale import ScaleCheck, caller_pixels
+from texvent.capture.intensity_scale import caller_pixels
 from texvent.capture.linear_light import decode_light
+from texvent.capture.scale_check import check_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
@@ -28,10 +28,8 @@ from texvent.run.prepare import check_memory, check_run
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.protocol import Simulator
-from texvent.video import Frame, FrameStream
+from texvent.video import Frame
 
-TIMES_JUDGED = 4
-"""Frames after which the unit of their times is judged."""
 USED_CAPTURE = ("white_level", "fit", "transfer")
 """Options of recorded frames that have a meaning for single ones."""
 
@@ -94,28 +92,25 @@ class EventCamera:
 
         Raises:
             InputError: another size, a time that does not increase, an intensity out of range,
-                floats that are probably 0..1, or a camera that was stopped by such an error,
-                `finish` or `close`; `reset` starts it again.
+                or a camera that was stopped by such an error, `finish` or `close`; `reset` starts
+                it again.
+
+        Warns:
+            TexventWarning: frames are probably 0..1 or of fewer bits, or times no µs, as soon as
+                that is clear.
         """
         if self._stopped is not None:
             raise InputError(f"the event camera {self._stopped}; reset() starts it again")
         t_us = whole_us(t_us, "t_us")
-        where = f"the frame at {t_us} µs"
-        source = Frame(caller_pixels(frame, where), t_us)
+        source = Frame(caller_pixels(frame, f"the frame at {t_us} µs"), t_us)
         if source.size != self.frame_size:
             raise InputError(
                 f"the frame is {source.size}; this event camera takes {self.frame_size}"
             )
-        if self._scale is not None:
-            self._scale.look_at_stream(source.pixels, where)
         self._stopped = "stopped at an error"
         self._frames.append(source)
         events = self._joined(self._simulator.advance(next(self._pairs)))
         self._stopped = None
-        if len(self._times_us) < TIMES_JUDGED:
-            self._times_us.append(t_us)
-            if len(self._times_us) == TIMES_JUDGED:
-                warn_of_unit(self._times_us, "t_us")
         return events
 
     def finish(self) -> EventStream:
@@ -124,6 +119,7 @@ class EventCamera:
             return EventStream.empty(self.size)
         events = self._joined(self._simulator.finish())
         self._stopped = "was finished"
+        self._checked.conclude()
         return events
 
     def reset(self) -> None:
@@ -136,6 +132,8 @@ class EventCamera:
     def close(self) -> None:
         """Free what the camera holds; nothing happens if it is closed already."""
         self._threads.close()
+        if self._stopped is None:
+            self._checked.conclude()
         self._stopped = "was closed"
 
     def __enter__(self) -> Self:
@@ -145,16 +143,13 @@ class EventCamera:
         self.close()
 
     def _start(self) -> SensorSize:
-        self._times_us: list[int] = []
-        stream: FrameStream = _SteppedFrames(self.frame_size, self._frames)
-        video, capture = decode_light(stream, self.settings.source)
-        # Linear light is checked where it is decoded.
-        is_unsure = video is stream and capture.white_level is None
-        self._scale = ScaleCheck() if is_unsure else None
+        stepped = _SteppedFrames(self.frame_size, self._frames)
+        self._checked = check_frames(stepped, self.settings.source, only_warns=True)
+        video, capture = decode_light(self._checked, self.settings.source)
         if self.settings.size is not None or capture.white_level is not None:
             from texvent.capture.prepare import PreparedFrames  # may bring OpenCV
 
-            video = PreparedFrames(video, capture, size=self.settings.size, check_scale=False)
+            video = PreparedFrames(video, capture, size=self.settings.size)
         check_memory(self.settings, video.size)
         simulation = video_to_events(video, self.settings)
         self._simulator, self._pairs = simulation.begin(self._threads)

@@ -63,7 +63,7 @@ def fit_to_sensor(video: FrameStream, settings: Settings) -> FrameStream:
     if settings.size in (None, video.size):
         return video
     fit = CaptureConfig(fit=getattr(settings.source, "fit", CaptureConfig.fit))
-    return PreparedFrames(video, fit, size=settings.size, check_scale=False)
+    return PreparedFrames(video, fit, size=settings.size)
 
 
 def video_to_events(

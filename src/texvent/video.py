@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import luma_bt601
 from texvent.errors import InputError, shown
-from texvent.options.arrays import as_array, whole_us
+from texvent.options.arrays import as_array, usable_pixels, whole_us
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 
@@ -39,6 +39,11 @@ LATEST_US = 2**53
 HIGHEST_INTENSITY = 1e9
 """Highest intensity of a frame, on the 0..255 scale: four million times white. Up to here every
 model's float32 and float64 arithmetic is finite."""
+SYMMETRIC = (
+    "they are probably -1..1, while texvent's intensities are 0..255. Give (frames + 1) / 2 and "
+    "white_level=1"
+)
+"""Said of pixels around 0, such as those of diffusion models."""
 UINT16_PER_LEVEL = 257.0
 """65535 / 255: a uint16 pixel is full scale, so this brings it to the 0..255 scale."""
 
@@ -86,8 +91,8 @@ class Frame:
     and renderers fill one array again and again.
 
     Raises:
-        InputError: pixels are not [H, W] or [H, W, 3], not uint8, uint16 or float, or masked; or
-            the time is not whole µs.
+        InputError: pixels are not [H, W] or [H, W, 3], not uint8, uint16, bool or float, or masked;
+            or the time is not whole µs.
     """
 
     pixels: PixelArray
@@ -103,14 +108,12 @@ class Frame:
     """Whether the pixels are gamma-coded or linear light."""
 
     def __post_init__(self) -> None:
-        pixels = as_array(self.pixels, "a frame")
-        shape, dtype = pixels.shape, pixels.dtype
+        pixels = usable_pixels(as_array(self.pixels, "a frame"), "a frame")
+        shape = pixels.shape
         if not (pixels.ndim == 2 or (pixels.ndim == 3 and shape[2] == 3)):
             raise InputError(f"a frame must be [H, W] or [H, W, 3]; got shape {list(shape)}")
         if 0 in shape:
             raise InputError(f"a frame must have at least one pixel; got shape {list(shape)}")
-        if dtype not in (np.uint8, np.uint16, np.float32, np.float64):
-            raise InputError(f"frame pixels must be uint8, uint16, float32 or float64; got {dtype}")
         object.__setattr__(self, "pixels", pixels.copy() if self.is_source else pixels)
         object.__setattr__(self, "t_us", whole_us(self.t_us, "t_us of a frame"))
 
@@ -352,7 +355,7 @@ class StreamChecker:
         if not -LATEST_US <= frame.t_us <= LATEST_US:
             raise InputError(
                 f"{where} lies outside ±{LATEST_US} µs (285 years); give a higher fps, or times "
-                "that count from a later moment"
+                "in µs, not ns, that count from a later moment"
             )
         if self._size is not None and frame.size != self._size:
             raise InputError(f"{where} is {frame.size}, the frames before it are {self._size}")
@@ -391,5 +394,16 @@ def bad_intensity(pixels: PixelArray, where: str) -> InputError:
     return InputError(
         f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative, or above "
         f"{HIGHEST_INTENSITY:g} (first: {bad[0]:g}); intensities must be 0..{HIGHEST_INTENSITY:g}, "
-        "where 255 is white"
+        f"where 255 is white; {_remedy(pixels)}"
     )
+
+
+def _remedy(pixels: PixelArray) -> str:
+    lowest, highest = float(pixels.min()), float(pixels.max())
+    if not (np.isfinite(lowest) and np.isfinite(highest)):
+        return "fill what is not known, such as np.nan_to_num(frames, posinf=255)"
+    if highest > HIGHEST_INTENSITY:
+        return "give white_level, or divide by what is white"
+    if lowest < -0.5 * highest:
+        return SYMMETRIC if lowest >= -255 and highest <= 255 else "add what makes black 0"
+    return "cut what filters leave below 0: np.clip(frames, 0, None)"

@@ -12,7 +12,7 @@ from texvent._registry import SIMULATORS
 from texvent.errors import InputError, TexventWarning
 from texvent.video import Frame
 
-from .caller_doors import DOORS, OF_IMAGES, ONE_BY_ONE, Stream, through_array, through_generator
+from .caller_doors import DOORS, OF_IMAGES, ONE_BY_ONE, Stream, through_array
 
 Y, X, T = np.ogrid[:16, :24, :5]
 LEVELS = np.moveaxis(np.sin(0.3 * X + 0.2 * Y + 0.4 * T) ** 2 * 250, 2, 0).astype(np.uint8)
@@ -83,10 +83,12 @@ DOUBTFUL = {
     "a sun": (with_one_pixel(5e4), "a share of 0.0026 .*probably 0..1.*white_level=1"),
     "a bright pixel": (with_one_pixel(90.0), "may be 0..1 with highlights.*white_level=1"),
     "0..10 of a renderer": (UNIT**4 * 10, "may be 0..1 with highlights.*white_level=1"),
-    "-1..1": (UNIT * 2 - 1, r"probably -1..1.*\(frames \+ 1\) / 2|negative"),
     "masks": ((LEVELS > 128).astype(np.uint8), "probably a mask.*white_level=1"),
     "8 bits in 16": (LEVELS.astype(np.uint16), "probably have 8 bits.*white_level=255"),
-    "10 bits": (LEVELS.astype(np.uint16) * np.uint16(4), "have 10 bits.*white_level=1023"),
+    "10 bits": (
+        LEVELS.astype(np.uint16) * np.uint16(4),
+        "have 10 bits or a few more.*white_level=1023",
+    ),
     "12 bits": (LEVELS.astype(np.uint16) * np.uint16(16), "have 12 bits.*white_level=4095"),
     "16 bits in floats": (LEVELS * 257.0, "white_level=65535"),
     "12 bits in floats": (LEVELS * 16.0 + 0.5, "white_level=4095"),
@@ -115,6 +117,13 @@ def test_pixels_of_another_scale_are_refused_or_said_with_the_option(what, door)
     assert [one for one in said(door, images) if re.search(words, one)]
 
 
+@named(OF_IMAGES)
+def test_another_type_of_later_images_is_said(door):
+    wide = LEVELS.astype(np.uint16) * np.uint16(257)
+    for later, words in ((wide, "uint16, those before it uint8"), (UNIT, "those before|0..1")):
+        assert [one for one in said(door, [LEVELS[0], *later[1:]]) if re.search(words, one)]
+
+
 FADE = np.array([0, 0.003, 0.02, 0.5, 1])[:, None, None]
 SOUND = {
     "dark levels in floats": LEVELS // 50 * 1.0,
@@ -122,6 +131,7 @@ SOUND = {
     "a fade from black": LEVELS * FADE,
     "a fade from black in 8 bits": (LEVELS * FADE).astype(np.uint8),
     "a fade from black in 16 bits": (LEVELS * 257.0 * FADE).astype(np.uint16),
+    "a fade from black in 12 bits of 16": (LEVELS * 257.0 * FADE * FADE).astype(np.uint16),
     "black": np.zeros_like(UNIT),
     "half floats": LEVELS.astype(np.float16),
     "booleans": LEVELS > 128,
@@ -130,25 +140,58 @@ SOUND = {
 }
 
 
+@named(DOORS)
 @pytest.mark.parametrize("what", SOUND)
-def test_sound_pixels_are_taken_without_a_word(what):
-    assert not [one for one in said(through_array, SOUND[what]) if "no events" not in one]
+def test_sound_pixels_are_taken_without_a_word(what, door):
+    assert not [one for one in said(door, SOUND[what]) if "no events" not in one]
 
 
-def test_a_stream_that_fades_in_goes_on_once_its_white_is_given():
-    images = LEVELS * FADE
-    assert "white_level=255" in said(through_generator, images)[0]
-    assert through_generator(images, white_level=255) == through_array(images)
+@named(DOORS)
+@pytest.mark.parametrize("white", [1, 40, 4095])
+def test_a_white_level_that_the_pixels_belie_is_said_once(white, door):
+    words = said(door, LEVELS if white == 4095 else LEVELS * 1.0, white_level=white)
+    found = [one for one in words if f"white_level={white}" in one]
+    assert len(found) == 1
+    assert "never comes near" in found[0] if white == 4095 else "a share of 0." in found[0]
+
+
+@named(DOORS)
+def test_values_that_cannot_be_light_name_their_remedy(door):
+    for images, remedy in (
+        (UNIT * 2 - 1, r"\(frames \+ 1\) / 2"),
+        (LEVELS - 0.001, r"np\.clip\(frames, 0, None\)"),
+        (np.where(LEVELS > 240, np.nan, LEVELS), "nan_to_num"),
+        (np.where(LEVELS > 240, np.inf, LEVELS), "nan_to_num"),
+        (LEVELS * 1e12, "divide by what is white"),
+    ):
+        assert re.search(remedy, said(door, images)[-1])
+
+
+class Exported:
+    """An array of another library."""
+
+    def __init__(self, array):
+        self.__dlpack__, self.__dlpack_device__ = array.__dlpack__, array.__dlpack_device__
+
+
+@pytest.mark.parametrize("form", [memoryview, Exported])
+def test_a_whole_video_may_be_the_array_of_another_library(form):
+    given = form(np.ascontiguousarray(LEVELS))
+    assert texvent.simulate(given, fps=100, **CLEAN) == through_array(LEVELS, **CLEAN)
 
 
 @named(OF_IMAGES)
-@pytest.mark.parametrize("form", ["nested lists", "float16", "bool", "channel", "Fortran"])
+@pytest.mark.parametrize(
+    "form", ["nested lists", "float16", "bool", "channel", "Fortran", "memory", "DLPack"]
+)
 def test_images_in_any_form_are_taken_alike(form, door):
     forms = {
         "nested lists": [(one * 1.0).tolist() for one in LEVELS],
         "float16": LEVELS.astype(np.float16),
         "bool": LEVELS > 128,
         "channel": LEVELS[..., None],
+        "memory": [memoryview(np.ascontiguousarray(one)) for one in LEVELS],
+        "DLPack": [Exported(np.ascontiguousarray(one)) for one in LEVELS],
         "Fortran": [np.asfortranarray(one) for one in LEVELS],
     }
     plain = ((LEVELS > 128) * 255).astype(np.uint8) if form == "bool" else LEVELS
@@ -187,9 +230,11 @@ def test_pictures_of_pillow_are_read_by_the_meaning_of_their_mode(mode, door):
         (["a.png", "b.png"], "is the name 'a.png'.*give the folder"),
         ([None, None], "is None, no frame"),
         ([(one, 1) for one in LEVELS], "cannot be read as an array"),
-        ([LEVELS[0], UNIT[1]], "probably 0..1.*white_level=1"),
         ([LEVELS[0], LEVELS[1][:9]], "24x9"),
-        (LEVELS[..., None].repeat(2, axis=-1), r"got shape .*2\]"),
+        (LEVELS[..., None].repeat(2, axis=-1), r"got shape .*2\]. Drop .*\[..., 0\]"),
+        (LEVELS[..., None].repeat(4, axis=-1), r"got shape .*4\]. Drop .*\[..., :3\]"),
+        (LEVELS[:, None].repeat(3, axis=1), r"got shape .*np.moveaxis\(frames, -3, -1\)"),
+        ([LEVELS, LEVELS], r"got shape \[5, .*one by one"),
         (LEVELS[:, :0], r"got shape \[0, 24\]"),
     ],
 )

@@ -20,10 +20,41 @@ def test_times_are_rounded_from_the_exact_decimal(tmp_path, unit, lines, expecte
     assert tuple(read_timestamps(path, unit).times.listed_us) == expected
 
 
-def test_names_follow_the_times_and_may_hold_spaces(tmp_path):
+ROWS = {"": "0{0}a.png{1}0.04{0}b.png{1}", "first": "a.png{0}0{1}b.png{0}0.04{1}"}
+HEADERS = ("", "timestamp{0}filename{1}", "# t{0}name{1}", "\ufeff{1}time [s]{0}image{1}{1}")
+
+
+@pytest.mark.parametrize("row", ROWS.values(), ids=list(ROWS))
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", " # a comment\n", " \n\n"])
+@pytest.mark.parametrize("separator", [" ", "  ", "\t", ",", ", ", ";", "\u00a0"])
+def test_a_table_of_times_is_read_however_it_is_written(tmp_path, separator, end, row):
     path = tmp_path / "t.txt"
-    path.write_text("0 first\u2028shot.png\n1 second.png\n")
-    assert read_timestamps(path, "s").names == ("first\u2028shot.png", "second.png")
+    for header in HEADERS:
+        path.write_text((header + row).format(separator, end), encoding="utf-8", newline="")
+        found = read_timestamps(path, "s")
+        assert (list(found.times.listed_us), found.names) == ([0, 40_000], ("a.png", "b.png"))
+        bare = row.replace("{0}a.png", "").replace("a.png{0}", "")
+        bare = bare.replace("{0}b.png", "").replace("b.png{0}", "")
+        path.write_text((header + bare).format(separator, end), encoding="utf-8", newline="")
+        assert read_timestamps(path, "s").names is None
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("{} first\u2028shot.png", "first\u2028shot.png"),
+        ("{} a,b.png", "a,b.png"),
+        ('"{}","a, b.png"', "a, b.png"),
+        ("'a b.png' {}", "'a b.png'"),
+        ("{} shot #1.png", "shot #1.png"),
+        ("/data/clip/b c.png {}", "/data/clip/b c.png"),
+    ],
+)
+def test_names_may_hold_spaces_and_what_separates_others(tmp_path, line, name):
+    path = tmp_path / "t.txt"
+    path.write_text(f"{line.format(0, 0)}\n{line.format(1, 1)}\n")
+    with pytest.warns(TexventWarning, match="more than once, so the same image is shown again"):
+        assert read_timestamps(path, "s").names == (name, name)
 
 
 @pytest.mark.parametrize(
@@ -32,9 +63,13 @@ def test_names_follow_the_times_and_may_hold_spaces(tmp_path):
         ("0\n2\n1\n", InputError, "time 2 .* is not after time 1"),
         ("0\n0\n", InputError, "strictly increase"),
         ("1\n2\n", InputError, "another unit: `timestamps_unit`"),
-        ("0\nabc\n", FileFormatError, "line 2 begins with 'abc'"),
-        ("0\nnan\n", FileFormatError, "line 2 begins with 'nan'"),
+        ("0\nabc\n", FileFormatError, "line 2 is 'abc'; each line must hold one time"),
+        ("0\nnan\n", FileFormatError, "line 2 is 'nan'"),
         ("0 a.png\n1\n", FileFormatError, "1 of 2 lines name a file"),
+        ("0,00\n0,04\n", FileFormatError, "line 1 is '0,00'; .*decimal point"),
+        ("0 0.0\n1 0.04\n", FileFormatError, "line 1 is '0 0.0'; each line must hold one time"),
+        ("0;a.png;7\n1;b.png;7\n", FileFormatError, "line 1 is '0;a.png;7'"),
+        ("time\nname\n", FileFormatError, "line 2 is 'name'"),
         ("# nothing\n", FileFormatError, "has no times"),
     ],
 )
@@ -43,14 +78,6 @@ def test_wrong_files_are_refused(tmp_path, lines, error, message):
     path.write_text(lines)
     with pytest.raises(error, match=message):
         read_timestamps(path, "ns" if lines == "1\n2\n" else "s")
-
-
-def test_names_may_come_before_the_times(tmp_path):
-    path = tmp_path / "info.txt"
-    path.write_text("/data/clip/a.png 0\n/data/clip/b c.png 33333\n")
-    found = read_timestamps(path, "us")
-    assert found.names == ("/data/clip/a.png", "/data/clip/b c.png")
-    assert list(found.times.listed_us) == [0, 33_333]
 
 
 @pytest.mark.parametrize(
@@ -98,6 +125,8 @@ def test_whole_numbers_that_may_be_seconds_are_said(tmp_path):
 
 
 def test_times_in_memory_that_are_hardly_microseconds_are_said():
-    with pytest.warns(TexventWarning, match="33 µs apart, 30,303 per second"):
+    with pytest.warns(TexventWarning, match=r"33 µs apart.* ms \(30.3 .*, multiply them by 1000"):
         listed_times([0, 33, 66])
+    with pytest.warns(TexventWarning, match=r"ns \(25 .*, divide them by 1000"):
+        listed_times([0, 40_000_000, 80_000_000])
     listed_times([0, 100, 200])

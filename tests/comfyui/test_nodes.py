@@ -122,6 +122,9 @@ def test_a_video_keeps_its_frame_rate_and_alpha_is_left_out():
     tensors = comfy.part("tensors")
     assert (tensors.frames_of(with_alpha) == tensors.frames_of(IMAGES)).all()
     assert tensors.frames_of(IMAGES[..., :1]).shape == (4, 12, 16)
+    for beyond in (IMAGES * 2 - 1, IMAGES * 255):
+        with pytest.raises(TexventError, match=r"far beyond the 0..1 .*\(images \+ 1\) / 2"):
+            tensors.frames_of(beyond)
 
 
 def test_a_prompt_gives_events_and_a_report():

@@ -10,13 +10,17 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.intensity_scale import ScaleCheck, caller_pixels, check_whole_scale
-from texvent.errors import InputError, shown
+from texvent.capture.intensity_scale import caller_pixels, shape_hint
+from texvent.errors import InputError, shown, warn
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.options.arrays import as_array
+from texvent.options.arrays import as_array, is_array_like
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
+
+ONE_IMAGE = ". One image holds no change; stack at least two"
+SLENDER = 8
+"""Images are hardly more slender than this, nor fewer than the columns of one."""
 
 
 class ArrayFrames(FrameSource):
@@ -27,12 +31,10 @@ class ArrayFrames(FrameSource):
     Args:
         frames: uint8, uint16 (65535 is white), float on the 0..255 scale, or bool.
         times: a frame rate, or one time per frame.
-        check_scale: whether the scale is in doubt; see `ScaleCheck`.
         metadata: where they come from.
 
     Raises:
-        InputError: wrong shape or pixel type, no frame, another number of times than frames, or
-            floats that are probably 0..1.
+        InputError: wrong shape or pixel type, no frame, or another number of times than frames.
     """
 
     def __init__(
@@ -40,11 +42,9 @@ class ArrayFrames(FrameSource):
         frames: Iterable[Any],
         times: FrameTimes,
         *,
-        check_scale: bool = True,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
-        is_array = hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
-        if is_array and not isinstance(frames, Iterator):
+        if is_array_like(frames) and not isinstance(frames, Iterator):
             frames = _checked_array(as_array(frames, "the array"))
         elif isinstance(frames, StoredArray):
             _check_shape(frames.shape)
@@ -60,9 +60,6 @@ class ArrayFrames(FrameSource):
         facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, times.fps, count, facts, is_live)
-        self._scale = ScaleCheck() if check_scale else None
-        if check_scale and not is_live:
-            self._scale = check_whole_scale(self._images(self._frames), "the array")
 
     @property
     def times_us(self) -> Sequence[int] | None:
@@ -80,16 +77,9 @@ class ArrayFrames(FrameSource):
 
     def _run(self, images: Iterable[Any]) -> Iterator[Frame]:
         count = 0
-        for count, pixels in enumerate(self._images(images), start=1):
-            if self._scale is not None:
-                self._scale.look_at_stream(pixels, f"frame {count - 1}")
-            yield Frame(pixels, self._times(count - 1))
-        if self._scale is not None:
-            self._scale.conclude("the stream")
+        for count, image in enumerate(images, start=1):
+            yield Frame(caller_pixels(image, f"frame {count - 1}"), self._times(count - 1))
         self._times.check_count(count)
-
-    def _images(self, images: Iterable[Any]) -> Iterator[PixelArray]:
-        return (caller_pixels(image, f"frame {index}") for index, image in enumerate(images))
 
     def _peek(self, is_live: bool) -> PixelArray:
         """The first image; an iterator gets it back in front."""
@@ -112,21 +102,17 @@ def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
 
 def _check_shape(shape: tuple[int, ...]) -> None:
     if len(shape) == 3 or (len(shape) == 4 and shape[-1] in (1, 3)):
+        if len(shape) == 3 and SLENDER * shape[2] < min(shape[:2]):
+            warn(
+                f"frames of shape {list(shape)} are read as {shape[0]} frames of "
+                f"{shape[2]}x{shape[1]}; if the last axis is colour, give several images, and if "
+                "it is time, np.moveaxis(frames, -1, 0)"
+            )
         return
     raise InputError(
         f"frames must be [N, H, W] or [N, H, W, 3]; got shape {shown(list(shape))}"
-        + _shape_hint(shape)
+        + (ONE_IMAGE if len(shape) == 2 else shape_hint(shape[1:]))
     )
-
-
-def _shape_hint(shape: tuple[int, ...]) -> str:
-    if len(shape) == 2:
-        return ". One image holds no change; stack at least two"
-    if len(shape) == 4 and shape[-1] == 4:
-        return ". Drop the alpha channel: frames[..., :3]"
-    if len(shape) == 4 and shape[1] in (1, 3):
-        return ". Channels come last: frames.transpose(0, 2, 3, 1)"
-    return ""
 
 
 def _refuse_if_empty(is_empty: bool) -> None:

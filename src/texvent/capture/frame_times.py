@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import csv
 import math
+import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,16 +16,23 @@ from typing import Any
 
 import numpy as np
 
-from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown, warn
+from texvent.errors import ConfigError, FileFormatError, InputError, few, one_line, shown, warn
 from texvent.options.arrays import HOW_TO_ROUND, whole_numbers
 from texvent.options.values import parse_fraction
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.video import MICROSECONDS, frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
 """How many of a unit are a second."""
+TO_US = {
+    "s": "multiply them by 1,000,000",
+    "ms": "multiply them by 1000",
+    "ns": "divide them by 1000",
+}
 LONGEST_STEP_S, LONGEST_WHOLE_S = 60, 5
 """Frames that are further apart, or as far in whole numbers, are hardly meant in seconds."""
+HEADER = re.compile(r"time|stamp|^\W*(t|ts|sec\w*)\b", re.IGNORECASE)
+"""Names of a column of times."""
 HIGHEST_FPS = 20_000
 """Times that give more frames per second have another unit."""
 
@@ -108,18 +119,31 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
 
 
 def warn_of_unit(times_us: Any, origin: str) -> None:
-    """Warn of times that are probably no µs, since there are more than `HIGHEST_FPS`.
+    """Warn of times that are probably no µs: their steps are too short or too long.
 
     Args:
         times_us: [N] integers, strictly increasing.
         origin: what to call them in messages.
     """
     step = float(np.median(np.diff(times_us))) if len(times_us) > 1 else math.nan
-    if 0 < step < MICROSECONDS / HIGHEST_FPS:
-        warn(
-            f"{origin}: frames are {step:g} µs apart, {MICROSECONDS / step:,.0f} per second; if "
-            "times are ms, multiply them by 1000"
-        )
+    if not (0 < step < MICROSECONDS / HIGHEST_FPS or step >= LONGEST_WHOLE_S * MICROSECONDS):
+        return
+    others = " or ".join(
+        f"{unit} ({rate}), {TO_US[unit]}" for unit, rate in _rates(step).items() if unit != "us"
+    )
+    warn(
+        f"{origin}: frames are {step:,.10g} µs apart, {MICROSECONDS / step:,.4g} per second; "
+        f"if times are {others or 'of another unit, convert them'}"
+    )
+
+
+def _rates(step: float) -> dict[str, str]:
+    """Units in which times so far apart give a usual frame rate, and that rate."""
+    return {
+        unit: f"{per_second / step:,.4g} frames per second"
+        for unit, per_second in PER_SECOND.items()
+        if 1 <= per_second / step <= HIGHEST_FPS
+    }
 
 
 def check_increasing(times_us: Sequence[int], origin: str, hint: str = "") -> None:
@@ -139,10 +163,10 @@ def check_increasing(times_us: Sequence[int], origin: str, hint: str = "") -> No
 def read_timestamps(path: Path, unit: str | None) -> Timestamps:
     """Read a text file with a time per line, and a file name after or before it or none.
 
-    Blank lines and lines that start with `#` do not count.
+    Blank lines, comments after `#`, and a header such as `timestamp,filename` do not count.
 
     Args:
-        path: the file; columns are separated by spaces, tabs or commas.
+        path: the file; columns are separated by spaces, tabs, commas or semicolons.
         unit: unit of the times: s, ms, us or ns; None: s, if that can be.
 
     Returns:
@@ -153,27 +177,38 @@ def read_timestamps(path: Path, unit: str | None) -> Timestamps:
     Raises:
         InputError: the file does not exist, its times do not strictly increase, or they cannot be
             meant in seconds.
-        FileFormatError: a line has no number, or only some lines have a name.
+        FileFormatError: a line has no number or several, or only some lines have a name.
+
+    Warns:
+        TexventWarning: an image is named twice, or whole numbers may be of another unit.
 
     Source: `images.txt` of the Event-Camera Dataset (Mueggler et al. 2017).
     """
     times_us: list[int] = []
     names: list[str] = []
     for number, line in enumerate(_lines(path), start=1):
-        words = line.replace(",", " ").split(maxsplit=1)
-        if not words or words[0].startswith("#"):
+        fields = _fields(line.strip())
+        numbers = [field for field in fields if _is_number(field)]
+        is_header = not (times_us or numbers) and HEADER.search(line) is not None
+        if not fields or is_header:
             continue
-        # DVS-Voltmeter's info.txt has the name first.
-        if len(words) > 1 and not _is_number(words[0]):
-            words = line.replace(",", " ").rsplit(maxsplit=1)[::-1]
-        times_us.append(_microseconds(words[0], unit or "s", f"{path}, line {number}"))
-        names.extend(word.strip() for word in words[1:])
+        if len(numbers) != 1 or len(fields) > 2:
+            raise FileFormatError(
+                f"{path}, line {number} is {shown(line.strip())}; each line must hold one time in "
+                f"{unit or 's'} as a number with a decimal point, and a file name or none; a "
+                "header begins with #"
+            )
+        times_us.append(_microseconds(numbers[0], unit or "s", f"{path}, line {number}"))
+        names += [field for field in fields if field != numbers[0]]
     if not times_us:
         raise FileFormatError(f"{path} has no times; it needs one per frame")
     if names and len(names) != len(times_us):
         raise FileFormatError(
             f"{path}: {len(names)} of {len(times_us)} lines name a file; name all of them or none"
         )
+    twice = [name for name, count in Counter(names).items() if count > 1]
+    if twice:
+        warn(f"{path} names {few(twice)} more than once, so the same image is shown again")
     if unit is None:
         check_seconds(str(path), times_us, "give `timestamps_unit`")
     hint = f" (times are read as {unit or 's'}; another unit: `timestamps_unit`)"
@@ -200,9 +235,9 @@ def check_seconds(origin: str, times_us: Sequence[int], help: str) -> None:
         return
     length = float(abs(times_us[-1] - times_us[0])) / MICROSECONDS
     others = " or ".join(
-        f"{unit} ({per_second / step:,.4g} frames per second, {length / per_second:,.4g} s in all)"
-        for unit, per_second in PER_SECOND.items()
-        if 1 <= per_second / step <= HIGHEST_FPS and unit != "s"
+        f"{unit} ({rate}, {length / PER_SECOND[unit]:,.4g} s in all)"
+        for unit, rate in _rates(step).items()
+        if unit != "s"
     )
     if step > LONGEST_STEP_S or (is_whole and step >= LONGEST_WHOLE_S):
         likely = f"they are probably {others}; " if others else ""
@@ -221,6 +256,29 @@ def _is_number(text: str) -> bool:
     return True
 
 
+def _fields(line: str) -> list[str]:
+    """The columns of a line without their quotes; names may hold spaces, and what separates others.
+
+    The name may come first, as in DVS-Voltmeter's info.txt.
+    """
+    text, *comment = re.split(r"(?:^|\s)#", line, maxsplit=1)
+    if comment and Path(comment[0]).suffix.lower() in IMAGE_EXTENSIONS:
+        text = line
+    ends = (text.split(",")[0], text.rstrip(", ").split(",")[-1])
+    beside_number = "," if any(_is_number(end.strip(' "')) for end in ends) else None
+    separator = next((one for one in ";\t" if one in text), beside_number)
+    if separator is not None and separator in text:
+        fields = text.split(separator)
+        with contextlib.suppress(csv.Error):  # such as a byte 0
+            fields = next(csv.reader([text], delimiter=separator, skipinitialspace=True))
+    elif all(map(_is_number, text.split())):
+        fields = text.split()
+    else:
+        fields = text.split(maxsplit=1)
+        fields = fields if _is_number(fields[0].strip('"')) else text.rsplit(maxsplit=1)
+    return [field for field in (one.strip(' "') for one in fields) if field]
+
+
 def _lines(path: Path) -> list[str]:
     try:
         return list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
@@ -228,19 +286,13 @@ def _lines(path: Path) -> list[str]:
         raise InputError(f"timestamp file {path} does not exist; check `timestamps`") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(
-            f"timestamp file {path} cannot be read ({one_line(error)}); it must be plain text"
+            f"timestamp file {path} cannot be read ({one_line(error)}); save it as UTF-8 text"
         ) from error
 
 
 def _microseconds(text: str, unit: str, where: str) -> int:
     """Exact: a float64 of a Unix time in ns would be off by up to 128 ns."""
-    try:
-        time_us = round(parse_fraction(text) * 1_000_000 / PER_SECOND[unit])
-    except (ValueError, ZeroDivisionError):
-        raise FileFormatError(
-            f"{where} begins with {shown(text)}; each line must begin with a time in {unit}, "
-            "optionally followed by a file name; a header begins with #"
-        ) from None
+    time_us = round(parse_fraction(text) * 1_000_000 / PER_SECOND[unit])
     if abs(time_us) >= 2**63:
         raise FileFormatError(
             f"{where}: {shown(text)} {unit} is beyond 64 bits of µs, so it is probably of a "

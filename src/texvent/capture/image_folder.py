@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
-from texvent.capture.intensity_scale import ScaleCheck, usable_pixels
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, few, shown, warn
+from texvent.options.arrays import usable_pixels
 from texvent.runtime.file_names import (
     IMAGE_EXTENSIONS,
     in_natural_order,
@@ -103,8 +103,6 @@ class ImageFolder(FrameSource):
         total = sum(count for _, count in self._stacks)
         self._times.check_count(total)
         first = next(read_stack(*self._stacks[0], white_level))
-        if white_level is None and first.dtype == np.uint16:
-            ScaleCheck().look_at_stream(first, str(folder))
         metadata = {
             "source": str(folder),
             "kind": "image folder",

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.intensity_scale import GIVE_WHITE, ScaleCheck
 from texvent.config import CaptureConfig
 from texvent.transfer import DECODERS, WHITE, Transfer
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
@@ -87,13 +86,7 @@ class LinearFrames(FrameSource):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, float32."""
         full_scale = self._source.metadata.get(FULL_SCALE)
-        # Of a signal, white_level says which light is white, not which value is the signal 1.
-        is_unsure = full_scale is None and (self._coding != LINEAR or self._white_level is None)
-        signal = f"A signal coded as {self._coding} is 0..255 in float frames: multiply it by 255"
-        scale = ScaleCheck(GIVE_WHITE if self._coding == LINEAR else signal)
         for frame in self._source:
-            if is_unsure and frame.pixels.dtype.kind == "f":
-                scale.look_at_stream(frame.pixels, f"the frame at {frame.t_us} µs")
             pixels = to_light(frame.pixels, self._coding, full_scale, self._white_level)
             yield replace(frame, pixels=pixels, transfer=Transfer.LINEAR)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import stat
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -14,20 +14,20 @@ from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder, count_images
-from texvent.capture.intensity_scale import check_whole_scale
-from texvent.capture.linear_light import AUTO, GAMMA, decode_light
+from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
+from texvent.capture.scale_check import check_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, is_address
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
+from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import usable_path
 from texvent.runtime.image_files import HEAD_BYTES, is_animation
 from texvent.sensor import SensorSize
-from texvent.transfer import Transfer
-from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video, transfer_of
+from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video
 
 
 def open_frames(
@@ -76,21 +76,23 @@ def open_frames(
     if isinstance(source, (str, Path)):
         stream = _open_address(str(source), config, given)
     elif isinstance(source, FrameStream):
-        is_known = _is_scale_known(source, config)
-        stream = attach_motion(source, config, motion)
-        return _adapt_stream(stream, config, size, given, check_scale=not is_known)
-    elif isinstance(source, Iterable) or hasattr(source, "__array__"):
+        stream = attach_motion(_adopt_stream(source, config, given), config, motion)
+        is_whole = config.start == 0 and config.stop is None and config.white_level is None
+        if is_whole and stream is source and size in (None, stream.size):
+            return stream
+        return PreparedFrames(stream, config, size=size)
+    elif is_array_like(source) or (
+        isinstance(source, Iterable) and not isinstance(source, bytes | bytearray | Mapping | Set)
+    ):
         stream = _open_array(source, config, given)
     else:
         raise InputError(
             f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
             "[N, H, W] or [N, H, W, 3], or a FrameStream"
         )
-    check_scale = not isinstance(stream, ArrayFrames)  # it looks at the scale itself
-    stream, config = decode_light(stream, config)
-    check_scale = check_scale and transfer_of(stream) is Transfer.GAMMA
+    stream, config = decode_light(check_frames(stream, config), config)
     stream = attach_motion(stream, config, motion)
-    return PreparedFrames(stream, config, size=size, check_scale=check_scale)
+    return PreparedFrames(stream, config, size=size)
 
 
 def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
@@ -206,7 +208,7 @@ SOURCES = (
     _Source(
         "EVREAL folder",
         lambda a: is_evreal(a.path),
-        lambda a: open_evreal(a.path, a.times, a.config.white_level),
+        lambda a: open_evreal(a.path, a.times),
     ),
     _Source(
         "DSEC sequence",
@@ -242,19 +244,13 @@ def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) ->
         raise InputError(
             "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
         )
-    # That of coded light is checked where it is decoded.
-    is_unsure = config.white_level is None and config.transfer in (AUTO, GAMMA)
-    return ArrayFrames(frames, times, check_scale=is_unsure)
+    return ArrayFrames(frames, times)
 
 
-def _adapt_stream(
-    stream: FrameStream,
-    config: CaptureConfig,
-    size: SensorSize | None,
-    given: FrameTimes | None,
-    *,
-    check_scale: bool,
+def _adopt_stream(
+    stream: FrameStream, config: CaptureConfig, given: FrameTimes | None
 ) -> FrameStream:
+    """A stream of the caller, checked unless it is texvent's own; one that renders stays so."""
     if given is not None or config.timestamps is not None:
         raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
     if config.transfer != AUTO:
@@ -262,23 +258,8 @@ def _adapt_stream(
             "a FrameStream says itself whether it is linear, by Frame.transfer and its metadata; "
             "leave out transfer"
         )
-    is_whole = config.start == 0 and config.stop is None and config.white_level is None
-    if is_whole and not check_scale and size in (None, stream.size):
-        return stream
-    return PreparedFrames(stream, config, size=size, check_scale=check_scale)
-
-
-def _is_scale_known(stream: FrameStream, config: CaptureConfig) -> bool:
-    """Whether nothing is left to find out about the scale of a stream's frames.
-
-    Raises:
-        InputError: its frames can be read again, and are most likely 0..1.
-    """
-    is_held = isinstance(stream, Video)
-    is_own = isinstance(stream, NotebookFrames) and not is_held
-    if is_own or config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
-        return True
-    if stream.is_live or not (is_held or isinstance(stream, RenderableStream)):
-        return False
-    check_whole_scale((frame.pixels for frame in stream), "the video")
-    return True
+    is_own = isinstance(stream, NotebookFrames) and not isinstance(stream, Video)
+    checked = stream if is_own else check_frames(stream, config)
+    # Frames in memory are checked by now.
+    is_done = isinstance(stream, RenderableStream | Video) and config.white_level is None
+    return stream if is_done else checked

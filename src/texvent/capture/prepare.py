@@ -8,18 +8,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from texvent.capture.frame_source import FrameSource, SourceFacts, known_times_us
-from texvent.capture.intensity_scale import ScaleCheck, scale_to_levels
+from texvent.capture.intensity_scale import scale_to_levels
 from texvent.config import CaptureConfig
-from texvent.errors import InputError, warn
+from texvent.errors import InputError
 from texvent.sensor import SensorSize
 from texvent.video import (
     MICROSECONDS,
     Frame,
     FrameStream,
-    NotebookFrames,
     StreamChecker,
     frame_time_us,
 )
@@ -38,7 +35,6 @@ class PreparedFrames(FrameSource):
         source: the frames as they come.
         config: start, stop, fit and white level.
         size: wanted size, or None to keep the source's.
-        check_scale: whether the scale of frames is in doubt; see `ScaleCheck`.
 
     Raises:
         InputError: while iterating: fewer than two frames, a NaN, negative or infinite intensity,
@@ -51,7 +47,6 @@ class PreparedFrames(FrameSource):
         config: CaptureConfig,
         *,
         size: SensorSize | None = None,
-        check_scale: bool = True,
     ) -> None:
         self._source = source
         self._config = config
@@ -60,8 +55,6 @@ class PreparedFrames(FrameSource):
             size or source.size, source.fps, count, source.metadata, source.is_live
         )
         self._is_fitted = size is not None
-        self._dtype: np.dtype[Any] | None = None
-        self._scale = ScaleCheck() if check_scale and config.white_level is None else None
 
     @property
     def source(self) -> FrameStream:
@@ -87,7 +80,7 @@ class PreparedFrames(FrameSource):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""
         start_us, stop_us = _ends_us(self._config)
-        checker, self._dtype = StreamChecker(), None
+        checker = StreamChecker()
         first_us: int | None = None
         offset_us = count = 0
         for frame in self._source:
@@ -99,18 +92,16 @@ class PreparedFrames(FrameSource):
                 continue
             yield self._prepared(frame, checker)
             count += 1
-        if self._scale is not None:
-            self._scale.conclude("the video")
         if count < FEWEST_FRAMES:
             raise InputError(_too_few(count, self._config, offset_us))
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
-        self._compare(frame)
-        # Files say what their whole levels mean.
-        is_unsure = pixels.dtype.kind == "f" or not isinstance(self._source, NotebookFrames)
-        if self._scale is not None and is_unsure:
-            self._scale.look_at_stream(pixels, f"the frame at {frame.t_us} µs")
+        if frame.size != self._source.size:
+            raise InputError(
+                f"the frame at {frame.t_us} µs is {frame.size}, those before it are "
+                f"{self._source.size}; cut the video there, or bring all frames to one size"
+            )
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
@@ -121,21 +112,6 @@ class PreparedFrames(FrameSource):
         if pixels is not frame.pixels or motion is not frame.motion:
             frame = replace(frame, pixels=pixels, motion=motion)
         return checker.check(frame)
-
-    def _compare(self, frame: Frame) -> None:
-        """Refuse a frame of another size before it is fitted; warn of one of another bit depth."""
-        if frame.size != self._source.size:
-            raise InputError(
-                f"the frame at {frame.t_us} µs is {frame.size}, those before it are "
-                f"{self._source.size}; cut the video there, or bring all frames to one size"
-            )
-        dtype = frame.pixels.dtype
-        if self._dtype not in (None, dtype):
-            warn(
-                f"the frame at {frame.t_us} µs has pixels of type {dtype}, those before it "
-                f"{self._dtype}; each type is read at its own full scale"
-            )
-        self._dtype = dtype
 
 
 def _count_frames(source: FrameStream, config: CaptureConfig) -> int | None:

@@ -141,7 +141,7 @@ def is_evreal(folder: Path) -> bool:
     return all((folder / name).is_file() for name in (IMAGES, TIMES))
 
 
-def open_evreal(folder: Path, times: FrameTimes | None, white_level: float | None) -> ArrayFrames:
+def open_evreal(folder: Path, times: FrameTimes | None) -> ArrayFrames:
     """The images of a folder in order, read when asked for; `times` replace the folder's own.
 
     Raises:
@@ -152,7 +152,7 @@ def open_evreal(folder: Path, times: FrameTimes | None, white_level: float | Non
     images = StoredArray(folder / IMAGES)
     facts = {"source": str(folder), "kind": "EVREAL folder"}
     times = times or _read_times(folder / TIMES)
-    return ArrayFrames(images, times, check_scale=white_level is None, metadata=facts)
+    return ArrayFrames(images, times, metadata=facts)
 
 
 def _read_times(path: Path) -> FrameTimes:

@@ -17,6 +17,12 @@ from texvent.errors import InputError, one_line, shown
 HOW_TO_ROUND = "np.rint(seconds * 1e6).astype(np.int64)"
 
 
+def is_array_like(values: Any) -> bool:
+    """Whether an object says itself that it is an array, unlike a list or a generator."""
+    names = ("__array__", "__array_interface__", "__cuda_array_interface__", "__dlpack__")
+    return isinstance(values, memoryview) or any(hasattr(values, name) for name in names)
+
+
 def as_array(values: Any, what: str) -> NDArray[Any]:
     """Values as a plain array of native byte order; a view of the caller's where that is possible.
 
@@ -48,6 +54,34 @@ def as_array(values: Any, what: str) -> NDArray[Any]:
         raise InputError(
             f"{what} cannot be read as an array ({one_line(error)}); give a NumPy array"
         ) from error
+
+
+def usable_pixels(pixels: NDArray[Any], where: str) -> NDArray[Any]:
+    """Pixels of a type that `Frame` takes, without loss, or a clear refusal.
+
+    Args:
+        pixels: [..., H, W] or [..., H, W, 3] of any type.
+        where: what to call them in messages.
+
+    Returns:
+        uint8, uint16, float32 and float64 as they are; bool as uint8 0 and 255; float16 as
+        float32.
+
+    Raises:
+        InputError: another type. Wide and signed integers are refused because they may mean
+            0..255 or 0..65535, and guessing wrong gives dark frames and hardly any event.
+    """
+    if pixels.dtype in (np.uint8, np.uint16, np.float32, np.float64):
+        return pixels
+    if pixels.dtype == np.bool_:
+        return pixels.astype(np.uint8) * np.uint8(255)
+    if pixels.dtype == np.float16:
+        return pixels.astype(np.float32)
+    raise InputError(
+        f"{where} has pixels of type {pixels.dtype}; allowed: uint8 (0..255), uint16 (0..65535), "
+        "float (0..255 unless white_level says otherwise), bool. Convert with "
+        "np.asarray(frames, np.uint8) or np.asarray(frames, np.uint16)"
+    )
 
 
 def _levels_of_pillow(image: Any) -> Any:

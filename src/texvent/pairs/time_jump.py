@@ -64,13 +64,13 @@ def watch_steps(frames: Iterable[AnyTimed], *, is_live: bool) -> Iterator[AnyTim
     Args:
         frames: in order of time.
         is_live: whether they come when they come; then no frame is read ahead, and a long first
-            step is only warned of, since it may be the usual one.
+            step counts as a jump, though it may be the usual one.
 
     Raises:
         InputError: a jump of an hour or more.
 
     Warns:
-        TexventWarning: a shorter one, or the first step of a live source.
+        TexventWarning: a shorter one.
     """
     steps: deque[int] = deque(maxlen=MOST_STEPS)
     source = iter(frames)
@@ -85,20 +85,21 @@ def watch_steps(frames: Iterable[AnyTimed], *, is_live: bool) -> Iterator[AnyTim
                 source = itertools.chain(following, source)
                 others = [one.t_us - frame.t_us for one in following]
             if is_jump(step, others):
-                _say(last.t_us, step, may_be_usual=is_live and not steps)
+                _say(last.t_us, step)
             else:
                 steps.append(step)
         last = frame
         yield frame
 
 
-def _say(before_us: int, step_us: int, *, may_be_usual: bool) -> None:
+def _say(before_us: int, step_us: int) -> None:
     at, seconds = before_us / MICROSECONDS, step_us / MICROSECONDS
     what = f"after {at:,.6g} s the next frame is {seconds:,.6g} s later, far beyond the usual step"
-    if step_us < LONGEST_US or may_be_usual:
+    if step_us < LONGEST_US:
         warn(f"{what}; noise fills the pause")
         return
     raise InputError(
-        f"{what}, and noise would fill {seconds / 3600:,.1f} hours; give frames a rate (`fps`), or "
-        "simulate the parts one by one (`start`, `stop`; of an event camera `reset()`)"
+        f"{what}, and noise would fill {seconds / 3600:,.1f} hours; times are µs: convert them, "
+        "give frames a rate (`fps`), or simulate the parts one by one (`start`, `stop`; of an "
+        "event camera `reset()`)"
     )

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.prepare import PreparedFrames
+from texvent.capture.scale_check import CheckedFrames
 from texvent.errors import ConfigError, InputError
 from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
@@ -206,14 +207,17 @@ def without_preparation(video: FrameStream) -> FrameStream:
     Raises:
         ConfigError: its frames were fitted to another size.
     """
-    if not isinstance(video, PreparedFrames) or not isinstance(video.source, GroundTruthStream):
+    source = video
+    while isinstance(source, PreparedFrames | CheckedFrames):
+        source = source.source
+    if not isinstance(source, GroundTruthStream):
         return video
-    if video.source.size != video.size:
+    if source.size != video.size:
         raise ConfigError(
-            f"truth is known of frames of {video.source.size}, and these were fitted to "
-            f"{video.size}; leave `sensor` out, or give a generator this size"
+            f"truth is known of frames of {source.size}, and these were fitted to {video.size}; "
+            "leave `sensor` out, or give a generator this size"
         )
-    return video.source
+    return source
 
 
 def boxes_of(instance: NDArray[np.int32], class_names: Mapping[int, str]) -> tuple[Box, ...]:

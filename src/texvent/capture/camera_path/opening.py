@@ -14,7 +14,7 @@ from texvent._registry import suggest
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
 from texvent.capture.image_folder import coding_facts, count_images, read_image
-from texvent.capture.intensity_scale import caller_pixels, check_whole_scale, scale_to_levels
+from texvent.capture.intensity_scale import caller_pixels, scale_to_levels
 from texvent.capture.linear_light import (
     FULL_SCALE,
     GAMMA,
@@ -22,8 +22,10 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
+from texvent.capture.scale_check import check_image_scale
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
+from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, check_intensity
@@ -120,7 +122,7 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
             raise InputError(f"{path} holds several images; leave camera out, or save one of them")
         pixels, where, kind = read_image(path, config.white_level), str(path), "still image"
         coded = coding_facts([path])
-    elif hasattr(source, "__array__") or hasattr(source, "getbands"):
+    elif is_array_like(source) or hasattr(source, "getbands"):
         pixels, where, kind = caller_pixels(source, "the image of camera"), "the image", "array"
         coded = {}
     else:
@@ -138,5 +140,5 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
     if coding == GAMMA and white_level is not None:
         pixels = scale_to_levels(pixels, white_level)
     elif coding == GAMMA:
-        check_whole_scale([pixels], where)
+        check_image_scale(pixels, where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
