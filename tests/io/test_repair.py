@@ -148,13 +148,16 @@ def damaged(tmp_path: Path, kind: str) -> tuple[Path, EventStream]:
         lines[2000] = lines[2000].split()[0] + " 64 1 1\n"
     if kind == "back":
         lines[2000], lines[2100] = lines[2100], lines[2000]
+    if kind == "zeros":
+        lines[2000] = "\0" * len(lines[2000])
+        lines[2001] = "\n"
     if kind == "cut":
         lines[2000:] = [lines[2000][:9]]
     path.write_text("".join(lines))
     return path, events
 
 
-@pytest.mark.parametrize(("kind", "count"), [("outside", 2999), ("back", 3000), ("cut", 2000)])
+@pytest.mark.parametrize(("kind", "count"), [("outside", 2999), ("back", 3000), ("cut", 2000), ("zeros", 2998)])
 def test_a_damaged_file_is_refused_used_in_part_or_repaired(
     tmp_path: Path, kind: str, count: int
 ) -> None:

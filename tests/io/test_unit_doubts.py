@@ -50,6 +50,13 @@ def parquet(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
     return path / "e.parquet"
 
 
+def csv(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
+    rows = zip(*(one.tolist() for one in columns.values()), strict=True)
+    lines = [",".join(columns), *(",".join(f"{value:.16g}" for value in row) for row in rows)]
+    (path / "e.csv").write_text("\n".join(lines))
+    return path / "e.csv"
+
+
 Write = Callable[[Path, dict[str, NDArray[Any]]], Path]
 every_writer = pytest.mark.parametrize("write", [npz, npy, hdf5, parquet])
 
@@ -65,7 +72,7 @@ def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
     return values
 
 
-@every_writer
+@pytest.mark.parametrize("write", [npz, npy, hdf5, parquet, csv])
 @pytest.mark.parametrize(
     "wrong",
     [

@@ -248,8 +248,7 @@ class ColumnValues:
         self._unit = known or guess_unit(times)
         if offset is not None:
             self._offset_us = int(to_microseconds(path, offset, self._unit)[0])
-        p = samples["p"]
-        self._code = PolarityCode(path, p[PolarityCode.are_likely(p)] if options.repair else p)
+        self._code = PolarityCode(path, samples["p"], is_repaired=options.repair)
         check_precision(path, times[-1:], self._unit)
         if self._is_guessed:
             times_us = self.times_us(times)
@@ -272,7 +271,7 @@ class ColumnValues:
         return self._all_sound(stored)
 
     def _are_sound(self, stored: Mapping[str, NDArray[Any]]) -> NDArray[np.bool_]:
-        sound = are_times(stored["t"], self._unit) & PolarityCode.are_likely(stored["p"])
+        sound = are_times(stored["t"], self._unit) & self._code.are_likely(stored["p"])
         return sound & are_whole(stored["x"]) & are_whole(stored["y"])
 
     def _all_sound(self, stored: Mapping[str, NDArray[Any]]) -> Columns:
