@@ -52,7 +52,8 @@ def parquet(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
 
 def csv(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
     rows = zip(*(one.tolist() for one in columns.values()), strict=True)
-    lines = [",".join(columns), *(",".join(f"{value:.16g}" for value in row) for row in rows)]
+    texts = ([f"{one:.16g}" if isinstance(one, float) else str(one) for one in row] for row in rows)
+    lines = [",".join(columns), *map(",".join, texts)]
     (path / "e.csv").write_text("\n".join(lines))
     return path / "e.csv"
 

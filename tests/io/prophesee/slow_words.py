@@ -74,9 +74,8 @@ def count_turns(highs: list[int]) -> int:
     """Turns up to the last of the values of a counter of 12 bits, none like that before it."""
     if len(highs) < 2:
         return 0
-    *_, high, value = highs
-    is_far = 3840 <= abs(value - high) < 4095
-    if len(highs) > 2 and is_far and high != 4095 and abs(high - highs[-3]) >= 3840:
-        if 0 <= value - highs[-3] < 256:  # a lone wrong value is between
-            return count_turns(highs[:-2])
-    return count_turns(highs[:-1]) + (high - value >= 3840)
+    *earlier, high, value = highs
+    is_jump = 3840 <= abs(value - high) < 4095 and high != 4095
+    if earlier and is_jump and abs(high - earlier[-1]) >= 3840 and 0 <= value - earlier[-1] < 256:
+        return count_turns(earlier)  # a lone wrong value is between
+    return count_turns([*earlier, high]) + (high - value >= 3840)

@@ -73,9 +73,9 @@ def decode_words(
 ) -> int:
     """Fill columns x, y, t, p; returns the number of events."""
     x, y, t, p = columns
-    low, row, base, sign = state[4], state[5], state[6], state[7]
+    row, base, sign = state[5], state[6], state[7]
     # Negative until there is a TIME_HIGH.
-    time = (((state[0] << 12) | state[1]) << 12) | low
+    time = (((state[0] << 12) | state[1]) << 12) | state[4]
     count = 0
     for i in range(words.size):
         word = np.int64(words[i])
@@ -85,13 +85,7 @@ def decode_words(
                 x[count], y[count], t[count], p[count] = value & 0x7FF, row, time, value >> 11
                 count += 1
         elif kind in (TIME_LOW, TIME_HIGH):
-            if kind == TIME_LOW:
-                low = value
-            elif value != state[1]:
-                follow(state, value, HIGH_BITS)
-                # Until its low half follows, a new high half means its first µs.
-                low = np.int64(0)
-            time = (((state[0] << 12) | state[1]) << 12) | low
+            time = _next_time(state, kind, value)
         elif kind in (ADDR_Y, OTHER_Y):
             row = value & 0x7FF if kind == ADDR_Y else np.int64(-1)
         elif kind == VECT_BASE_X:
@@ -106,7 +100,7 @@ def decode_words(
                 bits >>= 1
                 column += 1
             base += 12 if kind == VECT_12 else 8
-    state[4], state[5], state[6], state[7] = low, row, base, sign
+    state[5], state[6], state[7] = row, base, sign
     return count
 
 
@@ -149,3 +143,16 @@ def encode_events(
 @jit(inline="always")
 def _vector_mask(kind: np.int64) -> int:
     return 0xFFF if kind == VECT_12 else 0xFF
+
+
+@jit
+def _next_time(state: NDArray[np.int64], kind: np.int64, value: np.int64) -> np.int64:
+    """Time after a word TIME_LOW or TIME_HIGH, µs."""
+    if kind == TIME_LOW:
+        state[4] = value
+    elif value != state[1]:
+        follow(state, value, HIGH_BITS)
+        # Until its low half follows, a new high half means its first µs.
+        state[4] = 0
+    time: np.int64 = (((state[0] << 12) | state[1]) << 12) | state[4]
+    return time

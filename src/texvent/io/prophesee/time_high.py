@@ -1,8 +1,9 @@
 """High bits of the time in EVT2, EVT2.1 and EVT3: a counter whose turns are counted.
 
-A fall by a whole turn less at most a sixteenth is a turn; other falls are damage, and times fall with
-them. One wrong value is no turn: the counter goes on at the value before it. Of a silence
-that spans turns texvent writes the last and the first value of each, so steps between these are turns.
+A fall by a whole turn less at most a sixteenth is a turn; other falls are damage, and times fall
+with them. One wrong value, after which the counter goes on at the value before it, is no turn. Of a
+silence that spans turns texvent writes the last and the first value of each: steps between these
+two are turns.
 """
 
 from __future__ import annotations

@@ -113,11 +113,9 @@ class TextCodec(BlockCodec):
             later = _later_samples(file) if len(sample) == SAMPLE_BYTES else []
         if sample[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
             raise FileFormatError(f"{path} is text of UTF-16; save it as UTF-8")
-        # A part of zeros, as a crash leaves them, is damage.
-        if b"\0" in (sample.partition(b"\n")[0] if options.repair else sample):
-            hint = "; if it is text that lost a part, repair=True (--repair) reads the rest"
-            if begins_with(path, b"PK"):
-                hint = f"; unpack it (unzip {path.name})"
+        # Zeros in a text, as a crash leaves them, are damage, which is found when they are read.
+        if b"\0" in sample.partition(b"\n")[0]:
+            hint = f"; unpack it (unzip {path.name})" if begins_with(path, b"PK") else ""
             raise FileFormatError(f"{path} is not a text of events; it holds binary data{hint}")
         if b"\r" in sample and b"\n" not in sample:
             raise FileFormatError(
