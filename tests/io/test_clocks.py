@@ -12,7 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, TexventWarning
 from texvent.io.clocks import TurningClock
 from texvent.io.files import load
 
@@ -80,6 +80,29 @@ def test_no_repair_is_needed_where_a_clock_turns(
     name, content = write(times % (1 << bits))
     (tmp_path / name).write_bytes(content)
     assert load(tmp_path / name, size=(128, 128)).t.tolist() == times.tolist()
+
+
+@pytest.mark.parametrize(
+    ("write", "bits"), [(aedat2, 32), (aedat1, 31), (aedat3, 31), (dat, 32), (dat, 31), (atis, 23)]
+)
+@pytest.mark.parametrize(("start", "wrong"), [(0, 1 - 1 / 64), (1 - 1 / 8, 1 / 64)])
+def test_a_lone_wrong_time_is_no_turn(
+    tmp_path: Path,
+    write: Callable[[NDArray[np.int64]], tuple[str, bytes]],
+    bits: int,
+    start: float,
+    wrong: float,
+) -> None:
+    times = int(start * 2**bits) + 1000 * np.arange(1000)
+    stored = times.copy()
+    stored[500] = wrong * 2**bits
+    name, content = write(stored)
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(FileFormatError, match="time decreases"):
+        load(tmp_path / name, size=(128, 128))
+    with pytest.warns(TexventWarning, match="stray times: 1"):
+        found = load(tmp_path / name, size=(128, 128), repair=True)
+    assert found.t.tolist() == np.delete(times, 500).tolist()
 
 
 def test_a_fall_that_is_no_turn_is_a_reset(tmp_path: Path) -> None:

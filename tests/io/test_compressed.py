@@ -14,7 +14,8 @@ import h5py
 import pytest
 
 from texvent.cli.app import main
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.io.compressed import load_zstd
 from texvent.io.files import is_event_path, load, open_events, save
 from texvent.sensor import SensorSize
 
@@ -28,7 +29,11 @@ def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
-PACK = {".gz": gzip.compress, ".bz2": bz2.compress, ".xz": lzma.compress, "": gzip.compress}
+ZSTD = load_zstd()
+PACK = {
+    **{".gz": gzip.compress, ".bz2": bz2.compress, ".xz": lzma.compress, "": gzip.compress},
+    ".zst": ZSTD.compress,
+}
 
 
 @pytest.mark.parametrize("extension", PACK)
@@ -41,9 +46,22 @@ def test_compressed_texts_are_read(name: str, extension: str) -> None:
     assert is_event_path(packed)
     for _ in range(2):
         assert load(packed, size=SIZE).equals(events)
-    packed.write_bytes(packed.read_bytes()[:-900])
+
+
+@pytest.mark.parametrize("extension", [".gz", ".bz2", ".zst"])
+@pytest.mark.parametrize("name", ["e.txt", "e.csv"])
+def test_of_a_cut_text_the_rows_before_the_end_are_repaired(name: str, extension: str) -> None:
+    """Where they are packed in blocks of which some are whole."""
+    events = random_events(100_000, SIZE, span_us=9_000_000)
+    data = PACK[extension](Path(save(name, events)).read_bytes())
+    packed = Path(f"packed-{name}{extension}")
+    packed.write_bytes(data[: len(data) * 7 // 8])
     with pytest.raises(FileFormatError, match="damaged or not a compressed text"):
         load(packed, size=SIZE)
+    with pytest.warns(TexventWarning, match="cut off: is damaged or not a compressed text"):
+        found = load(packed, size=SIZE, repair=True)
+    assert 20_000 < len(found) < 90_000
+    assert found.equals(events[: len(found)])
 
 
 @pytest.mark.parametrize(
@@ -51,8 +69,8 @@ def test_compressed_texts_are_read(name: str, extension: str) -> None:
     [
         ("e.h5.gz", gzip.compress(b"\x89HDF\r\n\x1a\n" + bytes(99), mtime=0), "gunzip -k"),
         ("e.raw", bz2.compress(b"% evt 3.0\n" + bytes(99)), "bunzip2 -k"),
-        ("e.txt.zst", b"\x28\xb5\x2f\xfd" + bytes(99), "unzstd"),
-        ("e.mcap.zst", b"\x28\xb5\x2f\xfd" + bytes(99), "unzstd"),
+        ("e.mcap.zst", ZSTD.compress(b"\x89MCAP0" + bytes(99)), "unzstd"),
+        ("e.txt.lz4", b"\x04\x22\x4d\x18" + bytes(99), "unlz4"),
         ("e.7z", b"7z\xbc\xaf\x27\x1c" + bytes(99), "7z x"),
         ("e.pkl", b"\x80\x04" + bytes(99), "save its arrays as .npz"),
         ("e.mat", b"MATLAB 5.0" + bytes(99), "save it with -v7.3"),

@@ -286,3 +286,50 @@ def test_quotes_an_index_and_names_of_any_order_are_read() -> None:
         '"","p","t","y","x"\n' + "".join('"{}","{}","{}","{}","{}"\n'.format(*row) for row in rows)
     )
     assert is_true(found(Path("e.csv"))[0])
+
+
+@pytest.mark.parametrize("make", [h5py.SoftLink, None], ids=["soft", "hard"])
+@pytest.mark.parametrize("part", ["columns", "group", "rows"])
+def test_links_within_a_file_are_names_of_its_arrays(part: str, make: Any) -> None:
+    with h5py.File("e.h5", "w") as file:
+        link = make or file.__getitem__
+        if part == "rows":
+            file["a/m"] = np.stack([T, X, Y, P], axis=1)
+            file["events"] = link("/a/m")
+        for name, one in {"t": T, "x": X, "y": Y, "p": P}.items() if part != "rows" else ():
+            file[f"a/{name if part == 'group' else 'column_' + name}"] = one
+            if part == "columns":
+                file[f"events/{name}"] = link(f"/a/column_{name}")
+        if part == "group":
+            file["events"] = link("/a")
+        file["nowhere"], file["round"] = h5py.SoftLink("/missing"), h5py.SoftLink("/round")
+    assert load("e.h5", size=SIZE).t.tolist() == T.tolist()
+    if make:
+        assert load("e.h5", size=SIZE, stream="events").t.tolist() == T.tolist()
+
+
+@pytest.mark.parametrize("holder", ["/", "/events", "/events/t"])
+@pytest.mark.parametrize("name", ["unit", "units", "time_unit", "t_units", "Timestamp unit"])
+@pytest.mark.parametrize("unit", ["ns", "nanoseconds", b"ns"])
+def test_an_attribute_states_the_unit(holder: str, name: str, unit: str | bytes) -> None:
+    with h5py.File(written("h5", t=T * 1000), "a") as file:
+        file[holder].attrs[name] = unit
+    assert load("e.h5", size=SIZE).t.tolist() == T.tolist()
+
+
+@pytest.mark.parametrize("order", ["tyxp", "ptxy", "xypt"])
+@pytest.mark.parametrize("form", ["list", "bytes", "text", "commas"])
+def test_an_attribute_states_the_order_of_columns(order: str, form: str) -> None:
+    values = {"t": T, "x": X, "y": Y, "p": P}
+    with h5py.File("e.h5", "w") as file:
+        file["events"] = np.stack([values[name] for name in order], axis=1)
+        forms: dict[str, Any] = {"list": [*order], "bytes": order.encode(), "text": order}
+        file["events"].attrs["columns"] = forms.get(form, ", ".join(order))
+    events = load("e.h5", size=SIZE)
+    assert (events.x.tolist(), events.t.tolist()) == (X.tolist(), T.tolist())
+
+
+@pytest.mark.parametrize("name", ["topic", "group", "unit"])
+def test_options_that_do_not_exist_are_named(name: str) -> None:
+    with pytest.raises(TexventError, match=f"without an option '{name}'; "):
+        load(written("h5"), **{name: "events"})

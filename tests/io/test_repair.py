@@ -173,6 +173,21 @@ def test_a_damaged_file_is_refused_used_in_part_or_repaired(
         assert found.equals(events)
 
 
+@pytest.mark.parametrize("start", [100, 40_000])
+def test_zeros_in_a_text_are_dropped_and_counted(tmp_path: Path, start: int) -> None:
+    events = random_events(3000, SensorSize(64, 48), span_us=90_000)
+    path = save(tmp_path / "e.txt", events)
+    text = path.read_bytes()
+    path.write_bytes(text[:start] + bytes(512) + text[start + 512 :])
+    with pytest.raises(FileFormatError, match="--repair"):
+        load(path)
+    repaired = pytest.warns(TexventWarning, match="unreadable rows: 1")
+    with repaired, pytest.warns(TexventWarning, match="512 bytes of zeros instead of text"):
+        found = load(path, repair=True)
+    lost = text[:start].count(b"\n"), text[: start + 512].count(b"\n") + 1
+    assert found.t.tolist() == np.delete(events.t, slice(*lost)).tolist()
+
+
 def test_a_sound_file_is_not_changed_by_repair(tmp_path: Path) -> None:
     events = random_events(3000, SensorSize(64, 48))
     for name in ("e.raw", "e.h5", "e.aedat4"):

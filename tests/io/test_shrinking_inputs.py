@@ -87,6 +87,19 @@ def test_every_format_of_records_and_rows(
         list(packets)
 
 
+@pytest.mark.parametrize("name", ["e.txt", "e.h5"])
+@pytest.mark.parametrize("change", ["shorter", "longer"])
+def test_a_change_of_length_is_named_as_the_cause(tmp_path: Path, name: str, change: str) -> None:
+    path = save(tmp_path / name, random_events(90_000, CASE_OF["ecd"].sensor))
+    events = open_events(path)
+    if change == "shorter":
+        os.truncate(path, path.stat().st_size // 2 - 3)
+    else:
+        path.write_bytes(path.read_bytes()[: 10_000 - 3].ljust(path.stat().st_size + 9, b"7"))
+    with pytest.raises(FileFormatError, match=f"became {change} while it was read"):
+        list(events)
+
+
 def test_what_is_added_meanwhile_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "e.dat"
     path.write_bytes(CONTENTS["e.dat"] + CONTENTS["e.dat"][-8 * COUNT :] * 9)

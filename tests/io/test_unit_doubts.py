@@ -50,6 +50,14 @@ def parquet(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
     return path / "e.parquet"
 
 
+def csv(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
+    rows = zip(*(one.tolist() for one in columns.values()), strict=True)
+    texts = ([f"{one:.16g}" if isinstance(one, float) else str(one) for one in row] for row in rows)
+    lines = [",".join(columns), *map(",".join, texts)]
+    (path / "e.csv").write_text("\n".join(lines))
+    return path / "e.csv"
+
+
 Write = Callable[[Path, dict[str, NDArray[Any]]], Path]
 every_writer = pytest.mark.parametrize("write", [npz, npy, hdf5, parquet])
 
@@ -65,7 +73,7 @@ def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
     return values
 
 
-@every_writer
+@pytest.mark.parametrize("write", [npz, npy, hdf5, parquet, csv])
 @pytest.mark.parametrize(
     "wrong",
     [

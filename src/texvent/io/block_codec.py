@@ -30,6 +30,7 @@ from texvent.io.block_writer import (
     SideData,
     WriteBlock,
 )
+from texvent.io.byte_blocks import LONGER, SHORTER
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,
@@ -88,13 +89,14 @@ class BlockReader(ABC):
         for name in ("time_unit", "columns", "stream"):
             if getattr(options, name) is not None and name not in self.takes:
                 raise ConfigError(f"{path} is {self.name}, which states its {name}; leave it out")
+        length = path.stat().st_size
         contents = self.inspect(path, options)
         final_size = stored_or_given_size(path, contents.size, options.size)
         if options.repair:
-            return _repaired(path, contents, final_size)
-        packets = BlockPackets(path, contents, final_size)
+            return _repaired(path, contents, final_size, length)
+        packets = BlockPackets(path, contents, final_size, length)
         if contents.rows is not None:
-            packets = SeekableBlockPackets(path, contents, final_size, contents.rows)
+            packets = SeekableBlockPackets(path, contents, final_size, length, contents.rows)
         return EventPackets(packets, final_size, contents.metadata)
 
     def recognises(self, path: Path) -> bool | None:
@@ -177,6 +179,8 @@ class BlockPackets:
     path: Path
     contents: FileContents
     size: SensorSize
+    length: int
+    """Bytes of the file when it was opened."""
 
     def __iter__(self) -> Iterator[EventStream]:
         return self._packets(self.contents.blocks())
@@ -197,10 +201,20 @@ class BlockPackets:
                     raise
                 last_us = int(packet.t[-1])
                 yield packet
+            if self._change() == SHORTER:
+                raise FileFormatError(SHORTER)
         except TimeUnitError:
             raise
         except FileFormatError as error:
+            change = self._change()
+            if change is not None:
+                raise FileFormatError(f"{self.path} {change}") from error
             raise FileFormatError(f"{error}; repair=True (--repair) reads what is sound") from error
+
+    def _change(self) -> str | None:
+        """Change of the file's length since it was opened, which explains its damage."""
+        now = self.path.stat().st_size if self.path.is_file() else self.length
+        return None if now == self.length else SHORTER if now < self.length else LONGER
 
     def _stream(self, columns: Columns, last_us: int | None = None) -> EventStream:
         packet = stream_from_file(self.path, columns, self.size, self.contents.metadata)
@@ -210,7 +224,7 @@ class BlockPackets:
         return packet
 
 
-def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPackets:
+def _repaired(path: Path, contents: FileContents, size: SensorSize, length: int) -> EventPackets:
     """Events of a damaged file; one pass counts what is repaired.
 
     Raises:
@@ -235,7 +249,7 @@ def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPack
         return repair_blocks(contents.blocks(), size, RepairCounts())
 
     sound = FileContents(contents.size, metadata, make)
-    return EventPackets(BlockPackets(path, sound, size), size, metadata)
+    return EventPackets(BlockPackets(path, sound, size, length), size, metadata)
 
 
 @dataclass(frozen=True)

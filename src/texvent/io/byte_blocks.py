@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
@@ -19,6 +18,7 @@ BLOCK_BYTES = 2**21
 """Bytes read at once from files of fixed records."""
 SECTOR_BYTES = 512
 SHORTER = "became shorter while it was read; read it again"
+LONGER = "became longer while it was read; read it again when it is complete"
 
 
 def read_bytes(
@@ -72,20 +72,6 @@ def read_whole(path: Path, file: BinaryIO, count: int) -> bytes:
     if len(data) < count:
         raise FileFormatError(f"{path} {SHORTER}")
     return data
-
-
-@contextmanager
-def open_complete(path: Path) -> Iterator[BinaryIO]:
-    """A file to read to its end.
-
-    Raises:
-        FileFormatError: at the end of the block: the file became shorter meanwhile.
-    """
-    with path.open("rb") as file:
-        length = os.fstat(file.fileno()).st_size
-        yield file
-        if os.fstat(file.fileno()).st_size < length:
-            raise FileFormatError(f"{path} {SHORTER}")
 
 
 def read_records(

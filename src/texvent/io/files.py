@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import CODECS
+from texvent._registry import CODECS, suggest
 from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -181,6 +181,7 @@ def open_events(
     columns: str | Sequence[str] | None = None,
     stream: str | None = None,
     repair: bool = False,
+    **unknown: Any,
 ) -> EventPackets:
     """Events of a file, which is read when they are asked for, with flat memory (npz excepted).
 
@@ -198,6 +199,7 @@ def open_events(
         columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
         stream: which recording of a file of several: group, topic, or number of the camera.
         repair: repair damage, and count it in `metadata["repair"]`, instead of refusing it.
+        **unknown: refused by name.
 
     Raises:
         InputError: no such file, the size is neither stored nor given, or the file holds several
@@ -205,6 +207,11 @@ def open_events(
         FileFormatError: the file is damaged or of another format.
         ConfigError: unknown format or extension, or an option that the format does not take.
     """
+    if unknown:
+        known = ("format", "size", "time_unit", "columns", "stream", "repair")
+        name = next(iter(unknown))
+        hint = "it is called stream" if name in ("topic", "group") else suggest(name, known)
+        raise ConfigError(f"events are read without an option {name!r}; {hint}")
     options = read_options(
         size=size, time_unit=time_unit, columns=columns, stream=stream, repair=repair
     )

@@ -31,16 +31,17 @@ class PolarityCode:
     Args:
         path: the file, for messages.
         sample: values from all over the column.
+        is_repaired: whether values of the sample that are of no code are left out.
 
     Raises:
         FileFormatError: the values are of no code, or of several that contradict each other.
     """
 
-    def __init__(self, path: Path, sample: NDArray[Any]) -> None:
+    def __init__(self, path: Path, sample: NDArray[Any], *, is_repaired: bool = False) -> None:
         self._path = path
         self._seen: set[float] = set()
         self._off: float = 0
-        self.binary(sample)
+        self.binary(sample[self.are_likely(sample)] if is_repaired else sample)
         if self._off == 1:
             warn(f"{path}: its polarities 1 and 2 are read as OFF and ON")
 
@@ -50,7 +51,9 @@ class PolarityCode:
         Raises:
             FileFormatError: they do not fit the code, or the values before.
         """
-        numbers = self._from_words(values) if values.dtype.kind in "OSU" else values
+        numbers = _numbers(values)
+        if values.dtype.kind in "OSU" and np.isnan(numbers).any():
+            raise self._error(np.unique(values.astype("U16")).tolist())
         is_one = numbers == 1
         ones = int(np.count_nonzero(is_one))
         if ones + np.count_nonzero(numbers == 0) == len(numbers):
@@ -66,27 +69,28 @@ class PolarityCode:
         is_on: NDArray[np.bool_] = is_one if on == 1 else numbers == on
         return is_on.astype(np.uint8)
 
-    @staticmethod
-    def are_likely(values: NDArray[Any]) -> NDArray[np.bool_]:
-        """Which values are of the codes that fit most of them."""
-        if values.dtype.kind in "OSU":
-            words = [str(one).strip().lower() for one in values.tolist()]
-            return np.array(
-                [word in WORDS or word.lstrip("+-").isdecimal() for word in words], bool
-            )
-        fits = [np.isin(values, code) for code in CODES]
-        most = max(int(one.sum()) for one in fits)
-        return np.asarray(np.any([one for one in fits if int(one.sum()) == most], axis=0))
-
-    def _from_words(self, values: NDArray[Any]) -> NDArray[np.float64]:
-        texts, places = np.unique(values.astype("U16"), return_inverse=True)
-        words = [text.strip().lower() for text in texts.tolist()]
-        try:
-            numbers = [float(WORDS.get(word, word)) for word in words]
-        except ValueError:
-            raise self._error(words) from None
-        return np.array(numbers)[places]
+    def are_likely(self, values: NDArray[Any]) -> NDArray[np.bool_]:
+        """Which values are of the code that fits the values before, and most of these."""
+        numbers = _numbers(values)
+        fits = [np.isin(numbers, code) for code in CODES if self._seen <= {*code}]
+        return np.asarray(max(fits, key=np.count_nonzero))
 
     def _error(self, held: list[Any]) -> FileFormatError:
         listed = few([shown(one) for one in held], 4)
         return FileFormatError(f"{self._path}: polarity holds {listed}; it must be {ALLOWED}")
+
+
+def _numbers(values: NDArray[Any]) -> NDArray[Any]:
+    """Values as numbers; NaN for words that are none."""
+    if values.dtype.kind not in "OSU":
+        return values
+    texts, places = np.unique(values.astype("U16"), return_inverse=True)
+    return np.array([number_of(text.strip()) for text in texts.tolist()], float)[places]
+
+
+def number_of(word: str) -> float:
+    """A word of polarity, or a number, as a number; NaN of others."""
+    try:
+        return float(WORDS.get(word.lower(), word))
+    except ValueError:
+        return float("nan")

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.block_writer import Columns
+from texvent.io.clocks import DISORDER_US, MOST_STRAYS
 from texvent.sensor import SensorSize
 
 _Columns: TypeAlias = dict[str, NDArray[Any]]
@@ -34,14 +35,10 @@ HELD_EVENTS = 2**20
 """Events that are held back to be sorted."""
 UNREADABLE_US = -(1 << 63)
 """Time of a row that holds no event."""
-MOST_STRAYS = 100
-"""More wrong stamps in a row are a clock of their own."""
 LOOK_EVENTS = 2**14
 """Events among which the clock is sought again after a fall ..."""
 LATEST_US = 1_000_000
 """... by less than this: those before it are late, and sorted."""
-DISORDER_US = 50_000
-"""Times that step back by less are sorted."""
 TURNS_US = (1 << 31, 1 << 32)
 """Ranges of clocks that turn over."""
 LONGEST_TURN_US = 60_000_000

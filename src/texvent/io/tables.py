@@ -248,8 +248,7 @@ class ColumnValues:
         self._unit = known or guess_unit(times)
         if offset is not None:
             self._offset_us = int(to_microseconds(path, offset, self._unit)[0])
-        p = samples["p"]
-        self._code = PolarityCode(path, p[PolarityCode.are_likely(p)] if options.repair else p)
+        self._code = PolarityCode(path, samples["p"], is_repaired=options.repair)
         check_precision(path, times[-1:], self._unit)
         if self._is_guessed:
             times_us = self.times_us(times)
@@ -272,7 +271,7 @@ class ColumnValues:
         return self._all_sound(stored)
 
     def _are_sound(self, stored: Mapping[str, NDArray[Any]]) -> NDArray[np.bool_]:
-        sound = are_times(stored["t"], self._unit) & PolarityCode.are_likely(stored["p"])
+        sound = are_times(stored["t"], self._unit) & self._code.are_likely(stored["p"])
         return sound & are_whole(stored["x"]) & are_whole(stored["y"])
 
     def _all_sound(self, stored: Mapping[str, NDArray[Any]]) -> Columns:
@@ -305,7 +304,14 @@ def find_tables(path: Path, arrays: Mapping[str, Array], options: ReadOptions) -
     if not found:
         holds = [f"{name} {array.dtype} {list(array.shape)}" for name, array in arrays.items()]
         raise UnknownLayoutError(path, holds)
-    return found
+    if options.stream is not None:
+        return found
+    # Links give an array several names.
+    places = {
+        tuple((id(arrays[one.array]), one.part) for one in table.columns.values()): table
+        for table in reversed(found)
+    }
+    return list(reversed(places.values()))
 
 
 def _in_group(group: str, members: Mapping[str, Array]) -> list[EventTable]:
@@ -363,18 +369,37 @@ def _rows_of_four(
         if len(array.shape) == 2 and array.shape[1] == width and array.dtype.kind in "iuf"
     }
     called = {name for name in flat if "event" in name.rpartition("/")[2].lower()}
-    chosen = called or (set(flat) if len(flat) == 1 else set())
+    chosen = called or (set(flat) if len({id(one) for one in flat.values()}) == 1 else set())
     if options.stream in flat:
         chosen = {str(options.stream)}
     tables = []
     for name in flat:
         if name in chosen:
             rows, default = flat[name][:SAMPLE_ROWS], V2E if flat[name].dtype == V2E_TYPE else None
-            order = options.order or certain_order(path, rows, options.size, default)
-            columns = {column: Column(name, order.index(column)) for column in "xytp"}
             unit: TimeUnit | None = "us" if default else None
+            order: Sequence[str] | None = options.order
+            if order is None:
+                order, stated = _stated_order(flat[name])
+                unit = stated or unit
+            order = order or certain_order(path, rows, options.size, default)
+            columns = {column: Column(name, order.index(column)) for column in "xytp"}
             tables.append(EventTable(name, columns, unit))
     return tables
+
+
+def _stated_order(array: Array) -> tuple[tuple[str, ...] | None, TimeUnit | None]:
+    """Order of the columns that an attribute of a data set lists, and unit of the times."""
+    for value in getattr(array, "attrs", {}).values():
+        words = [
+            one.decode(errors="replace") if isinstance(one, bytes) else str(one)
+            for one in np.ravel(value).tolist()
+        ]
+        if len(words) == 1:
+            words = re.split(r"[\s,;]+", words[0].strip()) if len(words[0]) != 4 else [*words[0]]
+        found = [spelled(word) for word in words]
+        if sorted(str(column) for column, _ in found) == sorted("txyp"):
+            return tuple(str(column) for column, _ in found), dict(found).get("t")
+    return None, None
 
 
 def certain_order(

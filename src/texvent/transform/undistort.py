@@ -56,9 +56,10 @@ class Calibration:
         places = self._search(size) if self.places is None else self.places
         is_found = np.asarray(((places > -0.5) & (places < np.array(size) - 0.5)).all(axis=-1))
         if is_found.mean() < FEWEST_PIXELS:
+            what = "focal lengths, in pixels, and its coefficients"
             raise InputError(
                 f"the calibration leaves {is_found.mean():.0%} of the pixels on a {size} sensor; "
-                "check its focal lengths, in pixels, and its coefficients"
+                f"check its {what if self.places is None else 'rectify_map'}"
             )
         return np.where(is_found[..., None], np.rint(np.nan_to_num(places)), -1.0).astype(np.int64)
 

@@ -38,6 +38,7 @@ def decode_evt21(data: bytes) -> list[Event]:
 def decode_evt3(data: bytes) -> list[Event]:
     events: list[Event] = []
     high, low, turns, y, base, sign = None, 0, 0, None, 0, 0
+    highs: list[int] = []
     for (word,) in struct.iter_unpack("<H", data):
         kind, value = word >> 12, word & 0xFFF
         if kind in (0b0000, 0b0001):
@@ -47,9 +48,9 @@ def decode_evt3(data: bytes) -> list[Event]:
         elif kind == 0b0110:
             low = value
         elif kind == 0b1000:
-            turns += 1 if high is not None and high - value >= 3840 else 0
-            low = low if value == high else 0
-            high = value
+            if value != high:
+                highs, low, high = [*highs, value], 0, value
+                turns = count_turns(highs)
         elif kind in (0b0010, 0b0100, 0b0101):
             found = [(value & 2047, value >> 11)]
             if kind != 0b0010:
@@ -67,3 +68,14 @@ def decode_dat(data: bytes) -> list[Event]:
         (place & 0x3FFF, (place >> 14) & 0x3FFF, t, place >> 28)
         for t, place in struct.iter_unpack("<II", data)
     ]
+
+
+def count_turns(highs: list[int]) -> int:
+    """Turns up to the last of the values of a counter of 12 bits, none like that before it."""
+    if len(highs) < 2:
+        return 0
+    *earlier, high, value = highs
+    is_jump = 3840 <= abs(value - high) < 4095 and high != 4095
+    if earlier and is_jump and abs(high - earlier[-1]) >= 3840 and 0 <= value - earlier[-1] < 256:
+        return count_turns(earlier)  # a lone wrong value is between
+    return count_turns([*earlier, high]) + (high - value >= 3840)

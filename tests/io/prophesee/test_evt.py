@@ -25,22 +25,29 @@ from .prophesee_files import (
 EVT = ("evt2", "evt21", "evt3")
 
 
+@pytest.mark.parametrize(("start", "wrong"), [(0, 1 / 2), (0, 1 - 1 / 64), (1 - 1 / 8, 1 / 64)])
+@pytest.mark.parametrize("between", [0, 1])
 @pytest.mark.parametrize(("format", "bits"), [("evt2", 28), ("evt21", 28), ("evt3", 12)])
 def test_a_lone_wrong_high_time_is_damage_not_a_turn(
-    tmp_path: Path, format: str, bits: int
+    tmp_path: Path, format: str, bits: int, between: int, start: float, wrong: float
 ) -> None:
-    words = []
-    for at in range(1000):
-        high = at ^ (1 << bits - 1 if at == 500 else 0)
+    """Nothing that follows it is moved, whether or not an event has it."""
+    words, first = [], int(start * (1 << bits))
+    for at in range(400):
         event = {"evt2": [0], "evt21": [1], "evt3": [0x6000, 0, 0x2000]}[format]
-        words += [8 << 60 | high << 32 if format == "evt21" else 8 << bits | high, *event]
+        for high in [int(wrong * (1 << bits)), first + at] if at == 300 else [first + at]:
+            words.append(8 << 60 | high << 32 if format == "evt21" else 8 << bits | high)
+            words += event * (between if high != first + at else 1)
     path = write_words(tmp_path, format, words)
+    step_us = 4096 if format == "evt3" else 64
+    times = [(first + at) * step_us for at in range(400)]
+    if not between:
+        assert load(path).t.tolist() == times
+        return
     with pytest.raises(FileFormatError, match=r"time decreases .*--repair"):
         load(path)
     with pytest.warns(TexventWarning, match="stray times: 1"):
-        times = load(path, repair=True).t
-    step_us = 4096 if format == "evt3" else 64
-    assert times.tolist() == [at * step_us for at in range(1000) if at != 500]
+        assert load(path, repair=True).t.tolist() == times
 
 
 @pytest.mark.parametrize("format", EVT)

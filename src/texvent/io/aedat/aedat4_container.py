@@ -21,14 +21,13 @@ import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Any, BinaryIO
 
 import lz4.frame
 
-from texvent._require import require
-from texvent.errors import FileFormatError, MissingDependencyError, one_line
+from texvent.errors import FileFormatError, one_line
 from texvent.io.aedat.aedat4_tables import UNKNOWN, StreamInfo, Table, read_info
+from texvent.io.compressed import load_zstd
 
 MAX_PACKET_BYTES = 256 * 2**20
 """16 million events, or a frame of 80 megapixels."""
@@ -110,18 +109,6 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
             what = f"unpacks to more than {MAX_PACKET_BYTES // 2**20} MiB"
         raise FileFormatError(f"a packet {what} ({name})")
     return parts[0] if len(parts) == 1 else b"".join(parts)
-
-
-def load_zstd() -> ModuleType:
-    """The module of Zstandard.
-
-    Raises:
-        MissingDependencyError: it is not installed.
-    """
-    try:
-        return require("compression.zstd")
-    except MissingDependencyError:
-        return require("backports.zstd", extra="zstd")
 
 
 MAGIC = b"#!AER-DAT4.0\r\n"

@@ -31,6 +31,7 @@ and Delbruck, v2e: From Video Frames to Realistic DVS Events, 2021, and its file
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -77,6 +78,8 @@ MOST_ARRAYS = 10_000
 """A file with more data sets is no recording."""
 OFFSET = "t_offset"
 """Name of a single value that is added to the times of its group."""
+UNIT_NAME = re.compile(r"((t|ts|times?|timestamps?)[_ ]?)?units?")
+"""Name of an attribute that states the unit of times."""
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
 
@@ -226,14 +229,7 @@ def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable
         SeveralRecordingsError: it holds several recordings and the options choose none.
         MissingDependencyError: it is compressed by a filter that is not installed.
     """
-    arrays: dict[str, Any] = {}
-
-    def add(name: str, node: Any) -> bool | None:
-        if isinstance(node, h5py.Dataset) and node.shape is not None:
-            arrays[name] = node
-        return True if len(arrays) > MOST_ARRAYS else None
-
-    file.visititems(add)
+    arrays = _arrays_of(file)
     tables = find_tables(path, arrays, options)
     table = tables[choose(path, [one.name for one in tables], options.stream)]
     table.check(path, arrays)
@@ -241,12 +237,48 @@ def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable
     for array in used.values():
         check_filters(array, path)
         check_claims(array, path)
-    attributes = arrays[table.columns["t"].array].attrs
+    groups = _groups_of(file, table)
     unit = table.unit or stated_unit(path, file.attrs.get("timestamp_scale_ms"))
-    unit = unit or unit_in_words(attributes.get("unit", attributes.get("units")))
-    if unit is None and any("ms_to_idx" in group for group in _groups_of(file, table)):
+    for node in (arrays[table.columns["t"].array], *groups):
+        unit = unit or next(filter(None, map(unit_in_words, _units_of(node))), None)
+    if unit is None and any("ms_to_idx" in group for group in groups):
         unit = "us"  # DSEC's
     return replace(table, unit=unit), used
+
+
+def _arrays_of(file: Any) -> dict[str, Any]:
+    """Data sets by all their names: those of links in the file too, one object for each."""
+    links: list[tuple[str, bool]] = []
+
+    def visit(name: bytes, link: Any) -> bool | None:
+        links.append((name.decode(errors="surrogateescape"), link.type == h5py.h5l.TYPE_SOFT))
+        return True if len(links) > MOST_ARRAYS else None
+
+    file.id.links.visit(visit, info=True)
+    arrays: dict[str, Any] = {}
+    known: dict[Any, Any] = {}
+    for name, is_soft in links:
+        node = _target(file, name) if is_soft else file[name]
+        found = {name: node}
+        if is_soft and isinstance(node, h5py.Group):
+            found = {f"{name}/{leaf}": _target(node, leaf) for leaf in node}
+        for one, array in found.items():
+            if isinstance(array, h5py.Dataset) and array.shape is not None:
+                arrays[one] = known.setdefault(array, array)
+    return arrays
+
+
+def _target(group: Any, name: str) -> Any:
+    """Object that a link leads to; None where it leads nowhere, or round and round."""
+    try:
+        return group[name]
+    except (KeyError, RuntimeError, OSError):
+        return None
+
+
+def _units_of(node: Any) -> list[Any]:
+    """Values of the attributes that name the unit of the times of a data set or a group."""
+    return [node.attrs[name] for name in node.attrs if UNIT_NAME.fullmatch(name.lower())]
 
 
 def _groups_of(file: Any, table: EventTable) -> list[Any]:

@@ -25,15 +25,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.clocks import SLACK
+from texvent.io.prophesee.time_high import FIRST_STATE, follow
 from texvent.runtime.jit import jit
 
 WORD = "<u4"
-DECODER_STATE = (0, -1)
-"""Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
-TIME_HIGH = 8
-LEAST_FALL = (1 << 28) // SLACK * (SLACK - 1)
-"""A fall of TIME_HIGH by this much or more is a wrap of its 28 bits; others are damage."""
+DECODER_STATE = FIRST_STATE
+TIME_HIGH, HIGH_BITS = 8, 28
 VECTOR = 32
 DE_BRUIJN = 0x077C_B531
 """Its product with 2^i differs in the upper five bits for every i."""
@@ -61,14 +58,15 @@ def decode_words(
 ) -> int:
     """Fill columns x, y, t, p; returns the number of events."""
     x, y, t, p = columns
-    turns, high = state[0], state[1]
+    # Negative until there is a TIME_HIGH.
+    base = ((state[0] << HIGH_BITS) | state[1]) << 6
     count = 0
     for i in range(0, words.size, 2):
         upper = np.int64(words[i])
         kind = upper >> 28
-        if kind <= 1 and high >= 0:
+        if kind <= 1 and base >= 0:
             bits = np.int64(words[i + 1])
-            time = (((turns << 28) | high) << 6) + ((upper >> 22) & 0x3F)
+            time = base + ((upper >> 22) & 0x3F)
             column = (upper >> 11) & 0x7FF
             while bits:
                 # Without a loop over the bits that are not set, which costs more than all else.
@@ -80,9 +78,6 @@ def decode_words(
                 p[count] = kind
                 count += 1
         elif kind == TIME_HIGH:
-            fresh = upper & 0xFFF_FFFF
-            if high - fresh >= LEAST_FALL:
-                turns += 1
-            high = fresh
-    state[0], state[1] = turns, high
+            follow(state, upper & 0xFFF_FFFF, HIGH_BITS)
+            base = ((state[0] << HIGH_BITS) | state[1]) << 6
     return count

@@ -16,15 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.clocks import SLACK
+from texvent.io.prophesee.time_high import FIRST_STATE, follow
 from texvent.runtime.jit import jit
 
 WORD = "<u4"
-DECODER_STATE = (0, -1)
-"""Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
-TIME_HIGH = 8
-LEAST_FALL = (1 << 28) // SLACK * (SLACK - 1)
-"""A fall of TIME_HIGH by this much or more is a wrap of its 28 bits; others are damage."""
+DECODER_STATE = FIRST_STATE
+TIME_HIGH, HIGH_BITS = 8, 28
 
 
 @jit
@@ -42,9 +39,8 @@ def decode_words(
 ) -> int:
     """Fill columns x, y, t, p; returns the number of events."""
     x, y, t, p = columns
-    turns, high = state[0], state[1]
     # Negative until there is a TIME_HIGH.
-    base = ((turns << 28) | high) << 6
+    base = ((state[0] << HIGH_BITS) | state[1]) << 6
     count = 0
     for i in range(words.size):
         word = np.int64(words[i])
@@ -57,10 +53,6 @@ def decode_words(
                 p[count] = kind
                 count += 1
         elif kind == TIME_HIGH:
-            fresh = word & 0xFFF_FFFF
-            if high - fresh >= LEAST_FALL:
-                turns += 1
-            high = fresh
-            base = ((turns << 28) | high) << 6
-    state[0], state[1] = turns, high
+            follow(state, word & 0xFFF_FFFF, HIGH_BITS)
+            base = ((state[0] << HIGH_BITS) | state[1]) << 6
     return count

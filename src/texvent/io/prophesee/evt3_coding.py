@@ -11,10 +11,9 @@
      1              row of events of another kind, skipped until the next ADDR_Y
      others         triggers and continuations, skipped
 
-Coordinates below 2048. The counter wraps every 2^24 µs (16.78 s): a fall of TIME_HIGH by a whole
-turn less at most a sixteenth is a wrap; other falls are damage, and times fall with them. texvent
-writes the last and the first value of every turn that a silence spans, so long silences survive.
-Times below 2^42 µs (51 days): beyond, that padding would pass 1 MB.
+Coordinates below 2048. The counter wraps every 2^24 µs (16.78 s). texvent writes the last and the
+first value of every turn that a silence spans, so long silences survive. Times below 2^42 µs (51
+days): beyond, that padding would pass 1 MB.
 
 Every event is written as ADDR_X: OpenEB loses events in vector words that do not come as
 12 + 12 + 8. A new time repeats the row, as the cameras do.
@@ -29,20 +28,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.clocks import SLACK
+from texvent.io.prophesee.time_high import FIRST_STATE, follow
 from texvent.runtime.jit import jit
 
 WORD = "<u2"
 START = (0x8000,)
 """TIME_HIGH 0: see `texvent.io.prophesee.evt`."""
-DECODER_STATE = (0, -1, 0, -1, 0, 0)
-"""Turns, high (−1: none yet) and low of the time; row (−1: none); first column and polarity of
-the next vector word."""
+DECODER_STATE = (*FIRST_STATE, 0, -1, 0, 0)
+"""The high half of the time, and its low half; row (−1: none); first column and polarity of the
+next vector word."""
 ENCODER_STATE = (0, 0, -1, -1)
 """Turns and high of the time; row (−1: to be written); time of the last event, µs (−1: none)."""
 ADDR_Y, OTHER_Y, ADDR_X, VECT_BASE_X, VECT_12, VECT_8, TIME_LOW, TIME_HIGH = 0, 1, 2, 3, 4, 5, 6, 8
-LEAST_FALL = (1 << 12) // SLACK * (SLACK - 1)
-"""A fall of TIME_HIGH by this much or more is a wrap of its 12 bits."""
+HIGH_BITS = 12
 
 
 def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
@@ -75,10 +73,9 @@ def decode_words(
 ) -> int:
     """Fill columns x, y, t, p; returns the number of events."""
     x, y, t, p = columns
-    turns, high, low = state[0], state[1], state[2]
-    row, base, sign = state[3], state[4], state[5]
+    row, base, sign = state[5], state[6], state[7]
     # Negative until there is a TIME_HIGH.
-    time = (((turns << 12) | high) << 12) | low
+    time = (((state[0] << 12) | state[1]) << 12) | state[4]
     count = 0
     for i in range(words.size):
         word = np.int64(words[i])
@@ -88,8 +85,7 @@ def decode_words(
                 x[count], y[count], t[count], p[count] = value & 0x7FF, row, time, value >> 11
                 count += 1
         elif kind in (TIME_LOW, TIME_HIGH):
-            turns, high, low = _next_time(turns, high, low, word)
-            time = (((turns << 12) | high) << 12) | low
+            time = _next_time(state, kind, value)
         elif kind in (ADDR_Y, OTHER_Y):
             row = value & 0x7FF if kind == ADDR_Y else np.int64(-1)
         elif kind == VECT_BASE_X:
@@ -104,8 +100,7 @@ def decode_words(
                 bits >>= 1
                 column += 1
             base += 12 if kind == VECT_12 else 8
-    state[0], state[1], state[2] = turns, high, low
-    state[3], state[4], state[5] = row, base, sign
+    state[5], state[6], state[7] = row, base, sign
     return count
 
 
@@ -151,14 +146,13 @@ def _vector_mask(kind: np.int64) -> int:
 
 
 @jit
-def _next_time(
-    turns: np.int64, high: np.int64, low: np.int64, word: np.int64
-) -> tuple[np.int64, np.int64, np.int64]:
-    """Turns, high and low of the time after a TIME_LOW or TIME_HIGH word."""
-    value = word & 0xFFF
-    if word >> 12 == TIME_LOW:
-        return turns, high, value
-    if high - value >= LEAST_FALL:
-        turns += 1
-    # Until its low half follows, a new high half means its first µs.
-    return turns, value, low if value == high else np.int64(0)
+def _next_time(state: NDArray[np.int64], kind: np.int64, value: np.int64) -> np.int64:
+    """Time after a word TIME_LOW or TIME_HIGH, µs."""
+    if kind == TIME_LOW:
+        state[4] = value
+    elif value != state[1]:
+        follow(state, value, HIGH_BITS)
+        # Until its low half follows, a new high half means its first µs.
+        state[4] = 0
+    time: np.int64 = (((state[0] << 12) | state[1]) << 12) | state[4]
+    return time

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.io.block_writer import Columns
-from texvent.io.clocks import SLACK
 
 TIME_LOW, TIME_HIGH, TRIGGER = 6, 8, 10
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
@@ -52,7 +51,9 @@ EVT3 = TriggerCoding("<u2", (12, 4), (0, 12), None, (8, 4), (0, 1))
 
 def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Columns]:
     """Columns t (µs), channel and value of the triggers in consecutive blocks of words."""
-    turns, high, low = 0, -1, 0
+    from texvent.io.prophesee.time_high import FIRST_STATE, count_turns  # brings Numba
+
+    state, high, low = np.array(FIRST_STATE), -1, 0
     for block in blocks:
         words = np.frombuffer(block, coding.word)
         kinds = field_of(words, coding.kind)
@@ -61,8 +62,8 @@ def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Co
         highs = np.where(kinds == TIME_HIGH, field_of(words, coding.high), -1)
         highs = _forward(highs, high)
         before = np.concatenate([[high], highs[:-1]])
-        wraps = (before - highs) >= (1 << coding.high[1]) // SLACK * (SLACK - 1)
-        turn = turns + np.cumsum(wraps)
+        turn = np.zeros_like(highs)
+        count_turns(highs, state, coding.high[1], turn)
         if coding.low is None:
             # A new high time means its first µs until its low bits follow.
             lows = np.where(kinds == TIME_LOW, field_of(words, coding.high), -1)
@@ -78,7 +79,7 @@ def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Co
             "value": field_of(words, coding.value)[here],
         }
         if len(words):
-            turns, high, low = int(turn[-1]), int(highs[-1]), int(lows[-1])
+            high, low = int(highs[-1]), int(lows[-1])
 
 
 def field_of(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Fields:

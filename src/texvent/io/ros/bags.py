@@ -266,7 +266,11 @@ def _open_bag(path: Path) -> Iterator[_Bag]:
             raise
         raise FileFormatError(f"{path}: {error}") from error
     except damage as error:
-        raise FileFormatError(f"{path} is damaged or not a bag ({one_line(error)})") from error
+        way = "rosbag reindex" if version == 1 else "ros2 bag reindex (of MCAP: mcap recover)"
+        raise FileFormatError(
+            f"{path} is damaged or not a bag ({one_line(error)}); of one whose recorder crashed, "
+            f"{way} makes the index"
+        ) from error
 
 
 _DAMAGE = (

@@ -32,11 +32,10 @@ from typing import BinaryIO, ClassVar, cast
 
 import numpy as np
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, warn
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
-from texvent.io.byte_blocks import open_complete
-from texvent.io.compressed import DAMAGE, unpacker_of
+from texvent.io.compressed import DAMAGE, Unpacked, unpacker_of
 from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import (
@@ -114,7 +113,8 @@ class TextCodec(BlockCodec):
             later = _later_samples(file) if len(sample) == SAMPLE_BYTES else []
         if sample[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
             raise FileFormatError(f"{path} is text of UTF-16; save it as UTF-8")
-        if b"\0" in sample:
+        # Zeros in a text, as a crash leaves them, are damage, which is found when they are read.
+        if b"\0" in sample.partition(b"\n")[0]:
             hint = f"; unpack it (unzip {path.name})" if begins_with(path, b"PK") else ""
             raise FileFormatError(f"{path} is not a text of events; it holds binary data{hint}")
         if b"\r" in sample and b"\n" not in sample:
@@ -141,7 +141,7 @@ class TextCodec(BlockCodec):
         """The text, open to read to its end; of a compressed file unpacked on the way."""
         unpacker = unpacker_of(path)
         if unpacker is None:
-            with open_complete(path) as file:
+            with path.open("rb") as file:
                 yield file
             return
         with reporting_damage(path, "a compressed text", DAMAGE), unpacker(path) as unpacked:
@@ -150,16 +150,19 @@ class TextCodec(BlockCodec):
     def _read(
         self, path: Path, dialect: Dialect, parse: Callable[[Path, bytes], Columns]
     ) -> Iterator[Columns]:
-        count, samples = 0, []
+        count, zeros, samples = 0, 0, []
         with self.open_text(path) as file:
             file.read(dialect.start)
             for block in read_text_blocks(file):
                 columns = parse(path, block)
+                zeros += block.count(b"\0")
                 count += len(columns["t"])
                 samples.append(sample_of(columns["t"], len(columns["t"])))
                 if not dialect.is_stated and len(samples) == 1:
                     check_rate(path, count, samples[0], dialect.unit, is_all=False)
                 yield columns
+        if zeros:
+            warn(f"{path} holds {zeros:,} bytes of zeros instead of text; a part of it was lost")
         if not dialect.is_stated and samples:
             check_rate(path, count, np.concatenate(samples), dialect.unit)
 
@@ -212,7 +215,7 @@ class E2vidZipCodec(TextCodec):
                     f"{path} holds {len(entries)} files; an E2VID archive holds one text file"
                 )
             with archive.open(entries[0]) as file:
-                yield cast("BinaryIO", file)
+                yield cast("BinaryIO", Unpacked(file, ZIP_DAMAGE))
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:

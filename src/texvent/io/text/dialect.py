@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown, warn
 from texvent.io.block_writer import Columns
-from texvent.io.polarity import WORDS, PolarityCode
+from texvent.io.polarity import WORDS, PolarityCode, number_of
 from texvent.io.reading import (
     MICROSECONDS,
     PER_SECOND,
@@ -27,7 +27,7 @@ from texvent.io.reading import (
     stated_or_given,
     unit_in_name,
 )
-from texvent.io.tables import certain_order, find_columns, whole_numbers
+from texvent.io.tables import are_whole, certain_order, find_columns, whole_numbers
 from texvent.sensor import SensorSize
 
 STOP_US = 1 << 63
@@ -97,8 +97,13 @@ class Dialect:
         order = (self.delimiter or " ").join(names.get(at, "_") for at in range(self.width))
         return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity such as 0/1"
 
-    def parse(self, path: Path, block: bytes) -> Columns:
+    def parse(self, path: Path, block: bytes, left_out: list[int] | None = None) -> Columns:
         """Columns of a block of rows.
+
+        Args:
+            path: the file, for messages.
+            block: whole rows.
+            left_out: in repair; the number of rows of other values than events have is appended.
 
         Raises:
             FileFormatError: a row is of another form.
@@ -111,11 +116,17 @@ class Dialect:
         if table.shape[1] != self.width:
             raise FileFormatError(f"{path} has rows of {table.shape[1]} values, not {self.rows}")
         values = {name: table[:, place] for name, place in self.places.items()}
+        is_sound = np.abs(values["t"]) / PER_SECOND[self.unit] <= STOP_US / MICROSECONDS
+        if left_out is None and not is_sound.all():
+            raise FileFormatError(f"{path} holds times that are no numbers of {self.unit}")
+        if left_out is not None:
+            is_sound &= are_whole(values["x"]) & are_whole(values["y"])
+            is_sound &= self.code.are_likely(values["p"])
+            is_sound |= not is_sound.any()
+            left_out.append(len(table) - int(np.count_nonzero(is_sound)))
+            values = {name: one[is_sound] for name, one in values.items()}
         whole = {name: whole_numbers(path, values[name]) for name in values if name not in "tp"}
         whole["p"] = self.code.binary(values["p"])
-        seconds = np.abs(values["t"]) / PER_SECOND[self.unit]
-        if not (seconds <= STOP_US / MICROSECONDS).all():
-            raise FileFormatError(f"{path} holds times that are no numbers of {self.unit}")
         scale = MICROSECONDS / PER_SECOND[self.unit]
         if not self.is_stated and scale == 1:
             refuse_fractions(path, values["t"])
@@ -125,7 +136,7 @@ class Dialect:
         place = self.places["t"]  # slow
         exact = {place: partial(_exact_us, unit=self.unit)}
         times = parse(comments=None, dtype=np.int64, usecols=place, converters=exact)
-        return {**whole, "t": times[:, 0]}
+        return {**whole, "t": times[is_sound, 0]}
 
     def parse_sound(self, path: Path, block: bytes, *, left_out: list[int]) -> Columns:
         """Columns of the rows of a block that are events; the number of others is appended.
@@ -134,14 +145,14 @@ class Dialect:
             FileFormatError: none is.
         """
         try:
-            return self.parse(path, block)
+            return self.parse(path, block, left_out)
         except FileFormatError:
             rows = [row for row in _without_comments(block).split(b"\n") if row.strip()]
             sound = [row for row in rows if self._is_row(row)]
             if not sound:
                 raise
             left_out.append(len(rows) - len(sound))
-            return self.parse(path, b"\n".join(sound))
+            return self.parse(path, b"\n".join(sound), left_out)
 
     def _is_row(self, row: bytes) -> bool:
         words = _words(row.decode("latin-1"), self.delimiter)
@@ -197,7 +208,7 @@ def find_dialect(
     if (stated or "s") == "s":
         _check_decimals(path, times)
     label = places.get("label")
-    if label is not None and any(len(row) > label and _as_number(row[label]) > 1 for row in rows):
+    if label is not None and any(len(row) > label and number_of(row[label]) > 1 for row in rows):
         del places["label"]  # classes of another program
     return Dialect(
         delimiter,
@@ -208,7 +219,7 @@ def find_dialect(
         start,
         size,
         any(word.lower() in WORDS for word in polarities),
-        PolarityCode(path, np.array(polarities, dtype=str)),
+        PolarityCode(path, np.array(polarities, dtype=str), is_repaired=options.repair),
     )
 
 
@@ -257,10 +268,6 @@ def _plain_values(text: bytes, *, has_words: bool) -> bytes:
 def _number_of(match: re.Match[bytes], default: bytes) -> bytes:
     number = WORDS.get(match[1].decode().lower())
     return default if number is None else b"%d" % number
-
-
-def _as_number(word: str) -> float:
-    return float(WORDS.get(word.lower(), "nan")) if not _is_number(word) else float(word)
 
 
 def _sound_rows(
@@ -339,7 +346,7 @@ def _places(
         raise FileFormatError(f"{path} does not name its columns; give their order (t,x,y,p)")
     order = options.order
     if order is None:
-        table = np.array([[_as_number(word) for word in row] for row in rows])
+        table = np.array([[number_of(word) for word in row] for row in rows])
         if table.size and (table.ndim != 2 or table.shape[1] != 4):
             raise FileFormatError(
                 f"{path} has rows of {len(rows[0])} values without names; name the columns "
