@@ -12,10 +12,8 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(8, 6)
-ROWS = st.lists(
-    st.tuples(st.integers(0, 7), st.integers(0, 5), st.integers(0, 20), st.integers(0, 1)),
-    max_size=40,
-)
+ROW = st.tuples(st.integers(0, 7), st.integers(0, 5), st.integers(0, 20), st.integers(0, 1))
+ROWS = st.lists(ROW, max_size=40)
 Rows = list[tuple[int, int, int, int]]
 
 

@@ -79,16 +79,17 @@ def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
     assert place.mean() == pytest.approx(0.5, abs=4 / math.sqrt(12 * len(events)))
 
 
-def test_pixels_with_a_low_threshold_have_more_shot_noise():
+def test_pixels_with_a_low_threshold_have_more_shot_noise_of_that_polarity():
     config = with_only(shot_noise_rate_hz=50.0, threshold_sigma=0.03)
     simulator = V2eSimulator(config, seed=2)
     events = run(simulator, static(60.0, fps=24, seconds=1.0, shape=(60, 80)))
-    counts = np.zeros((60, 80))
-    np.add.at(counts, (events.y, events.x), 1)
-    thresholds = (
-        simulator._pixels._mismatch.threshold_on + simulator._pixels._mismatch.threshold_off
-    )
-    assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
+    counts = np.zeros((2, 60, 80))
+    np.add.at(counts, (events.p, events.y, events.x), 1)
+    mismatch = simulator._pixels._mismatch
+    low = np.stack([1 / mismatch.threshold_off, 1 / mismatch.threshold_on])
+    together = np.corrcoef(counts.reshape(2, -1), low)[:2, 2:]
+    assert (together.diagonal() > 0.2).all()
+    assert np.abs(together[[0, 1], [1, 0]]).max() < 5 / math.sqrt(4800)
 
 
 def test_shot_noise_resets_its_pixel_to_the_present_brightness():
