@@ -98,12 +98,6 @@ def test_packets_give_an_array_per_slice_of_time(whole, hundreds):
         np.testing.assert_array_equal(array, part.represent("time-surface", at_us=window[1]))
 
 
-def test_packets_give_an_array_per_number_of_events(whole, hundreds):
-    arrays = list(hundreds.represent("event-frame", count=250, kind="count"))
-    assert [int(array.sum()) for array in arrays] == [250, 250, 100]
-    np.testing.assert_array_equal(arrays[0], whole[:250].represent("event-frame", kind="count"))
-
-
 def test_lazy_packets_are_made_anew_for_each_pass(whole):
     lazy = EventPackets(LazyPackets(lambda: iter([whole])), SIZE)
     assert lazy.collect().equals(whole)

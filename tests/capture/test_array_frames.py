@@ -39,17 +39,6 @@ def test_a_list_can_be_read_again_and_a_generator_once():
         iter(stream).__next__()
 
 
-def test_floats_up_to_one_are_refused_unless_white_is_known():
-    unit = np.linspace(0, 1, 72).reshape(3, 4, 6)
-    with pytest.raises(InputError, match=r"never exceed 1.*white_level=1"):
-        open_frames(unit, AT_100)
-    config = CaptureConfig(fps=Fraction(100), white_level=1.0)
-    frames = list(open_frames(unit, config))
-    assert frames[-1].pixels.max() == 255.0
-    config = CaptureConfig(fps=Fraction(100), white_level=255.0)
-    assert list(open_frames(unit, config))[-1].pixels.max() == 1.0
-
-
 def test_a_stream_of_floats_is_refused_at_its_first_frame_that_is_not_black():
     with pytest.raises(InputError, match=r"frame 1 holds floats that never exceed 0\.5"):
         list(open_frames(iter([np.zeros((4, 6)), np.full((4, 6), 0.5)]), AT_100))

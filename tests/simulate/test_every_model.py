@@ -76,6 +76,20 @@ def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model,
     assert (events.label == NOISE).all()
 
 
+def has_share(model):
+    return hasattr(SIMULATORS.load(model).config_type(), "noise_on_fraction")
+
+
+@pytest.mark.parametrize("model", [one for one in NOISY if has_share(one)])
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_noise_has_the_share_of_on_that_is_asked_for(model, share):
+    frames = np.full((13, 60, 80), DARK, np.float32)
+    options = {"simulator": model, "interpolate": "none", "noise_on_fraction": share}
+    events = texvent.simulate(frames, fps=24, **options, **NOISY[model])
+    spread = math.sqrt(share * (1 - share) / len(events))
+    assert events.p.mean() == pytest.approx(share, abs=4 * spread)
+
+
 @pytest.mark.parametrize("model", CLEAN)
 def test_without_noise_every_event_is_signal_and_a_scene_at_rest_is_silent(model):
     moving = texture(simulator=model, **CLEAN[model])

@@ -179,11 +179,12 @@ def test_frames_given_one_by_one_give_the_events_of_the_clip(name, preset, inter
 @pytest.mark.parametrize(("name", "interpolate"), sorted({(run[0], run[2]) for run in RUNS}))
 def test_a_run_from_a_frame_on_is_that_of_the_frames_from_there(name, interpolate):
     options = {"simulator": name, "interpolate": interpolate}
-    part = simulate(start=2 * STEP_US / 1e6, **options)
+    late_us = TIMES_US + 9_000_000
+    part = simulate(t_us=late_us, start=2 * STEP_US / 1e6, **options)
     more = {key: one[2:] for key, one in SOURCES[interpolate].items()}
-    assert part == simulate(CLIP[2:], TIMES_US[2:], **options, **more)
-    begun = simulate(stop=3 * STEP_US / 1e6, **options)
-    assert begun == simulate(**options).between(0, 2 * STEP_US)
+    assert part == simulate(CLIP[2:], late_us[2:], **options, **more)
+    begun = simulate(t_us=late_us, stop=3 * STEP_US / 1e6, **options)
+    assert begun == simulate(t_us=late_us, **options).cut(0, late_us[2])
 
 
 # Turned: the frames, their vectors, and the place of an event.

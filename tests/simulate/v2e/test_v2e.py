@@ -25,18 +25,6 @@ def test_brightness_is_linear_below_20_and_logarithmic_above():
     assert lin_log(levels) == pytest.approx(expected, rel=1e-15)
 
 
-def test_a_ramp_of_the_logarithm_fires_at_each_threshold():
-    frames = frames_of([40, 40 * math.exp(1.05)], [0, 1_000_000])
-    events = run(V2eSimulator(CLEAN), frames)
-    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
-    assert events.p.all()
-
-
-def test_dark_pixels_fire_in_proportion_to_intensity():
-    events = run(V2eSimulator(CLEAN), frames_of([0, 20], [0, 1_000_000]))
-    assert events.t == pytest.approx([k * 0.2 / math.log(20) * 1e6 for k in range(1, 15)], abs=1)
-
-
 def test_the_photoreceptor_follows_a_step_by_its_bandwidth():
     # Weight per frame: (80 + 20) / 275 * 2 pi * f * 1 ms = 0.1, so 1 - 0.9^n of the step is seen.
     cutoff_hz = 0.1 / (100 / 275 * math.tau * 1e-3)
