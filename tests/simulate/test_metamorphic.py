@@ -6,8 +6,7 @@ import dataclasses
 import itertools
 import sys
 from collections import Counter
-from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -30,142 +29,115 @@ def waves(height: int = HEIGHT, width: int = WIDTH, count: int = COUNT) -> Any:
 
 
 CLIP, VECTORS = waves()
-FLICKERING = np.stack([CLIP[0]] * COUNT)
-FLICKERING[:, :9] = CLIP[:, :9]
-FLICKERING = np.round(
-    (60 + 0.4 * FLICKERING) * np.array([1, 0.85, 1.05, 0.9, 1])[:, None, None]
-).astype(np.uint8)
-"""Of which half moves, and whose gain jumps."""
+GAINS = np.array([1, 0.85, 1.05, 0.9, 1])[:, None, None]
+HALF_AT_REST = np.where(np.arange(HEIGHT)[:, None] < 9, CLIP, CLIP[0])
+FLICKERING = np.round((60 + 0.4 * HALF_AT_REST) * GAINS).astype(np.uint8)
 
 MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
-SOURCES: dict[str, dict[str, Any]] = {
-    "none": {},
-    "blend": {},
-    "flow": {},
-    "motion": VECTORS,
-}
+SOURCES: dict[str, dict[str, Any]] = {"none": {}, "blend": {}, "flow": {}, "motion": VECTORS}
 """Interpolators of ordinary frames, and what they need beside them."""
+EXACT = {"none", "blend"}
+"""Those that do not know left from right; others search from the left, or round places."""
 OTHERS = {"exact", "rife"}
-"""One draws no frames but instants, the other needs weights."""
+"""One draws instants, not frames, the other needs weights."""
 LOUD = {
-    "noise_rate_hz": 20.0,
-    "noise_intensity": 120.0,
-    "shot_noise_rate_hz": 20.0,
-    "leak_rate_hz": 5.0,
-    "threshold_sigma": 0.03,
-    "hot_pixel_fraction": 0.1,
-    "initial_phase": "random",
-}
+    "noise_rate_hz": 20.0, "noise_intensity": 120.0, "shot_noise_rate_hz": 20.0,
+    "leak_rate_hz": 5.0, "threshold_sigma": 0.03, "hot_pixel_fraction": 0.1,
+    "initial_phase": "random", "timestamp_rule": "random",
+}  # fmt: skip
 """Everything random, for the models that have it."""
 QUIET = {
-    "noise": "none",
-    "noise_scale": 0.0,
-    "shot_noise_rate_hz": 0.0,
-    "threshold_sigma": 0.0,
-    "leak_rate_decades": 0.0,
-    "hot_pixel_fraction": 0.0,
-    "initial_phase": "zero",
-    # A scan knows left from right.
-    "scan_period_ns": 0,
-}
-"""Nothing random, nor anything that depends on the place."""
+    "shot_noise_rate_hz": 0.0, "threshold_sigma": 0.0, "leak_rate_decades": 0.0,
+    "hot_pixel_fraction": 0.0, "initial_phase": "zero", "scan_period_ns": 0, "noise": "none",
+}  # fmt: skip
+"""Nothing random, nor a scan, which knows left from right."""
 
 
-def has(config: Any, options: dict[str, Any]) -> dict[str, Any]:
-    """The options that a model has."""
-    return {name: value for name, value in options.items() if hasattr(config, name)}
+class Run(NamedTuple):
+    """A model, one of its presets, and an interpolator."""
+
+    model: str
+    preset: str
+    interpolate: str
+
+    def loud(self, **more: Any) -> dict[str, Any]:
+        """Options with everything random."""
+        return self._options(LOUD, 20.0, {"k6": 1e-3}) | more
+
+    def quiet(self) -> dict[str, Any]:
+        """Options with nothing random."""
+        return self._options(QUIET, 0.0, {"k3": 0.0, "k6": 0.0})
+
+    def _options(self, wanted: dict[str, Any], noise: float, constants: Any) -> dict[str, Any]:
+        config = MODELS[self.model].presets[self.preset]
+        options = {name: value for name, value in wanted.items() if hasattr(config, name)}
+        if hasattr(config, "noise_curve"):
+            options["noise_scale"] = noise
+        if hasattr(config, "constants"):
+            options["constants"] = str(config.k._replace(**constants))
+        if self.interpolate != "none":
+            options["max_intermediate"] = 6
+        own = {"simulator": self.model, "preset": self.preset, "interpolate": self.interpolate}
+        return {**own, "label_noise": True, "seed": 4, **options}
 
 
-def loud(name: str, preset: str) -> dict[str, Any]:
-    config = MODELS[name].presets[preset]
-    options = has(config, LOUD)
-    if "noise_curve" in vars(config):
-        options["noise_scale"] = 20.0
-    if "constants" in vars(config):
-        options["constants"] = str(config.k._replace(k6=1e-3))
-    return options
+FIRST = {name: next(iter(model.presets)) for name, model in MODELS.items()}
+RUNS = [
+    *(Run(name, preset, "none") for name, model in MODELS.items() for preset in model.presets),
+    *(Run(name, FIRST[name], "flow") for name in MODELS),
+    *(Run("texvent", "accurate", one) for one in SOURCES if one not in ("none", "flow")),
+]
+"""Every preset, every model with flow, which some fuse with it, and every interpolator."""
 
 
-def quiet(name: str, preset: str) -> dict[str, Any]:
-    config = MODELS[name].presets[preset]
-    options = has(config, QUIET)
-    if "noise" in options:
-        del options["noise_scale"]
-    if "constants" in vars(config):
-        options["constants"] = str(config.k._replace(k3=0.0, k6=0.0))
-    return options
+def runs(*interpolators: str) -> Any:
+    """The test for the runs of some interpolators, or of all."""
+    chosen = [run for run in RUNS if run.interpolate in (interpolators or SOURCES)]
+    return pytest.mark.parametrize("run", chosen, ids="-".join)
 
 
 def simulate(frames: Any = CLIP, t_us: Any = TIMES_US, **options: Any) -> EventStream:
-    source = SOURCES[options.get("interpolate", "none")]
-    given = {"seed": 4, "label_noise": True, "max_intermediate": 6, "progress": False}
-    if options.get("interpolate", "none") == "none":
-        del given["max_intermediate"]
-    options = {**given, **source, **options}
-    return texvent.simulate(frames, t_us=t_us, **options)
+    """Events of frames, with their vectors where they are followed."""
+    options = {**SOURCES[options["interpolate"]], **options}
+    return texvent.simulate(frames, t_us=t_us, progress=False, **options)
 
 
-def rows(events: EventStream, place: Callable[..., Any] = lambda x, y: (x, y)) -> list[Any]:
+def rows(events: EventStream, place: Any = lambda x, y: (x, y)) -> list[Any]:
     """All columns of every event, sorted, at places that a function of x and y gives."""
     columns = events.columns()
     columns["x"], columns["y"] = place(events.x.astype(int), events.y.astype(int))
     return sorted(zip(*(column.tolist() for column in columns.values()), strict=True))
 
 
-FIRST = {name: next(iter(model.presets)) for name, model in MODELS.items()}
-RUNS = [
-    *((name, preset, "none") for name, model in MODELS.items() for preset in model.presets),
-    *((name, FIRST[name], "flow") for name in MODELS),
-    *(("texvent", "accurate", one) for one in SOURCES if one not in ("none", "flow")),
-]
-"""Every preset, every model with flow, which some fuse with it, and every interpolator."""
-runs = pytest.mark.parametrize(("name", "preset", "interpolate"), RUNS)
-
-
 def test_no_interpolator_is_forgotten():
     assert set(SOURCES) | OTHERS == set(INTERPOLATORS.builtin)
 
 
-WIDER: dict[str, tuple[Callable[[Any], Any], dict[str, Any]]] = {
-    "16 bits": (lambda frames: frames.astype(np.uint16) * np.uint16(257), {}),
-    "floats": (lambda frames: frames.astype(np.float32), {}),
-    "shares of white": (lambda frames: frames / 255, {"white_level": 1.0}),
-}
-
-
-@runs
-def test_the_same_levels_of_any_type_give_the_same_events(name, preset, interpolate):
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    options |= loud(name, preset)
+@runs()
+def test_the_same_levels_of_any_type_give_the_same_events(run):
     for frames, deflicker in ((CLIP, False), (FLICKERING, True)):
-        if deflicker and interpolate == "motion":
+        if deflicker and run.interpolate == "motion":
             continue  # vectors do not explain a gain
-        events = simulate(frames, deflicker=deflicker, **options)
-        assert (events != simulate(frames, **options)) == deflicker
-        for change, more in WIDER.values():
-            assert simulate(change(frames), deflicker=deflicker, **options, **more) == events
+        options = run.loud(deflicker=deflicker)
+        events = simulate(frames, **options)
+        assert (events != simulate(frames, **run.loud())) == deflicker
+        assert simulate(frames.astype(np.uint16) * np.uint16(257), **options) == events
+        assert simulate(frames.astype(np.float32), **options) == events
+        assert simulate(frames / 255, white_level=1.0, **options) == events
 
 
-@runs
-def test_shifting_the_clip_shifts_the_events_and_nothing_else(name, preset, interpolate):
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    options |= loud(name, preset)
-    if name == "texvent" and preset != "paper":
-        options["timestamp_rule"] = "random"
-    events = simulate(**options)
+@runs()
+def test_shifting_the_clip_shifts_the_events_and_nothing_else(run):
+    events = simulate(**run.loud())
     assert len(events) > 100
     for shift_us in (7_000_001, -3_000_017, 10**12, 10**15):
-        shifted = simulate(t_us=TIMES_US + shift_us, **options)
         moved = dataclasses.replace(events, t=events.t + shift_us)
-        assert shifted == moved
+        assert simulate(t_us=TIMES_US + shift_us, **run.loud()) == moved
 
 
-@pytest.mark.parametrize(
-    ("name", "preset", "interpolate"), [run for run in RUNS if run[2] != "motion"]
-)
-def test_frames_given_one_by_one_give_the_events_of_the_clip(name, preset, interpolate):
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate, "seed": 4}
-    options |= {"deflicker": True, "label_noise": True, **loud(name, preset)}
+@runs("none", "blend", "flow")
+def test_frames_given_one_by_one_give_the_events_of_the_clip(run):
+    options = run.loud(deflicker=True)
     whole = simulate(FLICKERING, **options)
     with texvent.EventCamera((WIDTH, HEIGHT), **options) as camera:
         for _ in range(2):
@@ -176,85 +148,71 @@ def test_frames_given_one_by_one_give_the_events_of_the_clip(name, preset, inter
             camera.reset()
 
 
-@pytest.mark.parametrize(("name", "interpolate"), sorted({(run[0], run[2]) for run in RUNS}))
-def test_a_run_from_a_frame_on_is_that_of_the_frames_from_there(name, interpolate):
-    options = {"simulator": name, "interpolate": interpolate}
-    late_us = TIMES_US + 9_000_000
+@runs()
+def test_a_run_from_a_frame_on_is_that_of_the_frames_from_there(run):
+    late_us, options = TIMES_US + 9_000_000, run.loud()
     part = simulate(t_us=late_us, start=2 * STEP_US / 1e6, **options)
-    more = {key: one[2:] for key, one in SOURCES[interpolate].items()}
+    more = {key: one[2:] for key, one in SOURCES[run.interpolate].items()}
     assert part == simulate(CLIP[2:], late_us[2:], **options, **more)
     begun = simulate(t_us=late_us, stop=3 * STEP_US / 1e6, **options)
     assert begun == simulate(t_us=late_us, **options).cut(0, late_us[2])
 
 
-# Turned: the frames, their vectors, and the place of an event.
+# The frames turned, the signs of their vectors, and the place of an event.
 TURNED = {
     "left-right": (lambda one: one[:, :, ::-1], (-1, 1), lambda x, y: (WIDTH - 1 - x, y)),
     "up-down": (lambda one: one[:, ::-1], (1, -1), lambda x, y: (x, HEIGHT - 1 - y)),
     "transposed": (lambda one: one.swapaxes(1, 2), (1, 1), lambda x, y: (y, x)),
 }
-EXACT = {"none", "blend"}
-"""Interpolators that do not know left from right; others search from the left, or round places."""
 
 
-@runs
+@runs()
 @pytest.mark.parametrize("way", TURNED)
-def test_a_turned_clip_gives_the_turned_events(name, preset, interpolate, way):
+def test_a_turned_clip_gives_the_turned_events(run, way):
     turn, signs, place = TURNED[way]
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    options |= quiet(name, preset)
-    expected = rows(simulate(**options), place)
-    vectors = {key: turn(one) * np.float32(signs) for key, one in SOURCES[interpolate].items()}
+    vectors = {key: turn(one) * np.float32(signs) for key, one in SOURCES[run.interpolate].items()}
     if way == "transposed":
         vectors = {key: one[..., ::-1] for key, one in vectors.items()}
-    found = rows(simulate(turn(CLIP), **options, **vectors))
+    expected = rows(simulate(**run.quiet()), place)
+    found = rows(simulate(turn(CLIP), **run.quiet(), **vectors))
     assert len(expected) > 100
-    if interpolate in EXACT:
+    if run.interpolate in EXACT:
         assert found == expected
         return
     counts = [Counter((x, y, p) for x, y, _, p, _ in one) for one in (expected, found)]
     assert (counts[0] & counts[1]).total() > 0.98 * max(len(expected), len(found))
 
 
-@pytest.mark.parametrize(
-    ("name", "preset", "interpolate"), [run for run in RUNS if run[2] in EXACT]
-)
-def test_at_twice_the_size_each_pixel_has_its_events_four_times(name, preset, interpolate):
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    options |= quiet(name, preset)
-    small = simulate(**options)
+@runs(*EXACT)
+def test_at_twice_the_size_each_pixel_has_its_events_four_times(run):
+    small = simulate(**run.quiet())
     places = itertools.product((0, 1), repeat=2)
     parts = [rows(small, lambda x, y, i=i, j=j: (2 * x + i, 2 * y + j)) for i, j in places]
-    large = simulate(CLIP.repeat(2, 1).repeat(2, 2), **options)
+    large = simulate(CLIP.repeat(2, 1).repeat(2, 2), **run.quiet())
     assert rows(large) == sorted(itertools.chain(*parts))
 
 
-@runs
-def test_the_seed_decides_everything_random(name, preset, interpolate):
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    events = simulate(**options, **loud(name, preset))
-    assert simulate(**options, **loud(name, preset)) == events
-    assert simulate(**options, **loud(name, preset), seed=5) != events
-    options |= quiet(name, preset)
-    assert simulate(**options) == simulate(**options, seed=5)
+@runs()
+def test_the_seed_decides_everything_random(run):
+    events = simulate(**run.loud())
+    assert simulate(**run.loud()) == events
+    assert simulate(**run.loud(seed=5)) != events
+    assert simulate(**run.quiet()) == simulate(**run.quiet() | {"seed": 5})
 
 
-THREADED = [
-    *((name, "none") for name in ("physical", "v2e", "voltmeter")),
-    *((name, "flow") for name in MODELS),
-    ("texvent", "motion"),
+SHARED = [
+    *(Run(name, FIRST[name], "none") for name in ("physical", "v2e", "voltmeter")),
+    *(Run(name, FIRST[name], "flow") for name in MODELS),
+    Run("texvent", "accurate", "motion"),
 ]
-"""Models and interpolators whose kernels share a frame out."""
+"""Runs whose kernels share a frame, or the frames of a pair, out among threads."""
 
 
-@pytest.mark.parametrize(("name", "interpolate"), THREADED)
-def test_any_number_of_threads_gives_the_same_events_and_has_work(name, interpolate, monkeypatch):
+@pytest.mark.parametrize("run", SHARED, ids="-".join)
+def test_any_number_of_threads_gives_the_same_events_and_has_work(run, monkeypatch):
     clip, vectors = waves(100, 150, 3)
-    source = vectors if interpolate == "motion" else {}
-    options = {"simulator": name, "interpolate": interpolate, "fixed_count": 4, **source}
-    if interpolate == "none":
-        del options["fixed_count"]
-    options |= loud(name, FIRST[name])
+    options = run.loud() if run.interpolate == "none" else run.loud(fixed_count=4)
+    options |= vectors if run.interpolate == "motion" else {}
     streams = [simulate(clip, TIMES_US[:3], **options)]
     shared: list[int] = []
 
@@ -265,10 +223,9 @@ def test_any_number_of_threads_gives_the_same_events_and_has_work(name, interpol
     for module in [one for key, one in sys.modules.items() if key.startswith("texvent.")]:
         if getattr(module, "run_parts", None) is threads.run_parts and module is not threads:
             monkeypatch.setattr(module, "run_parts", run_parts)
-            if hasattr(module, "PIXELS_PER_THREAD"):
-                monkeypatch.setattr(module, "PIXELS_PER_THREAD", 512)
+            monkeypatch.setattr(module, "PIXELS_PER_THREAD", 512, raising=False)
     for count in (1, 3):
         monkeypatch.setenv(threads.THREADS_VARIABLE, str(count))
         streams.append(simulate(clip, TIMES_US[:3], **options))
-        assert max(shared, default=1) >= count
+    assert max(shared) >= 3
     assert streams[0] == streams[1] == streams[2]
