@@ -82,12 +82,13 @@ class Run(NamedTuple):
 
 
 FIRST = {name: next(iter(model.presets)) for name, model in MODELS.items()}
-RUNS = [
-    *(Run(name, preset, "none") for name, model in MODELS.items() for preset in model.presets),
-    *(Run(name, FIRST[name], "flow") for name in MODELS),
-    *(Run("texvent", "accurate", one) for one in SOURCES if one not in ("none", "flow")),
-]
-"""Every preset, every model with flow, which some fuse with it, and every interpolator."""
+LAST = {name: list(model.presets)[-1] for name, model in MODELS.items()}
+RUNS = list(dict.fromkeys([
+    *(Run(*one, "none") for one in (*FIRST.items(), *LAST.items())),
+    *(Run(*one, "flow") for one in FIRST.items()),
+    *(Run("texvent", "accurate", one) for one in SOURCES),
+]))  # fmt: skip
+"""Two presets of every model, every model with flow, which some fuse, and every interpolator."""
 
 
 def runs(*interpolators: str) -> Any:
@@ -123,7 +124,8 @@ def test_the_same_levels_of_any_type_give_the_same_events(run):
         assert (events != simulate(frames, **run.loud())) == deflicker
         assert simulate(frames.astype(np.uint16) * np.uint16(257), **options) == events
         assert simulate(frames.astype(np.float32), **options) == events
-        assert simulate(frames / 255, white_level=1.0, **options) == events
+        for white in (1.0, 127.5):
+            assert simulate(frames / 255 * white, white_level=white, **options) == events
 
 
 @runs()
@@ -202,7 +204,7 @@ def test_the_seed_decides_everything_random(run):
 
 SHARED = [
     *(Run(name, FIRST[name], "none") for name in ("physical", "v2e", "voltmeter")),
-    *(Run(name, FIRST[name], "flow") for name in MODELS),
+    *(Run(*one, "flow") for one in FIRST.items()),
     Run("texvent", "accurate", "motion"),
 ]
 """Runs whose kernels share a frame, or the frames of a pair, out among threads."""
