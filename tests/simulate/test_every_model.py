@@ -74,6 +74,29 @@ def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model,
     spread = np.hypot(np.sqrt(expected), 0.025 * expected)
     assert len(events) == pytest.approx(expected, abs=4 * spread)
     assert (events.label == NOISE).all()
+    # Uniform within every frame interval, not at one shared time.
+    places = np.histogram(events.t * fps / 1e6 % 1, bins=20, range=(0, 1))[0]
+    mean = len(events) / 20
+    assert ((places - mean) ** 2 / mean).sum() < 19 + 5 * math.sqrt(2 * 19)
+
+
+LEAKING: dict[str, dict[str, Any]] = {
+    "physical": {"preset": "clean", "leak_rate_hz": 10.0, "leak_rate_decades": 0.0},
+    "v2e": {"preset": "peer-common", "leak_rate_hz": 10.0, "leak_rate_decades": 0.0},
+    "voltmeter": {"constants": "5.265 20 0 1e-5 0 0", "initial_phase": "zero"},
+}
+"""Options with which every pixel leaks ten times a second and does nothing else."""
+
+
+@pytest.mark.parametrize("model", LEAKING)
+@pytest.mark.parametrize("fps", [24, 500])
+def test_leak_fires_on_events_at_its_rate_for_any_frame_rate(model, fps):
+    frames = np.full((1 + fps * 21 // 20, 1, 2), 90.0, np.float32)
+    options = {"simulator": model, "interpolate": "none", "label_noise": True}
+    events = texvent.simulate(frames, fps=fps, **options, **LEAKING[model])
+    assert events.t[::2] == pytest.approx([k * 100_000 for k in range(1, 11)], abs=2)
+    assert events.p.all()
+    assert (events.label == NOISE).all()
 
 
 def has_share(model):

@@ -16,14 +16,6 @@ from .physical_pixels import clean, intensity, noisy, poisson_interval
 # Leak.
 
 
-def test_leak_fires_on_events_at_its_rate_labelled_noise():
-    simulator = clean(leak_rate_hz=5.0, leak_rate_decades=0.0)
-    events = run(simulator, static(90.0, fps=24, seconds=1.0))
-    assert events.t == pytest.approx([200_000, 400_000, 600_000, 800_000], abs=2)
-    assert events.p.all()
-    assert (events.label == NOISE).all()
-
-
 def test_an_event_that_light_made_more_than_leak_is_signal():
     # The leak makes a sixth of the change.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])[:1] + frames_of(

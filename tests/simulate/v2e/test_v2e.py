@@ -43,16 +43,6 @@ def test_a_bandwidth_above_the_frame_rate_follows_at_once():
     assert fast.equals(run(V2eSimulator(CLEAN), frames))
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(fps):
-    config = with_only(leak_rate_hz=10.0, leak_rate_decades=0.0, threshold_sigma=0.02)
-    frames = static(100.0, fps=fps, seconds=1.05)
-    events = run(V2eSimulator(config), frames)
-    assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
-    assert events.p.all()
-    assert (events.label == NOISE).all()
-
-
 @pytest.mark.parametrize(("fps", "intensity"), [(24, 0.0), (24, 255.0), (500, 0.0)])
 def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
     config = with_only(shot_noise_rate_hz=5.0)
@@ -62,9 +52,6 @@ def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
     assert abs(len(events) - expected) < 4 * math.sqrt(expected)
     assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
     assert (events.label == NOISE).all()
-    # Uniform within every frame interval, not at one shared time.
-    place = events.t * fps / 1e6 % 1
-    assert place.mean() == pytest.approx(0.5, abs=4 / math.sqrt(12 * len(events)))
 
 
 def test_pixels_with_a_low_threshold_have_more_shot_noise_of_that_polarity():

@@ -81,15 +81,6 @@ def test_without_noise_the_residual_is_carried_over():
     assert events.t == pytest.approx(expected, abs=1)
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(fps):
-    config = with_only(k4=1e-5)
-    events = run(VoltmeterSimulator(config), static(90, fps=fps, seconds=1.05))
-    assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
-    assert events.p.all()
-    assert (events.label == NOISE).all()
-
-
 @pytest.mark.parametrize(("preset", "fps"), [("davis346", 24), ("davis240", 24), ("davis240", 500)])
 def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps):
     config = VoltmeterSimulator.presets[preset]
