@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +51,7 @@ def texture(**options: Any):
 
 
 def test_no_model_is_forgotten():
-    assert set(SIMULATORS.names()) == set(CLEAN)
+    assert set(SIMULATORS.names()) == set(CLEAN) == set(BRIGHTNESS)
     assert set(CLEAN) - {"esim"} == set(NOISY)
 
 
@@ -78,6 +79,31 @@ def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model,
     places = np.histogram(events.t * fps / 1e6 % 1, bins=20, range=(0, 1))[0]
     mean = len(events) / 20
     assert ((places - mean) ** 2 / mean).sum() < 19 + 5 * math.sqrt(2 * 19)
+
+
+BRIGHTNESS: dict[str, Callable[[float, float], float]] = {
+    "texvent": lambda start, stop: math.log((20 + stop) / (20 + start)) / 0.2,
+    "physical": lambda start, stop: math.log((10 + stop) / (10 + start)) / 0.2,
+    "esim": lambda start, stop: math.log((0.255 + stop) / (0.255 + start)) / 0.2,
+    "v2e": lambda start, stop: math.log(stop / start) / 0.2,
+    "voltmeter": lambda start, stop: 5.265 * (stop - start) / (20 + (start + stop) / 2),
+}
+"""Change from one level to another in thresholds, as each model publishes it."""
+
+
+@pytest.mark.parametrize("model", BRIGHTNESS)
+@pytest.mark.parametrize(("start", "stop"), [(40.0, 150.0), (150.0, 40.0)])
+def test_a_ramp_fires_where_it_crosses_each_threshold(model, start, stop):
+    options = {"initial_phase": "zero"} if model == "voltmeter" else {}
+    options |= {"gamma": 1.0} if model == "physical" else {}
+    frames = np.array([[[start]], [[stop]]], np.float32)
+    events = texvent.simulate(
+        frames, fps=1, simulator=model, interpolate="none", **CLEAN[model], **options
+    )
+    whole = BRIGHTNESS[model](start, stop)
+    wanted = [k / abs(whole) * 1e6 for k in range(1, 1 + math.floor(abs(whole)))]
+    assert events.t == pytest.approx(wanted, abs=2)
+    assert (events.p == (whole > 0)).all()
 
 
 LEAKING: dict[str, dict[str, Any]] = {

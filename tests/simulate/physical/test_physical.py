@@ -14,14 +14,6 @@ from .physical_pixels import clean, intensity
 # One pixel, closed forms.
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-def test_a_ramp_fires_where_it_crosses_each_threshold(sign):
-    frames = frames_of([intensity(4), intensity(4 + sign * 1.05)], [0, 1_000_000])
-    events = run(clean(), frames)
-    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=2)
-    assert (events.polarity == sign).all()
-
-
 def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest():
     # Ramp B' of docs/equations.md: 0.055 per frame.
     frames = frames_of([intensity(4 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))

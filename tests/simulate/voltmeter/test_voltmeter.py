@@ -8,7 +8,7 @@ from tests.simulate.references.voltmeter import (
     probability_along_drift,
 )
 
-from texvent.events import NOISE, SIGNAL
+from texvent.events import NOISE
 from texvent.simulate.voltmeter.simulator import Constants, VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
@@ -59,16 +59,6 @@ def test_drift_and_diffusion_are_equations_10_and_11():
     assert signal == pytest.approx(5.0 * 20 / 1000 / 120)
     assert drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
     assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_without_noise_a_change_fires_evenly(sign):
-    values = (80, 160) if sign > 0 else (160, 80)
-    events = run(VoltmeterSimulator(QUIET), frames_of(values, [0, 1_000_000]))
-    volts = 5.265 * 80 / 140
-    assert events.t == pytest.approx([k / volts * 1e6 for k in (1, 2, 3)], abs=1)
-    assert (events.polarity == sign).all()
-    assert (events.label == SIGNAL).all()
 
 
 def test_without_noise_the_residual_is_carried_over():
