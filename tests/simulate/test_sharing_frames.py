@@ -34,7 +34,6 @@ def patches(dtypes, *, seed=0) -> list[Frame]:
 def assert_equal_to_reference(simulator_class, config, frames, seed=3) -> int:
     reference, compiled = in_both_forms(lambda: run(simulator_class(config, seed=seed), frames))
     assert compiled.equals(reference)
-    assert np.array_equal(compiled.label, reference.label)
     return len(compiled)
 
 
