@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.transform.recordings import CUTS, crowded, packets, streams
 
+from texvent._registry import REPRESENTATIONS
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
@@ -36,33 +40,56 @@ class CountedPackets:
 
 
 @pytest.fixture
-def packets(whole):
+def hundreds(whole):
     return EventPackets(CountedPackets(whole), SIZE, whole.metadata)
 
 
-def test_a_window_of_packets_is_that_of_the_stream_and_stops_reading_early(whole, packets):
+@settings(max_examples=25)
+@given(streams(), CUTS, st.lists(st.integers(-2, 23), min_size=3, max_size=3).map(sorted))
+def test_parts_of_time_put_together_are_the_whole_however_packets_are_cut(events, cuts, times):
+    first, middle, last = times
+    for ways in (cuts, range(len(events))):
+        parts = packets(events, ways)
+        assert parts.collect() == events
+        assert parts.time_range == events.time_range
+        pieces = [parts.cut(*one).collect() for one in ((first, middle), (middle, last))]
+        assert pieces[0] == events.cut(first, middle)
+        assert EventStream.concat(pieces) == parts.cut(first, last).collect()
+        seen = []
+        parts.cut(first, last, seen.append).collect()
+        if len(events):
+            start_us, stop_us = events.time_range
+            assert seen[0].first_us == start_us
+            assert seen[0].is_whole == (seen[0].end_us == stop_us <= last)
+
+
+def test_what_comes_after_a_part_is_not_read(whole, hundreds):
     start, stop = int(whole.t[120]), int(whole.t[250])
-    assert packets.between(start, stop).collect().equals(whole.between(start, stop))
-    assert packets.packets.reads == 3
-    assert packets.cut(start, start).collect().equals(EventStream.empty(SIZE))
+    assert hundreds.between(start, stop).collect() == whole.between(start, stop)
+    assert hundreds.packets.reads == 3
 
 
-def test_the_time_range_is_that_of_the_stream(whole, packets):
-    assert packets.time_range == whole.time_range
-    assert EventPackets([EventStream.empty(SIZE)], SIZE).time_range is None
+@pytest.mark.parametrize("name", REPRESENTATIONS.builtin)
+def test_arrays_of_packets_are_those_of_one_packet(name):
+    events = crowded()
+    for options in ({"duration_us": 6}, {"count": 25}):
+        expected = list(packets(events).represent(name, **options))
+        for cuts in (range(60), range(0, 60, 7), [1], [2, 2, 31], [59]):
+            got = list(packets(events, cuts).represent(name, **options))
+            np.testing.assert_array_equal(got, expected)
 
 
-def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, packets):
+def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, hundreds):
     calls = []
-    path = packets.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
+    path = hundreds.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
     assert load(path).equals(whole)
     assert load(path).metadata["seed"] == 3
     assert calls[0] == (100, None, "events")
     assert calls[-1] == (COUNT, None, "events")
 
 
-def test_packets_give_an_array_per_slice_of_time(whole, packets):
-    arrays = list(packets.represent("time-surface", duration_us=10_000))
+def test_packets_give_an_array_per_slice_of_time(whole, hundreds):
+    arrays = list(hundreds.represent("time-surface", duration_us=10_000))
     start = int(whole.t[0])
     assert len(arrays) == 3
     for number, array in enumerate(arrays):
@@ -71,21 +98,15 @@ def test_packets_give_an_array_per_slice_of_time(whole, packets):
         np.testing.assert_array_equal(array, part.represent("time-surface", at_us=window[1]))
 
 
-def test_packets_give_an_array_per_number_of_events(whole, packets):
-    arrays = list(packets.represent("event-frame", count=250, kind="count"))
-    assert [int(array.sum()) for array in arrays] == [250, 250, 100]
-    np.testing.assert_array_equal(arrays[0], whole[:250].represent("event-frame", kind="count"))
-
-
 def test_lazy_packets_are_made_anew_for_each_pass(whole):
-    packets = EventPackets(LazyPackets(lambda: iter([whole])), SIZE)
-    assert packets.collect().equals(whole)
-    assert packets.collect().equals(whole)
-    assert repr(packets) == "EventPackets(32x24, read when iterated)"
+    lazy = EventPackets(LazyPackets(lambda: iter([whole])), SIZE)
+    assert lazy.collect().equals(whole)
+    assert lazy.collect().equals(whole)
+    assert repr(lazy) == "EventPackets(32x24, read when iterated)"
 
 
 def test_a_generator_of_packets_is_read_once(whole):
-    packets = EventPackets((whole[i : i + 100] for i in range(0, COUNT, 100)), SIZE)
-    assert len(packets.collect()) == COUNT
+    lazy = EventPackets((whole[i : i + 100] for i in range(0, COUNT, 100)), SIZE)
+    assert len(lazy.collect()) == COUNT
     with pytest.raises(InputError, match="generator of packets can be read once, and was"):
-        packets.collect()
+        lazy.collect()

@@ -37,17 +37,6 @@ def test_a_list_can_be_read_again_and_a_generator_once():
         iter(stream).__next__()
 
 
-def test_floats_up_to_one_are_refused_unless_white_is_known():
-    unit = np.linspace(0, 1, 72).reshape(3, 4, 6)
-    with pytest.raises(InputError, match=r"never exceed 1.*white_level=1"):
-        open_frames(unit, AT_100)
-    config = CaptureConfig(fps=Fraction(100), white_level=1.0)
-    frames = list(open_frames(unit, config))
-    assert frames[-1].pixels.max() == 255.0
-    config = CaptureConfig(fps=Fraction(100), white_level=255.0)
-    assert list(open_frames(unit, config))[-1].pixels.max() == 1.0
-
-
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
 @pytest.mark.parametrize("index", [0, 2])
 def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):

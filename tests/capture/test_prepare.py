@@ -26,13 +26,6 @@ def test_start_is_included_and_stop_is_not(fps, first, length):
     assert stream.frame_count == len(expected)
 
 
-def test_start_and_stop_count_from_the_first_frame_and_times_are_not_shifted():
-    video = np.zeros((4, 2, 2), np.uint8)
-    t_us = [9_000_000, 9_100_000, 9_200_000, 9_300_000]
-    stream = open_frames(video, CaptureConfig(start=0.1, stop=0.3), t_us=t_us)
-    assert [frame.t_us for frame in stream] == [9_100_000, 9_200_000]
-
-
 def test_nothing_between_start_and_stop_is_an_error_that_says_how_long_the_input_is():
     config = CaptureConfig(fps=Fraction(100), start=5.0)
     with pytest.raises(InputError, match=r"no frame between 5 s and the end .*up to 0\.99 s"):

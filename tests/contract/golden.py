@@ -71,15 +71,45 @@ MORE_CASES: list[dict[str, Any]] = [
     {**FLOW, "simulator": "texvent", "deflicker": True},
 ]
 INTERPOLATIONS = ("none", "blend", "flow")
+OPTION_CASES: list[dict[str, Any]] = [
+    {"simulator": "texvent", "timestamp_rule": "random"},
+    {"simulator": "texvent", "timestamp_rule": "end"},
+    {"simulator": "voltmeter", "keep_events": "signal"},
+    {"simulator": "physical", "randomize": "v2v"},
+    {"simulator": "physical", "cutoff_limit_hz": 20.0},
+    {"simulator": "physical", "hot_pixel_fraction": 0.02},
+    {"simulator": "physical", "initial_phase": "random", "sensor_seed": 9},
+    {"simulator": "physical", "scan_period_ns": 3_000_000},
+    {"simulator": "voltmeter", "initial_phase": "zero"},
+    {"simulator": "esim", "dtype": "flickering"},
+    {"simulator": "esim", "dtype": "flickering", "deflicker": True},
+    {"simulator": "esim", "dtype": "flickering", "detect_cuts": False},
+    {"simulator": "esim", "dtype": "moving", "frames_per_pixel": 4.0},
+    {"simulator": "texvent", "dtype": "moving", "interpolate": "motion"},
+]
+"""Choices and switches that no other case has; `tests.contract.test_golden` names those missing."""
+
+
+MOTION = np.broadcast_to(np.float32([2, -1]), (8, 36, 48, 2))
+"""Vectors of the clip "moving", px per frame."""
 
 
 def clip(dtype: str = "uint8") -> np.ndarray[Any, Any]:
     """A texture that moves and brightens, [8, 36, 48], and a disc that crosses it.
 
-    In the clip "still" only the disc moves, so that most pixels see no change.
+    In the clip "still" only the disc moves, so that most pixels see no change; in "moving"
+    everything moves as `MOTION` says; "flickering" has 16 bits, gains that jump, and a cut.
     """
     y, x = np.mgrid[:36, :48]
     frames = []
+    if dtype == "moving":
+        waves = [110 + 70 * np.sin((x - 2 * i) / 4.1) * np.cos((y + i) / 5.3) for i in range(8)]
+        return np.round(np.array(waves)).astype(np.uint8)
+    if dtype == "flickering":
+        waves = 130 + 70 * np.sin(x / 4.1) * np.cos(y / 2.3)
+        blocks = np.kron(np.random.default_rng(1).uniform(30, 220, (9, 12)), np.ones((4, 4)))
+        flicker = [k * shot for shot in (waves, blocks) for k in (1.0, 1.1, 1.0, 0.93, 1.06)]
+        return np.round(257 * np.clip(flicker, 0, 255)).astype(np.uint16)
     for number in range(8):
         i = 0 if dtype == "still" else number
         image = 110 + 70 * np.sin((x + 1.7 * i) / 4.1) * np.cos((y - 0.6 * i) / 5.3) + 3 * i
@@ -103,7 +133,7 @@ def event_cases() -> Iterator[tuple[str, Any]]:
                 yield _frames_case(simulator=simulator, interpolate=interpolate, dtype=dtype)
         yield _generate_case(simulator=simulator, interpolate="exact")
         yield _generate_case(simulator=simulator, interpolate="flow")
-    for options in MORE_CASES:
+    for options in MORE_CASES + OPTION_CASES:
         yield _frames_case(**options)
 
 
@@ -113,7 +143,8 @@ def _name(options: dict[str, Any]) -> str:
 
 def _frames_case(dtype: str = "uint8", **options: Any) -> tuple[str, Any]:
     name = _name({"frames": dtype, **options})
-    return name, lambda: texvent.simulate(clip(dtype), fps=24, seed=5, **options)
+    more = {"motion": MOTION, "motion_back": -MOTION} if dtype == "moving" else {}
+    return name, lambda: texvent.simulate(clip(dtype), fps=24, seed=5, **options, **more)
 
 
 def _generate_case(**options: Any) -> tuple[str, Any]:

@@ -3,17 +3,63 @@
 from __future__ import annotations
 
 import json
+from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import pytest
-from tests.contract.golden import EVENTS_FILE, FILES_FILE, digest, event_cases, file_cases
+from tests.contract.golden import (
+    EVENTS_FILE,
+    FILES_FILE,
+    OPTION_CASES,
+    digest,
+    event_cases,
+    file_cases,
+)
+
+from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent.config import InterpolateConfig, RunConfig
 
 CASES = dict(event_cases())
+IN_PRESETS = {"cache=local", "timestamp_rule=eq7"}
+"""Of the preset "paper"."""
 
 
 def test_golden_events_cover_all_cases() -> None:
     assert list(json.loads(EVENTS_FILE.read_text())) == list(CASES)
+
+
+WITHOUT = {
+    "seed": "every case has one",
+    "interpolator_weights": "a file of several MB",
+    "threshold_map": "a file",
+    "interpolate=rife": "needs torch",
+}
+
+
+def test_golden_events_have_every_switch_and_choice() -> None:
+    """What is off by default, and each choice of an option: a preset may have it, or a case."""
+    said = {word for name in CASES for word in name.split(" ")}
+    names = {word.partition("=")[0] for word in said}
+    models = [SIMULATORS.load(name) for name in SIMULATORS.builtin]
+    for config_type in (RunConfig, InterpolateConfig, *(one.config_type for one in models)):
+        hints = get_type_hints(config_type)
+        for field in fields(config_type):
+            hint = hints[field.name]
+            choices = get_args(hint) if get_origin(hint) is Literal else ()
+            if field.name == "interpolate":
+                choices = tuple(INTERPOLATORS.builtin)
+            wanted = {f"{field.name}={one}" for one in choices if one != field.default} - said
+            if not field.default and field.name not in names:
+                wanted.add(field.name)
+            assert wanted <= {*WITHOUT, *IN_PRESETS}, wanted - {*WITHOUT, *IN_PRESETS}
+
+
+def test_no_golden_of_an_option_is_that_of_another_case() -> None:
+    """An option that changes nothing in its case pins nothing."""
+    stored = list(json.loads(EVENTS_FILE.read_text()).values())
+    for digest_of_option in stored[-len(OPTION_CASES) :]:
+        assert stored.count(digest_of_option) == 1
 
 
 @pytest.mark.parametrize("name", CASES)

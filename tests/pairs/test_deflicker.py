@@ -68,13 +68,16 @@ def test_a_pure_gain_is_measured_at_any_size(gain, height, width):
     assert global_gain(first, second) == pytest.approx(np.log(gain), abs=1e-5)
 
 
-def test_a_cut_starts_anew(moving_texture):
-    frames = clip(moving_texture, [1.0, 1.1, 1.0])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_a_cut_starts_anew_whatever_the_gain_before_it(moving_texture, dtype):
+    scale = 257 if dtype == np.uint16 else 1
     other = 255 - moving_texture(3000, 900)
-    frames += [Frame(other, 120_000), Frame(other, 160_000)]
+    images = [0.6 * moving_texture(0), 0.66 * moving_texture(0), other, other]
+    frames = [Frame(np.round(scale * one).astype(dtype), k) for k, one in enumerate(images)]
     steady = list(steady_frames(iter(frames)))
+    assert levels(steady[:2])[1] == pytest.approx(PASSED_SHARE * np.log(1.1), abs=3e-3)
+    assert steady[2] is frames[2]
     assert steady[3] is frames[3]
-    assert steady[4] is frames[4]
 
 
 def test_the_guard_acts_before_the_count(moving_texture):

@@ -53,28 +53,6 @@ def test_what_enters_the_image_is_taken_from_the_frame_that_shows_it(warp):
     assert got[0, 19] == pytest.approx(0.0)
 
 
-def test_compiled_kernel_is_the_same_with_one_and_two_threads(monkeypatch):
-    rng = np.random.default_rng(6)
-    first, second = (rng.uniform(0, 255, (50, 60)).astype(np.float32) for _ in range(2))
-    forward, backward = (rng.normal(0, 3, (50, 60, 2)).astype(np.float32) for _ in range(2))
-    results = []
-    for count in ("1", "2"):
-        monkeypatch.setenv("TEXVENT_NUM_THREADS", count)
-        results.append(warp_between(first, second, forward, backward, 0.3))
-    np.testing.assert_array_equal(*results)
-
-
-def test_float32_is_near_enough_to_float64():
-    # Smooth images and flows: where the nearest flow vector is another one, it hardly differs.
-    y, x = np.mgrid[:60, :80]
-    first, second = (128 + 100 * np.sin((x + shift) / 5 + y / 7) for shift in (0, 3))
-    forward = np.stack([3 + 0.5 * np.sin(y / 9), 0.3 * np.cos(x / 11)], axis=-1)
-    pair = first, second, forward, -forward
-    single = reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
-    assert single.dtype == np.float32
-    assert np.abs(single - reference.warp_between(*pair, 0.3)).max() < 2e-3
-
-
 def test_places_outside_are_looked_at_at_the_edge():
     image = np.array([[0.0, 10.0], [20.0, 30.0]])
     flow = np.stack([image, -image], axis=-1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +51,7 @@ def texture(**options: Any):
 
 
 def test_no_model_is_forgotten():
-    assert set(SIMULATORS.names()) == set(CLEAN)
+    assert set(SIMULATORS.names()) == set(CLEAN) == set(BRIGHTNESS)
     assert set(CLEAN) - {"esim"} == set(NOISY)
 
 
@@ -74,6 +75,68 @@ def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model,
     spread = np.hypot(np.sqrt(expected), 0.025 * expected)
     assert len(events) == pytest.approx(expected, abs=4 * spread)
     assert (events.label == NOISE).all()
+    # Uniform within every frame interval, not at one shared time.
+    places = np.histogram(events.t * fps / 1e6 % 1, bins=20, range=(0, 1))[0]
+    mean = len(events) / 20
+    assert ((places - mean) ** 2 / mean).sum() < 19 + 5 * math.sqrt(2 * 19)
+
+
+BRIGHTNESS: dict[str, Callable[[float, float], float]] = {
+    "texvent": lambda start, stop: math.log((20 + stop) / (20 + start)) / 0.2,
+    "physical": lambda start, stop: math.log((10 + stop) / (10 + start)) / 0.2,
+    "esim": lambda start, stop: math.log((0.255 + stop) / (0.255 + start)) / 0.2,
+    "v2e": lambda start, stop: math.log(stop / start) / 0.2,
+    "voltmeter": lambda start, stop: 5.265 * (stop - start) / (20 + (start + stop) / 2),
+}
+"""Change from one level to another in thresholds, as each model publishes it."""
+
+
+@pytest.mark.parametrize("model", BRIGHTNESS)
+@pytest.mark.parametrize(("start", "stop"), [(40.0, 150.0), (150.0, 40.0)])
+def test_a_ramp_fires_where_it_crosses_each_threshold(model, start, stop):
+    options = {"initial_phase": "zero"} if model == "voltmeter" else {}
+    options |= {"gamma": 1.0} if model == "physical" else {}
+    frames = np.array([[[start]], [[stop]]], np.float32)
+    events = texvent.simulate(
+        frames, fps=1, simulator=model, interpolate="none", **CLEAN[model], **options
+    )
+    whole = BRIGHTNESS[model](start, stop)
+    wanted = [k / abs(whole) * 1e6 for k in range(1, 1 + math.floor(abs(whole)))]
+    assert events.t == pytest.approx(wanted, abs=2)
+    assert (events.p == (whole > 0)).all()
+
+
+LEAKING: dict[str, dict[str, Any]] = {
+    "physical": {"preset": "clean", "leak_rate_hz": 10.0, "leak_rate_decades": 0.0},
+    "v2e": {"preset": "peer-common", "leak_rate_hz": 10.0, "leak_rate_decades": 0.0},
+    "voltmeter": {"constants": "5.265 20 0 1e-5 0 0", "initial_phase": "zero"},
+}
+"""Options with which every pixel leaks ten times a second and does nothing else."""
+
+
+@pytest.mark.parametrize("model", LEAKING)
+@pytest.mark.parametrize("fps", [24, 500])
+def test_leak_fires_on_events_at_its_rate_for_any_frame_rate(model, fps):
+    frames = np.full((1 + fps * 21 // 20, 1, 2), 90.0, np.float32)
+    options = {"simulator": model, "interpolate": "none", "label_noise": True}
+    events = texvent.simulate(frames, fps=fps, **options, **LEAKING[model])
+    assert events.t[::2] == pytest.approx([k * 100_000 for k in range(1, 11)], abs=2)
+    assert events.p.all()
+    assert (events.label == NOISE).all()
+
+
+def has_share(model):
+    return hasattr(SIMULATORS.load(model).config_type(), "noise_on_fraction")
+
+
+@pytest.mark.parametrize("model", [one for one in NOISY if has_share(one)])
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_noise_has_the_share_of_on_that_is_asked_for(model, share):
+    frames = np.full((13, 60, 80), DARK, np.float32)
+    options = {"simulator": model, "interpolate": "none", "noise_on_fraction": share}
+    events = texvent.simulate(frames, fps=24, **options, **NOISY[model])
+    spread = math.sqrt(share * (1 - share) / len(events))
+    assert events.p.mean() == pytest.approx(share, abs=4 * spread)
 
 
 @pytest.mark.parametrize("model", CLEAN)

@@ -1,20 +1,14 @@
 """What holds for every pixel model."""
 
 import copy
-import dataclasses
-import itertools
+import pickle
 
 import numpy as np
 import pytest
 from tests.simulate.references import in_both_forms
 
-import texvent
 from texvent._registry import SIMULATORS
 from texvent.errors import InputError
-from texvent.simulate.esim.simulator import EsimSimulator
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.v2e.simulator import V2eSimulator
-from texvent.simulate.voltmeter.simulator import VoltmeterConfig
 from texvent.video import Frame
 
 from .pixel_frames import moving_texture, run
@@ -38,45 +32,11 @@ def model(request):
 
 @pytest.mark.parametrize("model", EVERY_PRESET, indirect=True, ids="-".join)
 def test_kernels_give_the_events_of_their_definitions(model):
-    frames = moving_texture()
+    times_us = [0, 41_667, 83_334, 83_335, 400_000, 3_000_000]
+    frames = [Frame(f.pixels, t) for f, t in zip(moving_texture(), times_us, strict=True)]
     defined, events = in_both_forms(lambda: run(model(seed=4), frames))
     assert len(events) > 20
     assert events.equals(defined)
-
-
-def test_packets_are_half_open_sorted_and_labelled(model):
-    simulator = model()
-    frames = moving_texture()
-    first = simulator.step(frames[0])
-    assert len(first) == 0
-    assert first.label is not None
-    for before, frame in itertools.pairwise(frames):
-        packet = simulator.step(frame)
-        assert before.t_us <= packet.t.min()
-        assert packet.t.max() < frame.t_us
-        columns = np.stack([packet.t, packet.y, packet.x, packet.p], axis=1).tolist()
-        assert columns == sorted(columns)
-        assert packet.label is not None
-
-
-@pytest.mark.parametrize(
-    ("interpolate", "shift_us"), [("flow", 7_000_001), ("blend", 10**15), ("none", -3_000_017)]
-)
-@pytest.mark.parametrize(("name", "preset"), EVERY_PRESET)
-def test_shifting_the_clip_shifts_the_events(name, preset, interpolate, shift_us):
-    frames = np.stack([frame.pixels for frame in moving_texture(5, (24, 32))])
-    times = 41_667 * np.arange(5)
-    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
-    noise = {"noise_rate_hz": 20.0, "timestamp_rule": "random"} if name == "texvent" else {}
-    events, shifted = (
-        texvent.simulate(frames, t_us=times + start_us, label_noise=True, **options, **noise)
-        for start_us in (0, shift_us)
-    )
-    assert len(events) > 20
-    columns = events.columns() | {"t": events.t + shift_us}
-    assert {name: one.tolist() for name, one in shifted.columns().items()} == {
-        name: one.tolist() for name, one in columns.items()
-    }
 
 
 def test_a_copied_simulator_goes_on_alike(model):
@@ -84,8 +44,9 @@ def test_a_copied_simulator_goes_on_alike(model):
     whole = model()
     for frame in frames[:4]:
         whole.step(frame)
-    twin = copy.deepcopy(whole)
-    assert run(whole, frames[4:]).equals(run(twin, frames[4:]))
+    twins = copy.deepcopy(whole), pickle.loads(pickle.dumps(whole))
+    expected = run(whole, frames[4:])
+    assert all(run(twin, frames[4:]) == expected for twin in twins)
 
 
 def test_reset_forgets_everything(model):
@@ -97,28 +58,10 @@ def test_reset_forgets_everything(model):
     assert len(simulator.step(Frame(np.zeros((3, 3), np.uint8), 0))) == 0
 
 
-def test_frames_may_come_at_any_time(model):
-    frames = moving_texture()
-    times = [0, 1, 50, 400_000, 400_002, 3_000_000]
-    frames = [Frame(frame.pixels, t) for frame, t in zip(frames, times, strict=True)]
-    defined, events = in_both_forms(lambda: run(model(), frames))
-    assert events.equals(defined)
-    assert events.t.max() < times[-1]
-
-
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (5, 1)])
 def test_frames_may_have_any_size(model, shape):
     events = run(model(), moving_texture(4, shape))
     assert events.size == (shape[1], shape[0])
-
-
-def test_colour_and_16_bit_frames_are_read_on_the_same_scale(model):
-    grey = moving_texture(4)
-    wide = [Frame(f.pixels.astype(np.uint16) * np.uint16(257), f.t_us) for f in grey]
-    floats = [Frame(f.pixels.astype(np.float32), f.t_us) for f in grey]
-    expected = run(model(), grey)
-    assert run(model(), wide).equals(expected)
-    assert run(model(), floats).equals(expected)
 
 
 def test_bad_frames_fail_once_and_clearly(model):
@@ -135,54 +78,3 @@ def test_bad_frames_fail_once_and_clearly(model):
             simulator.step(bad)
         later = Frame(np.full((2, 2), 99.0, np.float32), 3000)
         assert simulator.step(later).equals(undisturbed.step(later))
-
-
-SYMMETRIC = {
-    "physical": (dataclasses.replace(PhysicalSimulator.presets["clean"], gamma=1.0), 10.0),
-    "esim": (EsimSimulator.presets["default"], 0.255),
-    "v2e": (V2eSimulator.presets["peer-common"], 0.0),
-    # Without noise: ΔL / (mean L + k2) changes its sign exactly where L + k2 is inverted.
-    "voltmeter": (VoltmeterConfig(constants="5 20 0 0 0 0"), 20.0),
-}
-
-
-@pytest.mark.parametrize("name", SYMMETRIC)
-def test_inverted_contrast_swaps_on_and_off(name):
-    config, offset = SYMMETRIC[name]
-    random = np.random.default_rng(0)
-    # ln(offset + I) runs over -1..1 around ln 80; its negative stays above v2e's linear part.
-    logs = random.uniform(-1, 1, (5, 6, 7))
-    events, inverted = (
-        run(
-            MODELS[name](config),
-            [Frame(80 * np.exp(s * log) - offset, i * 10_000) for i, log in enumerate(logs)],
-        )
-        for s in (1, -1)
-    )
-    # A crossing that falls on a whole microsecond may be rounded to either side of it.
-    assert len(events) == len(inverted)
-    for row in (events, inverted):
-        assert len(row) > 100
-    places = [
-        sorted(zip(e.x, e.y, e.t // 100, p, strict=True))
-        for e, p in ((events, events.p), (inverted, 1 - inverted.p))
-    ]
-    differing = len(set(places[0]) ^ set(places[1]))
-    assert differing <= 0.01 * len(events)
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_the_seed_decides_everything_random(name):
-    preset = list(MODELS[name].presets.values())[-1]
-    noisy = {
-        "texvent": {"noise_rate_hz": 50.0, "noise": "random"},
-        "physical": {"noise_scale": 10.0},
-        "esim": {"threshold_sigma": 0.03},
-        "v2e": {"shot_noise_rate_hz": 50.0},
-        "voltmeter": {"constants": "5.265 20 1e-4 1e-7 5e-9 1e-3"},
-    }
-    config = dataclasses.replace(preset, **noisy.get(name, {}))
-    frames = moving_texture()
-    events = run(MODELS[name](config, seed=1), frames)
-    assert run(MODELS[name](config, seed=1), frames).equals(events)
-    assert not run(MODELS[name](config, seed=2), frames).equals(events)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.interpolate.dis_flow import compiled, reference
 
-from texvent.interpolate.dis_flow.estimator import DisFlow, make_pyramid
+from texvent.interpolate.dis_flow.estimator import DisFlow, count_levels, make_pyramid
 from texvent.interpolate.dis_flow.frame_motion import find_shift, leads_outside
 
 WIDTH, HEIGHT = 96, 72
@@ -23,19 +23,22 @@ def texture(seed, cell=4, side=200):
     return image.astype(np.float32)
 
 
-def view(image, x, y, width=WIDTH, height=HEIGHT):
-    """What a camera sees after everything has moved by (x, y) px."""
-    return image[60 - y : 60 - y + height, 60 - x : 60 - x + width]
+def view(image, x, y, width=WIDTH, height=HEIGHT, scale=1):
+    """What a camera sees after everything has moved by (x, y) px, with pixels of that size."""
+    seen = image[60 - y : 60 - y + height, 60 - x : 60 - x + width]
+    return seen.repeat(scale, axis=0).repeat(scale, axis=1)
 
 
 def shift_between(first, second):
-    return find_shift(*(make_pyramid(one, 2) for one in (first, second)))
+    return find_shift(*(make_pyramid(one, count_levels(one.shape)) for one in (first, second)))
 
 
 @pytest.mark.parametrize(("x", "y"), [(20, -6), (-32, 0), (0, 24), (30, 18)])
-def test_the_shift_of_the_frame_is_found_within_a_cell(x, y):
-    image = texture(1)
-    np.testing.assert_allclose(shift_between(view(image, 0, 0), view(image, x, y)), (x, y), atol=2)
+@pytest.mark.parametrize("scale", [1, 3, 7])
+def test_the_shift_of_a_frame_of_any_size_is_found_within_a_cell(x, y, scale):
+    first, second = (view(texture(1), *one, scale=scale) for one in ((0, 0), (x, y)))
+    found = shift_between(first, second)
+    np.testing.assert_allclose(found, (scale * x, scale * y), atol=2 * scale)
 
 
 def test_motion_that_patches_find_themselves_is_left_to_them():

@@ -97,8 +97,9 @@ def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed)
     ("shape", "is_coarse"), [((1, 5), False), ((33, 40), False), ((33, 41), True)]
 )
 @pytest.mark.parametrize("speed", [1.0, 3.0, 30.0])
+@pytest.mark.parametrize("back", [None, 0.5, 20.0])
 def test_no_pixel_is_left_out_whose_trigger_level_an_intermediate_frame_reaches(
-    shape, is_coarse, speed
+    shape, is_coarse, speed, back
 ):
     # Noise in which a small thing passes: paths that agree, paths that are chosen, and the sweep.
     rng = np.random.default_rng(5)
@@ -106,6 +107,8 @@ def test_no_pixel_is_left_out_whose_trigger_level_an_intermediate_frame_reaches(
     height, width = vectors = tuple((side + 1) // 2 for side in shape) if is_coarse else shape
     forward = rng.uniform(-speed, speed, (*vectors, 2)).astype(np.float32)
     backward = -forward + rng.normal(0, speed / 9, forward.shape).astype(np.float32)
+    if back is not None:  # drawn by itself, so that either direction may be the faster one
+        backward = rng.uniform(-back, back, forward.shape).astype(np.float32)
     forward[height // 3 : height // 2, width // 4 : width // 2] = (speed, 1)
     positions = np.linspace(0.1, 0.9, 7)
     bounded = bounded_pair(first, second, forward, backward, positions=positions)

@@ -43,26 +43,22 @@ def assert_equal(video, **options):
     return sum(len(packet) for _, packet in got)
 
 
+def mixed_clips():
+    """Pairs that move, brighten, do both or neither, next to each other: fused or stepped each."""
+    p = np.clip(panning(5, dtype=np.float32).pixels, 0, 220)
+    gains = [p[0], p[1], 1.15 * p[1], 1.15 * p[2], 1.15 * p[3], p[3], p[4]]
+    steps = [p[0], p[1], p[1] + 0.5, p[1] + 12, p[2], p[2] + 9, p[3], p[4]]
+    deep = [np.round(257 * one).astype(np.uint16) for one in steps]
+    for frames in (gains, deep):
+        yield Video(np.stack(frames), [1000 + 40_000 * index for index in range(len(frames))])
+
+
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 def test_pairs_give_the_same_events_drawn_or_not(options):
     if "simulator" not in options and options.get("noise") != "none":
         options = {"noise_rate_hz": 20.0, "seed": 3, **options}
-    assert assert_equal(panning(6), max_intermediate=5, **options) > 300
-
-
-@pytest.mark.parametrize("simulator", ["texvent", "esim"])
-@pytest.mark.parametrize("dtype", [np.uint16, np.float32, np.float64])
-def test_deep_and_float_frames_are_the_same_too(simulator, dtype):
-    video = panning(3, dtype=dtype)
-    if dtype is np.uint16:
-        video = Video(video.pixels * np.uint16(257), video.times_us)
-    assert assert_equal(video, simulator=simulator, max_intermediate=9) > 300
-
-
-def test_colour_frames_are_the_same_too():
-    grey = panning(3).pixels
-    colour = np.stack([grey, grey[:, ::-1], grey[..., ::-1]], axis=-1)
-    assert assert_equal(Video(colour, panning(3).times_us)) > 300
+    for video in mixed_clips():
+        assert assert_equal(video, max_intermediate=5, **options) > 300
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
@@ -81,19 +77,6 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
     frames = np.clip(90 + np.cumsum(rng.normal(0, spread, (4, 5, 9)), axis=0), 0, 255)
     video = Video(frames.astype(np.float32), [0, 1000, 1007, 5000])
     assert_equal(video, simulator=simulator, seed=seed % 1000, max_intermediate=9)
-
-
-@pytest.mark.parametrize("simulator", ["texvent", "esim"])
-def test_the_number_of_threads_changes_nothing(simulator, monkeypatch):
-    packets = []
-    for count in ("1", "2", "3"):
-        monkeypatch.setenv("TEXVENT_NUM_THREADS", count)
-        options = {"simulator": simulator, "max_intermediate": 9}
-        steps = fused(panning(3, size=(40, 150)), options)
-        packets.append([packet for _, packet in steps])
-    for one, two, three in zip(*packets, strict=True):
-        assert one.equals(two)
-        assert one.equals(three)
 
 
 @pytest.mark.parametrize(

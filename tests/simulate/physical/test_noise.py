@@ -16,14 +16,6 @@ from .physical_pixels import clean, intensity, noisy, poisson_interval
 # Leak.
 
 
-def test_leak_fires_on_events_at_its_rate_labelled_noise():
-    simulator = clean(leak_rate_hz=5.0, leak_rate_decades=0.0)
-    events = run(simulator, static(90.0, fps=24, seconds=1.0))
-    assert events.t == pytest.approx([200_000, 400_000, 600_000, 800_000], abs=2)
-    assert events.p.all()
-    assert (events.label == NOISE).all()
-
-
 def test_an_event_that_light_made_more_than_leak_is_signal():
     # The leak makes a sixth of the change.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])[:1] + frames_of(
@@ -37,21 +29,21 @@ def test_an_event_that_light_made_more_than_leak_is_signal():
 # Noise.
 
 
-@pytest.mark.parametrize(("level", "rate"), [(0.5, 0.46), (3.5, 0.77), (25.0, 0.015)])
-def test_noise_has_the_measured_rate(level, rate):
-    frames = static(level, fps=24, seconds=0.5, shape=(60, 80))
-    events = run(noisy(noise_scale=10.0), frames)
-    mean = 10 * rate * 0.5 * 4800
-    assert len(events) == pytest.approx(mean, abs=poisson_interval(mean))
+def test_noise_of_a_pair_follows_the_curve_at_both_frames():
+    """By its definition: log-linear in the level, the mean over both frames, Poisson in number."""
+    start, stop = np.meshgrid([0.5, 3.5, 12.0, 25.0, 200.0], [0.5, 5.0, 40.0, 200.0])
+    start, stop = np.stack([start.reshape(-1), stop.reshape(-1)])
+    frames = [Frame(np.tile(row, (400, 1)), t) for row, t in ((start, 0), (stop, 1_000_000))]
+    events = run(noisy(noise_scale=20.0, contrast_threshold=10.0), frames)
+    points = np.array([point.split(":") for point in DAVIS346_NOISE.split()], float)
+    rates = np.exp(np.interp(np.stack([start, stop]), points[:, 0], np.log(points[:, 1])))
+    expected = 20 * rates.mean(axis=0)
+    counts = np.zeros((400, len(start)))
+    np.add.at(counts, (events.y, events.x), 1)
+    assert (np.abs(counts.mean(axis=0) - expected) < 5 * np.sqrt(expected / 400)).all()
+    in_rows = counts.sum(axis=1)
+    assert in_rows.var() == pytest.approx(expected.sum(), rel=5 * math.sqrt(2 / 400))
     assert (events.label == NOISE).all()
-
-
-def test_noise_has_the_stated_share_of_on():
-    events = run(
-        noisy(noise_scale=20.0, noise_on_fraction=0.3),
-        static(3.5, fps=24, seconds=1, shape=(40, 40)),
-    )
-    assert events.p.mean() == pytest.approx(0.3, abs=5 * math.sqrt(0.21 / len(events)))
 
 
 def test_noise_of_pixels_varies_around_the_stated_mean():
@@ -102,17 +94,34 @@ def test_thresholds_have_the_stated_mean_and_mismatch():
     assert thresholds.std() == pytest.approx(0.03, rel=5 / math.sqrt(1200))
 
 
-def test_the_sensor_seed_fixes_the_sensor_and_nothing_else():
-    maps = [
-        first_times(clean(seed=seed, sensor_seed=sensor, threshold_sigma=0.03))
-        for seed, sensor in ((0, None), (1, None), (1, 0), (2, 0))
-    ]
-    assert not np.array_equal(maps[0], maps[1])
-    assert np.array_equal(maps[0], maps[2])
-    assert np.array_equal(maps[0], maps[3])
+def test_two_runs_of_one_sensor_share_what_is_fixed_to_its_pixels_alone():
+    def maps(**options):
+        seeds = ((0, None), (1, None), (1, 0), (2, 0))
+        simulators = [clean(seed=one, sensor_seed=sensor, **options) for one, sensor in seeds]
+        return [first_times(simulator) for simulator in simulators]
+
+    thresholds = maps(threshold_sigma=0.03)
+    assert not np.array_equal(thresholds[0], thresholds[1])
+    assert all(np.array_equal(thresholds[0], one) for one in thresholds[2:])
+    phases = maps(initial_phase="random")
+    assert len({one.tobytes() for one in phases}) == 3  # the second and third have one seed
     frames = static(3.5, fps=24, seconds=1, shape=(20, 20))
-    noise = [run(noisy(seed=seed, sensor_seed=0, noise_scale=5.0), frames) for seed in (0, 1)]
-    assert not noise[0].equals(noise[1])
+    fires = {"sensor_seed": 0, "noise_scale": 0.0, "hot_pixel_fraction": 0.2}
+    hot = [run(noisy(seed=seed, **fires), frames) for seed in (1, 2)]
+    assert hot[0] != hot[1]
+    places = [set(zip(one.x.tolist(), one.y.tolist(), strict=True)) for one in hot]
+    assert places[0] == places[1]
+    noise = [run(noisy(seed=seed, sensor_seed=0, noise_scale=5.0), frames) for seed in (1, 2)]
+    assert noise[0] != noise[1]
+
+
+def test_hot_pixels_and_other_noise_fire_independently():
+    """Both 20 times a second, in every pixel: never at one time but by chance."""
+    fires = {"noise_curve": "0:20", "hot_pixel_fraction": 1.0, "hot_pixel_rate_hz": 20.0}
+    events = run(noisy(**fires), static(90.0, fps=24, seconds=1, shape=(20, 20)))
+    assert len(events) == pytest.approx(16_000, abs=poisson_interval(16_000))
+    seen = set(zip(events.x.tolist(), events.y.tolist(), events.t.tolist(), strict=True))
+    assert len(seen) > len(events) - 10
 
 
 @pytest.mark.parametrize(("ratio", "whole"), [(1.0, 0.4), (0.25, 0.5)])
@@ -125,17 +134,6 @@ def test_the_first_frame_finds_pixels_in_random_phase(ratio, whole):
 
 
 # The noise curve.
-
-
-def test_points_are_met_exactly_and_joined_by_exponentials():
-    curve = parse_noise_curve("2:0.5 20:0.1,60:0.004")
-    assert curve.rate_at(np.array([2.0, 20.0, 60.0])) == pytest.approx([0.5, 0.1, 0.004])
-    assert curve.rate_at(np.array([11.0])) == pytest.approx([math.sqrt(0.5 * 0.1)])
-
-
-def test_the_rate_is_constant_outside_the_points():
-    curve = parse_noise_curve("2:0.5 60:0.004")
-    assert curve.rate_at(np.array([[0.0, 255.0]])) == pytest.approx(np.array([[0.5, 0.004]]))
 
 
 def test_a_curve_reads_back_what_it_writes():

@@ -1,6 +1,5 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -8,20 +7,11 @@ from tests.simulate.references import in_both_forms
 
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.video import Frame
 
 from ..pixel_frames import frames_of, moving_texture, run
 from .physical_pixels import clean, intensity
 
 # One pixel, closed forms.
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_a_ramp_fires_where_it_crosses_each_threshold(sign):
-    frames = frames_of([intensity(4), intensity(4 + sign * 1.05)], [0, 1_000_000])
-    events = run(clean(), frames)
-    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=2)
-    assert (events.polarity == sign).all()
 
 
 def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest():
@@ -75,38 +65,6 @@ def test_a_change_in_the_refractory_period_is_lost():
 
 
 # Everything at once.
-
-
-def test_ideal_events_are_recovered_from_240_frames_per_second():
-    """An ideal camera, written down independently: every threshold passed at 4800 fps."""
-
-    def radiance(t: float) -> np.ndarray:
-        y, x = np.mgrid[:12, :16]
-        wave = np.sin(0.7 * (x - 40 * t)) + np.sin(0.5 * (y + 25 * t)) * np.cos(0.4 * (x + 30 * t))
-        return 0.12 + 0.2 * (wave + 2)
-
-    level = np.log(radiance(0) + 0.004)
-    truth = []
-    for i in range(1, 4801):
-        now = np.log(radiance(i / 4800 / 4) + 0.004)
-        steps = np.trunc((now - level) / 0.2).astype(int)
-        level = level + 0.2 * steps
-        truth += [(i, p, s) for p, s in enumerate(steps.ravel()) if s]
-    counts = np.zeros((2, 192), int)
-    for _, pixel, steps in truth:
-        counts[int(steps > 0), pixel] += abs(steps)
-
-    def photograph(t: float) -> np.ndarray:
-        return np.round(255 * np.clip(0.9 * radiance(t), 0, 1) ** (1 / 2.2)).astype(np.uint8)
-
-    frames = [Frame(photograph(i / 240), round(i * 1e6 / 240)) for i in range(61)]
-    camera = clean(gamma=2.2, balance=0.004 * 0.9 * 255)
-    events = run(camera, frames)
-    assert counts.sum() > 1000
-    assert len(events) / counts.sum() == pytest.approx(1, abs=0.03)
-    mine = np.zeros((2, 192), int)
-    np.add.at(mine, (events.p, events.y.astype(int) * 16 + events.x), 1)
-    assert np.abs(mine - counts).sum() <= 0.06 * counts.sum()
 
 
 CONFIGS = st.builds(

@@ -10,7 +10,7 @@ from texvent.events import NOISE
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random import poisson_noise
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.random.poisson_noise import PoissonNoise
+from texvent.simulate.random.poisson_noise import PoissonNoise, draw_arrivals
 
 
 def interval(seconds: float, frame: int = 1) -> FrameInterval:
@@ -61,6 +61,14 @@ def test_a_share_of_the_rate_keeps_that_share_of_the_events():
     found = np.bincount(events.pixel % 3, minlength=3)
     assert found[0] == 0
     assert found[1:] == pytest.approx([2000, 8000], abs=4 * math.sqrt(8000))
+
+
+def test_every_arrival_has_draws_of_its_own():
+    arrivals = draw_arrivals(np.cumsum(np.full((9, 40), 6.0), axis=1), 1.0, frame_key(0, 1), 0)
+    draws = np.stack(arrivals[1:])
+    assert len(np.unique(draws)) == draws.size > 6000
+    columns = np.stack([*draws, draws[1].take(range(1, draws.shape[1] + 1), mode="wrap")])
+    assert np.abs(np.corrcoef(columns) - np.eye(4)).max() < 5 / math.sqrt(draws.shape[1])
 
 
 def test_events_come_by_pixel_and_then_in_time():

@@ -104,14 +104,6 @@ def test_noise_never_touches_the_reference(kind):
     assert noisy[noisy.label == SIGNAL].equals(clean)
 
 
-def test_noise_is_uniform_in_time_and_half_on():
-    events = simulate(resting((100, 100), [0, SECOND]), noise_rate_hz=2.0)
-    counts = np.histogram(events.t, bins=20, range=(0, SECOND))[0]
-    expected = len(events) / 20
-    assert float(((counts - expected) ** 2 / expected).sum()) < 19 + 5 * np.sqrt(2 * 19)
-    assert events.p.mean() == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(len(events)))
-
-
 def test_gaussian_noise_is_labelled_where_only_the_noise_fired():
     first = np.full((40, 40), 50.0)
     second = first.copy()

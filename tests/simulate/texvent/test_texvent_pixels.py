@@ -1,8 +1,6 @@
 """The fast pixels fire exactly as the definition does: any type of frames and option."""
 
-import copy
 import itertools
-import pickle
 import tracemalloc
 from dataclasses import replace
 
@@ -146,31 +144,6 @@ def test_an_impossible_intensity_is_found_wherever_it_is(bad, place):
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
-def test_frames_belong_to_the_caller(dtype):
-    """A decoder may reuse its buffer; and nothing writes to it."""
-    rng = np.random.default_rng(1)
-    pictures = [rng.integers(0, 256, (30, 40)).astype(np.float64) for _ in range(4)]
-    frames = [frame(one, dtype, 10 * k, is_source=k == 0) for k, one in enumerate(pictures)]
-    expected = defined(frames, timestamp_rule="linear")
-    simulator = TexventSimulator(TexventConfig(timestamp_rule="linear"))
-    buffer, packets = np.empty((30, 40), dtype), []
-    for one in frames:
-        buffer[:] = one.pixels
-        packets.append(simulator.step(Frame(buffer, one.t_us, one.is_source)))
-        assert np.array_equal(buffer, one.pixels)
-        buffer[:] = 0
-    assert EventStream.concat(packets).equals(expected)
-
-
-def test_frames_need_not_be_contiguous_or_writable():
-    wide = np.random.default_rng(2).integers(0, 256, (3, 20, 80)).astype(np.uint8)
-    wide.flags.writeable = False
-    cut = [Frame(one[::2, 5:66:3], 10 * k) for k, one in enumerate(wide)]
-    whole = [Frame(one.pixels.copy(), one.t_us) for one in cut]
-    assert simulate(cut).equals(defined(whole))
-
-
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
 def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype):
     """Where little fires and references are intensities."""
     still = np.full((900, 1000), 100.0)
@@ -188,22 +161,6 @@ def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype):
     finally:
         tracemalloc.stop()
     assert peak < 100_000
-
-
-@CHECKED
-@given(clips(min_frames=3), switches, noises, seeds, st.data())
-def test_splitting_the_stream_changes_nothing_when_state_is_carried(
-    frames, options, noise, seed, data
-):
-    simulator = TexventSimulator(TexventConfig(noise=noise, **NOISY, **options), seed=seed)
-    cut = data.draw(st.integers(1, len(frames) - 1))
-    packets = [simulator.step(frame) for frame in frames[:cut]]
-    carry = data.draw(st.sampled_from([copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))]))
-    carried = carry(simulator)
-    simulator.step(Frame(frames[cut].pixels, frames[cut].t_us, False))  # must not disturb the copy
-    packets += [carried.step(frame) for frame in frames[cut:]]
-    whole = simulate(frames, seed=seed, noise=noise, **NOISY, **options)
-    assert EventStream.concat(packets).equals(whole)
 
 
 @CHECKED

@@ -8,7 +8,7 @@ from tests.simulate.references.voltmeter import (
     probability_along_drift,
 )
 
-from texvent.events import NOISE, SIGNAL
+from texvent.events import NOISE
 from texvent.simulate.voltmeter.simulator import Constants, VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
@@ -61,16 +61,6 @@ def test_drift_and_diffusion_are_equations_10_and_11():
     assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-def test_without_noise_a_change_fires_evenly(sign):
-    values = (80, 160) if sign > 0 else (160, 80)
-    events = run(VoltmeterSimulator(QUIET), frames_of(values, [0, 1_000_000]))
-    volts = 5.265 * 80 / 140
-    assert events.t == pytest.approx([k / volts * 1e6 for k in (1, 2, 3)], abs=1)
-    assert (events.polarity == sign).all()
-    assert (events.label == SIGNAL).all()
-
-
 def test_without_noise_the_residual_is_carried_over():
     # Each frame moves by 5.265 * 5 / (L + 22.5); the sum decides, however it is cut.
     levels = [80 + 5 * i for i in range(17)]
@@ -79,15 +69,6 @@ def test_without_noise_the_residual_is_carried_over():
     way = np.cumsum([0.0] + [5.265 * 5 / (level + 22.5) for level in levels[:-1]])
     expected = np.interp([1.0, 2.0, 3.0], way, np.arange(17) * 1000)
     assert events.t == pytest.approx(expected, abs=1)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(fps):
-    config = with_only(k4=1e-5)
-    events = run(VoltmeterSimulator(config), static(90, fps=fps, seconds=1.05))
-    assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
-    assert events.p.all()
-    assert (events.label == NOISE).all()
 
 
 @pytest.mark.parametrize(("preset", "fps"), [("davis346", 24), ("davis240", 24), ("davis240", 500)])
