@@ -91,7 +91,7 @@ RULES = {
     "refractory": (refractory, {"period_us": st.integers(0, 20)}),
     "rate-limit": (
         rate_limit,
-        {"rate_hz": st.sampled_from([1e6, 2e6, 1.5e6]), "window_us": st.integers(1, 7)},
+        {"rate_hz": st.sampled_from([2.5e5, 4e5, 1e6]), "window_us": st.integers(4, 21)},
     ),
     "hot-pixels": (
         hot_pixels,
