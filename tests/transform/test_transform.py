@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
+from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.calibration import MODELS, read_calibration
@@ -36,22 +36,16 @@ def test_a_region_outside_the_sensor_is_refused(region: tuple[int, int, int, int
         crop(packets(stream([])), Region(*region))
 
 
-def test_resize_puts_events_into_the_pixel_that_covers_their_old_one() -> None:
-    events = stream([(0, 0, 1, 1), (1, 1, 2, 0), (7, 5, 3, 1)])
-    assert rows_of(resize(packets(events), SensorSize(4, 3))) == [
-        (0, 0, 1, 1), (0, 0, 2, 0), (3, 2, 3, 1),
-    ]  # fmt: skip
-    assert rows_of(resize(packets(events), SensorSize(16, 12)))[-1] == (14, 10, 3, 1)
-    with pytest.raises(ConfigError):
-        resize(packets(events), SensorSize(0, 3))
-
-
 @given(rows=ROWS, width=st.integers(1, 20), height=st.integers(1, 20))
-def test_resize_loses_no_event_and_no_time(rows: Rows, width: int, height: int) -> None:
+def test_resize_puts_events_into_the_pixel_that_covers_their_old_one(
+    rows: Rows, width: int, height: int
+) -> None:
     events = stream(rows)
-    resized = resize(packets(events), SensorSize(width, height)).collect()
-    assert np.array_equal(resized.t, events.t)
-    assert np.array_equal(resized.p, events.p)
+    resized = resize(packets(events), SensorSize(width, height))
+    assert resized.size == (width, height)
+    assert rows_of(resized) == [
+        (x * width // 8, y * height // 6, t, p) for x, y, t, p in rows_of(events)
+    ]
 
 
 @given(rows=ROWS, start=st.integers(0, 20), length=st.integers(1, 20), cut=st.integers(0, 40))
@@ -183,23 +177,16 @@ def test_kalibrs_cameras_are_read_by_their_name(tmp_path: Path) -> None:
     assert read_calibration(Path(f"{path}:cam1")).intrinsics[0] == 99.0
 
 
-ALIASES = "a0: &a0 [l,l]\n" + "".join(f"a{i}: &a{i} [*a{i - 1},*a{i - 1}]\n" for i in range(1, 40))
-MERGES = "x0: &x0 {a: 1}\n" + "".join(
-    f"x{i}: &x{i} {{<<: [*x{i - 1},*x{i - 1}]}}\n" for i in range(1, 40)
-)
 WRONG = {
     "txt": [
         *("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0", "1 1 1 1 inf 0 0 0 0"),
         "-9 9 9 9 0 0 0 0 0",
     ],
     "yaml": [
-        *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}", "cam0: {intrinsics: " + "[" * 5000),
+        *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}"),
         "1: {intrinsics: [1, 1, 1, .nan]}",
         "cam0: {intrinsics: [0, 1, 1, 1]}",
         *(f"cam0: {{intrinsics: [9, 9, 9, {one}]}}" for one in ("true", '"9"', "null", "[9]")),
-        MERGES + "cam0: {intrinsics: [1, 1, 1, 1]}",
-        ALIASES + KALIBR.replace("pinhole", "*a39"),
-        ALIASES + KALIBR.replace("equidistant", "*a39"),
         *(KALIBR.replace("pinhole", one) for one in ("omni", "ds", "eucm")),
         KALIBR.replace("equidistant", "fov"),
         KALIBR.replace("equidistant", "none"),
