@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.transform.recordings import CUTS, packets
 
@@ -25,6 +25,7 @@ def stream(*times):
     streams(), st.sampled_from(["count", "duration_us"]), st.integers(1, 6), st.integers(0, 5),
     st.integers(-3, 3), st.booleans(),
 )  # fmt: skip
+@example(stream(0), "duration_us", 2, 1, -1, True)  # the whole slice reaches the last event
 def test_slices_begin_a_stride_apart_and_the_last_one_may_be_partial(
     events, kind, length, overlap, start, keep_partial
 ):
