@@ -3,8 +3,9 @@
 import itertools
 from fractions import Fraction
 
+import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.transform.recordings import CUTS, packets
 
@@ -20,36 +21,35 @@ def stream(*times):
     return EventStream.from_columns(zeros, zeros, times, zeros, size=SMALL)
 
 
-def times_of(parts):
-    return [part.t.tolist() for part in parts]
-
-
-def test_slices_of_time_are_half_open_and_may_be_empty():
-    assert times_of(slices(stream(0, 9, 10, 35), duration_us=10)) == [[0, 9], [10], [], [35]]
-
-
-def test_slices_of_time_overlap_and_start_where_they_are_told():
-    parts = slices(stream(10, 14, 18), duration_us=8, overlap=4, start_us=8)
-    assert times_of(parts) == [[10, 14], [14, 18]]
-    assert times_of(slices(stream(5, 15), duration_us=10, start_us=0)) == [[5], [15]]
-
-
-def test_a_partial_slice_can_be_left_out():
-    assert times_of(slices(stream(0, 9, 12), duration_us=10, keep_partial=False)) == [[0, 9]]
-    assert times_of(slices(stream(0, 9), duration_us=10, keep_partial=False)) == [[0, 9]]
-    assert times_of(slices(stream(1, 2, 3), count=2, keep_partial=False)) == [[1, 2]]
-    assert times_of(slices(stream(1, 2, 3), count=2)) == [[1, 2], [3]]
-
-
-def test_slices_of_a_number_of_events_overlap():
-    assert times_of(slices(stream(1, 2, 3, 4), count=3, overlap=2)) == [[1, 2, 3], [2, 3, 4]]
-
-
-@given(streams(least=1), st.integers(1, 6))
-def test_slices_without_overlap_put_together_are_the_stream(events, count):
-    assert EventStream.concat(slices(events, count=count)).equals(events)
-    duration_us = count * 10_000
-    assert EventStream.concat(slices(events, duration_us=duration_us)).equals(events)
+@given(
+    streams(), st.sampled_from(["count", "duration_us"]), st.integers(1, 6), st.integers(0, 5),
+    st.integers(-3, 3), st.booleans(),
+)  # fmt: skip
+@example(stream(0), "duration_us", 2, 1, -1, True)  # the whole slice reaches the last event
+def test_slices_begin_a_stride_apart_and_the_last_one_may_be_partial(
+    events, kind, length, overlap, start, keep_partial
+):
+    is_long = kind == "duration_us" and len(events) and np.ptp(events.t) > 10
+    unit, overlap = 10_000 if is_long else 1, min(overlap, length - 1)
+    places, ends, first = range(len(events)), len(events), 0
+    options = {kind: length * unit, "overlap": overlap * unit, "keep_partial": keep_partial}
+    if kind == "duration_us" and len(events):
+        places, ends = events.t.tolist(), int(events.t[-1]) + 1
+        first = int(events.t[0]) + start * unit
+        options["start_us"] = first
+    expected = []
+    while first < ends:
+        stop = first + length * unit
+        if stop <= ends or keep_partial:
+            expected.append([place for place in places if first <= place < stop])
+        if stop >= ends:
+            break
+        first += (length - overlap) * unit
+    found = list(slices(events, **options))
+    by_place = [part.t.tolist() for part in found]
+    if kind == "count":
+        expected = [[int(events.t[place]) for place in part] for part in expected]
+    assert by_place == expected
 
 
 @pytest.mark.parametrize(

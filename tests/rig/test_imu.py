@@ -84,21 +84,43 @@ def test_integrating_the_imu_returns_the_pose_within_a_millimetre(prompt: str) -
     assert np.ptp(samples.position, axis=0).max() > 0.01 or np.abs(samples.rate).max() > 0.01
 
 
-def test_a_circle_gives_its_centripetal_acceleration_and_rate() -> None:
-    """Radius 2 m at 1.5 rad/s, the camera looking along its path: a = ω² r to the left."""
-    rate = 1.5
+@pytest.mark.parametrize("offset", [(0.1, 0.0, 0.0), (-0.02, 0.05, 0.1), (0.0, 0.0, 0.0)])
+def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(
+    offset: tuple[float, float, float],
+) -> None:
+    """On a circle of 2 m, the camera along its path, at ω = 1.5 + 4 t rad/s to the left.
+
+    The camera's right points away from the centre, so right is the radius, forward the tangent.
+    """
+    radius, spin, faster = 2.0, 1.5, 4.0
 
     def camera_at(time: float) -> Camera:
-        angle = rate * time
+        angle = spin * time + 0.5 * faster * time**2
         forward = np.array([-math.sin(angle), math.cos(angle), 0.0])
         right = np.array([math.cos(angle), math.sin(angle), 0.0])
-        return Camera(2.0 * right, np.stack([right, [0, 0, -1.0], forward]), 1.0)
+        return Camera(radius * right, np.stack([right, [0, 0, -1.0], forward]), 1.0)
 
-    samples = true_samples(HandScene(camera_at=camera_at), np.eye(4), np.array([0, 300_000]))
-    np.testing.assert_allclose(
-        samples.acceleration, [[-(rate**2) * 2.0, -GRAVITY, 0.0]] * 2, atol=1e-7
-    )
-    np.testing.assert_allclose(samples.rate, [[0.0, -rate, 0.0]] * 2, atol=1e-9)
+    mount = np.eye(4)
+    mount[:3, 3] = right, down, forward = offset
+    samples = true_samples(HandScene(camera_at=camera_at), mount, np.array([0, 300_000]))
+    out = radius + right
+    for number, time in enumerate((0.0, 0.3)):
+        rate = spin + faster * time
+        along = [-(rate**2) * out - faster * forward, -GRAVITY, faster * out - rate**2 * forward]
+        np.testing.assert_allclose(samples.acceleration[number], along, atol=1e-6)
+        np.testing.assert_allclose(samples.rate[number], [0.0, -rate, 0.0], atol=1e-9)
+    np.testing.assert_allclose(samples.position[0], [out, forward, -down], atol=1e-12)
+
+
+def test_an_imu_at_rest_feels_gravity_alone_wherever_it_is_and_however_it_is_turned() -> None:
+    mount = np.eye(4)
+    mount[:3, :3], mount[:3, 3] = rotation_of(np.array([0.3, -1.1, 0.7])), (0.1, 0.2, 0.3)
+    scene = HandScene(camera_at=lambda time: Camera(np.array([5.0, 6.0, 7.0]), LEVEL, 1.0))
+    samples = true_samples(scene, mount, np.array([0, 10**6]))
+    up = mount[:3, :3].T @ [0.0, -GRAVITY, 0.0]
+    np.testing.assert_allclose(samples.acceleration, [up] * 2, atol=1e-7)
+    np.testing.assert_allclose(samples.rate, np.zeros((2, 3)), atol=1e-9)
+    np.testing.assert_allclose(samples.position, [[5.1, 6.3, 6.8]] * 2, atol=1e-12)
 
 
 def allan_deviation(values: np.ndarray, samples: int) -> float:
@@ -128,14 +150,20 @@ def test_allan_deviation_returns_the_stated_densities(sensor: str) -> None:
         assert allan_deviation(values, 200) == pytest.approx(expected, rel=0.1)
 
 
-def test_noise_is_keyed_by_the_seed_and_starts_without_bias() -> None:
-    still = ImuSamples(np.arange(50), *(np.zeros((50, 3)) for _ in range(3)), np.zeros((1, 3, 3)))
-    only_walk = ImuNoise(gyroscope_random_walk=1.0)
-    first, again, other = (with_noise(still, only_walk, 100.0, seed).rate for seed in (0, 0, 1))
-    np.testing.assert_array_equal(first, again)
-    assert (first[1:] != other[1:]).all()
-    assert (first[0] == 0.0).all()
-    assert len(np.unique(with_noise(still, IMU_NOISES["adis16448"], 100.0, 0).acceleration)) == 150
+def test_noise_is_keyed_by_the_seed_starts_without_bias_and_differs_in_every_axis() -> None:
+    still = ImuSamples(
+        np.arange(4000), *(np.zeros((4000, 3)) for _ in range(3)), np.zeros((1, 3, 3))
+    )
+    white, walk = ImuNoise(1.0, 0.0, 1.0, 0.0), ImuNoise(0.0, 1.0, 0.0, 1.0)
+    first, again, other = (with_noise(still, walk, 100.0, seed) for seed in (0, 0, 1))
+    np.testing.assert_array_equal(first.rate, again.rate)
+    assert (first.rate[1:] != other.rate[1:]).all()
+    noise = with_noise(still, white, 100.0, 0)
+    biases = np.concatenate([first.acceleration, first.rate], axis=1)
+    assert not biases[0].any()
+    columns = [noise.acceleration[1:], noise.rate[1:], np.diff(biases, axis=0)]
+    # Six deviations of the correlation of 4000 independent pairs.
+    np.testing.assert_allclose(np.corrcoef(np.concatenate(columns, axis=1).T), np.eye(12), atol=0.1)
 
 
 def test_times_are_whole_microseconds_of_the_rate() -> None:

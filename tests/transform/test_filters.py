@@ -1,19 +1,21 @@
-"""Filters: by hand, compiled against the reference, packet by packet against the whole."""
+"""Filters against their rules, and hot pixels at edges and on lines."""
 
 from __future__ import annotations
+
+from itertools import compress
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent._registry import FILTERS as REGISTRY
+from texvent._registry import FILTERS
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.parts import read_part
+from texvent.options.values import option_names
 from texvent.sensor import SensorSize
-from texvent.transform.filters import kernels_cpu
 from texvent.transform.filters.noise_filters import (
     MaskFilter,
     RateLimitFilter,
@@ -23,48 +25,28 @@ from texvent.transform.filters.noise_filters import (
 )
 
 from . import reference
-from .recordings import SIZE, crowded, packets, rows_of, stream, streams
-
-FILTERS = (
-    "background-activity:window_us=3",
-    "background-activity:window_us=8,support=2,radius=2",
-    "background-activity:window_us=8,polarity=true",
-    "refractory:period_us=4",
-    "rate-limit:rate_hz=2e6,window_us=2",
-    "rate-limit:rate_hz=1e6,window_us=7",
-    "hot-pixels:factor=1.5,least_events=2",
-)
+from .recordings import CUTS, ROWS, SIZE, Rows, packets, rows_of, stream
 
 
-def test_background_activity_by_hand() -> None:
-    events = stream([
-        (3, 3, 0, 1),  # alone
-        (4, 4, 10, 0),  # a diagonal neighbour, 10 µs before
-        (4, 4, 11, 0),  # its own pixel does not count, the neighbour is 11 µs ago
-        (6, 4, 12, 1),  # two columns away
-        (5, 4, 12, 1),  # neighbours on both sides
-    ])  # fmt: skip
-    kept = events.filter("background-activity", window_us=10)
-    assert rows_of(kept) == [(4, 4, 10, 0), (5, 4, 12, 1)]
-    assert rows_of(events.filter("background-activity", window_us=10, support=2)) == [(5, 4, 12, 1)]
-    same = events.filter("background-activity", window_us=10, polarity=True)
-    assert rows_of(same) == [(5, 4, 12, 1)]
-    wide = events.filter("background-activity", window_us=10, radius=2)
-    assert rows_of(wide)[1] == (6, 4, 12, 1)
-    assert len(events.filter("background-activity", window_us=0)) == 1
+@pytest.mark.parametrize("name", FILTERS.names())
+@given(rows=ROWS, cuts=CUTS, start=st.sampled_from([0, 10**15, -(10**15)]), data=st.data())
+def test_every_filter_keeps_what_its_rule_says_however_packets_are_cut(
+    name: str, rows: Rows, cuts: list[int], start: int, data: st.DataObject
+) -> None:
+    rule, values = reference.RULES[name]
+    assert set(values) == set(option_names(FILTERS.load(name)))
+    options = data.draw(st.fixed_dictionaries(values))
+    events = stream([(x % 4, y % 3, t + start, p) for x, y, t, p in rows])
+    kept = list(compress(rows_of(events), rule(rows_of(events), **options)))
+    assert rows_of(events.filter(name, **options)) == kept
+    filtered = packets(events, cuts).filter(name, **options)
+    assert rows_of(filtered) == kept
+    assert rows_of(filtered) == kept, "each pass begins anew"
 
 
-def test_a_refractory_period_runs_from_the_last_event_that_was_kept() -> None:
-    events = stream([(1, 1, t, p) for t, p in ((0, 1), (9, 0), (10, 1), (15, 1), (20, 0))])
-    assert events.filter("refractory", period_us=10).t.tolist() == [0, 10, 20]
-    assert len(events.filter(RefractoryFilter(period_us=0))) == 5
-
-
-def test_a_rate_limit_keeps_the_first_events_of_a_window() -> None:
-    events = stream([(x, 0, t, 1) for x, t in enumerate([0, 0, 4, 5, 9, 9, 9])])
-    assert events.filter("rate-limit", rate_hz=4e5, window_us=5).x.tolist() == [0, 1, 3, 4]
+def test_a_rate_below_an_event_a_window_is_refused() -> None:
     with pytest.raises(ConfigError, match="give window_us of at least 1000"):
-        events.filter("rate-limit", rate_hz=1e3, window_us=5)
+        stream([]).filter("rate-limit", rate_hz=1e3, window_us=5)
 
 
 @given(st.integers(1, 10**5), st.integers(1, 10**5))
@@ -132,44 +114,6 @@ def test_a_mask_fits_its_sensor() -> None:
         events.filter("mask", pixels=mask.T)
     with pytest.raises(InputError, match="the mask is int64 of shape"):
         events.filter("mask", pixels=np.zeros((6, 8), np.int64))
-
-
-def test_no_filter_is_forgotten() -> None:
-    assert {read_part(text)[0] for text in FILTERS} | {"mask"} == set(REGISTRY.builtin)
-
-
-@pytest.mark.parametrize("text", FILTERS)
-def test_packets_cut_at_any_event_give_what_the_whole_gives(text: str) -> None:
-    events = crowded()
-    whole = events.filter(text)
-    assert 0 < len(whole) < len(events)
-    for cuts in (range(60), range(0, 60, 7), [1], [2, 2, 31], [59]):
-        filtered = packets(events, cuts).filter(text)
-        assert filtered.collect() == whole
-        assert filtered.collect() == whole  # each pass begins anew
-
-
-@given(
-    streams(), st.integers(0, 20), st.integers(1, 4), st.integers(1, 3), st.booleans(),
-    st.integers(-(10**15), 10**15),
-)  # fmt: skip
-def test_the_compiled_filters_equal_the_reference(
-    events: EventStream, window: int, support: int, radius: int, polarity: bool, start: int
-) -> None:
-    plane = events.p if polarity else np.zeros_like(events.p)
-    t = events.t + start
-    seen = [np.full((2, *SIZE.shape), reference.NEVER, np.int64) for _ in range(2)]
-    columns = events.x, events.y, t, plane
-    expected = reference.find_supported(*columns, seen[0], window, support, radius)
-    found = kernels_cpu.find_supported(*columns, seen[1], window, support, radius)
-    np.testing.assert_array_equal(found, expected)
-    np.testing.assert_array_equal(*seen)
-
-    kept = [np.full(SIZE.shape, reference.NEVER, np.int64) for _ in range(2)]
-    expected = reference.find_rested(events.x, events.y, t, kept[0], window)
-    found = kernels_cpu.find_rested(events.x, events.y, t, kept[1], window)
-    np.testing.assert_array_equal(found, expected)
-    np.testing.assert_array_equal(*kept)
 
 
 def test_a_filter_by_text() -> None:

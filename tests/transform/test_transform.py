@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
+from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.calibration import read_calibration
+from texvent.io.calibration import MODELS, read_calibration
 from texvent.sensor import SensorSize
 from texvent.transform.edits import Region, crop, keep_time, merge, resize, start_at_zero
 from texvent.transform.undistort import Calibration, undistort
@@ -36,22 +36,16 @@ def test_a_region_outside_the_sensor_is_refused(region: tuple[int, int, int, int
         crop(packets(stream([])), Region(*region))
 
 
-def test_resize_puts_events_into_the_pixel_that_covers_their_old_one() -> None:
-    events = stream([(0, 0, 1, 1), (1, 1, 2, 0), (7, 5, 3, 1)])
-    assert rows_of(resize(packets(events), SensorSize(4, 3))) == [
-        (0, 0, 1, 1), (0, 0, 2, 0), (3, 2, 3, 1),
-    ]  # fmt: skip
-    assert rows_of(resize(packets(events), SensorSize(16, 12)))[-1] == (14, 10, 3, 1)
-    with pytest.raises(ConfigError):
-        resize(packets(events), SensorSize(0, 3))
-
-
 @given(rows=ROWS, width=st.integers(1, 20), height=st.integers(1, 20))
-def test_resize_loses_no_event_and_no_time(rows: Rows, width: int, height: int) -> None:
+def test_resize_puts_events_into_the_pixel_that_covers_their_old_one(
+    rows: Rows, width: int, height: int
+) -> None:
     events = stream(rows)
-    resized = resize(packets(events), SensorSize(width, height)).collect()
-    assert np.array_equal(resized.t, events.t)
-    assert np.array_equal(resized.p, events.p)
+    resized = resize(packets(events), SensorSize(width, height))
+    assert resized.size == (width, height)
+    assert rows_of(resized) == [
+        (x * width // 8, y * height // 6, t, p) for x, y, t, p in rows_of(events)
+    ]
 
 
 @given(rows=ROWS, start=st.integers(0, 20), length=st.integers(1, 20), cut=st.integers(0, 40))
@@ -109,21 +103,39 @@ ECD = Calibration((199.1, 198.8, 132.2, 110.7), (-0.368, 0.151, -0.0003, -0.0018
 FISHEYE = Calibration((110.0, 110.0, 120.0, 90.0), (-0.02, 0.004, -0.003, 0.0005), True)
 
 
-@pytest.mark.parametrize("lens", [ECD, FISHEYE], ids=["radtan", "equidistant"])
-def test_undistorted_pixels_lead_back_to_where_opencv_distorts_from(lens: Calibration) -> None:
-    places = lens.undistorted(SensorSize(240, 180))
-    y, x = np.mgrid[25:155, 35:205].astype(np.float64)
+LENSES = {
+    "radtan": st.tuples(
+        *(st.sampled_from([-bound, 0.0, bound]) for bound in (0.1, 0.03, 0.01, 0.01, 0.04))
+    ),
+    "equidistant": st.tuples(
+        *(st.sampled_from([-bound, 0.0, bound]) for bound in (0.05, 0.02, 0.03, 0.01))
+    ),
+    "none": st.just(()),
+}
+"""Coefficients of each model of `MODELS`; tangential ones far larger than those of sold lenses."""
+
+
+@pytest.mark.parametrize("model", MODELS)
+@given(data=st.data())
+@settings(max_examples=25)
+def test_undistorted_pixels_lie_where_opencv_puts_them(model: str, data: st.DataObject) -> None:
+    lens = Calibration(
+        (160.0, 170.0, 118.0, 92.0), data.draw(LENSES[model]), model == "equidistant"
+    )
     fx, fy, cx, cy = lens.intrinsics
-    rays = np.stack([(x - cx) / fx, (y - cy) / fy, np.ones_like(x)], axis=-1).reshape(-1, 1, 3)
     camera = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
-    project = cv2.fisheye.projectPoints if lens.is_equidistant else cv2.projectPoints
-    seen = project(rays, np.zeros(3), np.zeros(3), camera, np.array(lens.coefficients))[0]
-    column, row = np.rint(seen.reshape(-1, 2)).astype(int).T
-    back = places[row, column]
-    # Rounding twice: half a pixel before, stretched by the lens, and half a pixel after.
-    assert np.abs(back[:, 0] - x.reshape(-1)).max() <= 2
-    assert np.abs(back[:, 1] - y.reshape(-1)).max() <= 2
-    assert np.mean(np.abs(back - np.stack([x, y], axis=-1).reshape(-1, 2))) < 0.5
+    y, x = np.mgrid[:180:5, :240:5].astype(np.float64)
+    seen = np.stack([x, y], axis=-1).reshape(-1, 1, 2)
+    search = cv2.fisheye.undistortPoints if lens.is_equidistant else cv2.undistortPoints
+    settled = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-9)
+    known = search(seen, camera, np.array(lens.coefficients), P=camera, criteria=settled)
+    known = known.reshape(36, 48, 2)
+    places = lens.undistorted(SensorSize(240, 180))[::5, ::5]
+    inside = (places >= 0).all(axis=-1)
+    assert inside.mean() > 0.5
+    assert np.abs(places - known)[inside].max() < 0.5 + 1e-2
+    # Pixels that lie on the sensor, and not at its edge, are found.
+    assert inside[((known > 0) & (known < (239, 179))).all(axis=-1)].all()
 
 
 def test_a_lens_without_distortion_moves_nothing() -> None:
@@ -165,23 +177,16 @@ def test_kalibrs_cameras_are_read_by_their_name(tmp_path: Path) -> None:
     assert read_calibration(Path(f"{path}:cam1")).intrinsics[0] == 99.0
 
 
-ALIASES = "a0: &a0 [l,l]\n" + "".join(f"a{i}: &a{i} [*a{i - 1},*a{i - 1}]\n" for i in range(1, 40))
-MERGES = "x0: &x0 {a: 1}\n" + "".join(
-    f"x{i}: &x{i} {{<<: [*x{i - 1},*x{i - 1}]}}\n" for i in range(1, 40)
-)
 WRONG = {
     "txt": [
         *("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0", "1 1 1 1 inf 0 0 0 0"),
         "-9 9 9 9 0 0 0 0 0",
     ],
     "yaml": [
-        *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}", "cam0: {intrinsics: " + "[" * 5000),
+        *("a: 1", "[1]", "{", "cam0: {intrinsics: [1]}"),
         "1: {intrinsics: [1, 1, 1, .nan]}",
         "cam0: {intrinsics: [0, 1, 1, 1]}",
         *(f"cam0: {{intrinsics: [9, 9, 9, {one}]}}" for one in ("true", '"9"', "null", "[9]")),
-        MERGES + "cam0: {intrinsics: [1, 1, 1, 1]}",
-        ALIASES + KALIBR.replace("pinhole", "*a39"),
-        ALIASES + KALIBR.replace("equidistant", "*a39"),
         *(KALIBR.replace("pinhole", one) for one in ("omni", "ds", "eucm")),
         KALIBR.replace("equidistant", "fov"),
         KALIBR.replace("equidistant", "none"),
@@ -213,19 +218,6 @@ def test_cameras_of_any_name_are_chosen(tmp_path: Path, names: tuple[str, str]) 
     ):
         read_calibration(path)
     assert read_calibration(Path(f"{path}:{names[1]}")).is_equidistant
-
-
-@pytest.mark.parametrize("tangential", [(0.01, -0.004), (-0.004, 0.01)])
-def test_both_tangential_coefficients_are_opencvs(tangential: tuple[float, float]) -> None:
-    lens = Calibration((300.0, 310.0, 118.0, 92.0), (-0.1, 0.02, *tangential, 0.0))
-    fx, fy, cx, cy = lens.intrinsics
-    camera = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
-    seen = np.stack(np.mgrid[:240, :180], axis=-1).astype(np.float64).reshape(-1, 1, 2)
-    known = cv2.undistortPoints(seen, camera, np.array(lens.coefficients), P=camera)
-    places = lens.undistorted(SensorSize(240, 180)).transpose(1, 0, 2).reshape(-1, 2)
-    inside = (places >= 0).all(axis=1)
-    assert inside.mean() > 0.9
-    assert np.abs(places - known.reshape(-1, 2))[inside].max() < 0.51
 
 
 def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path: Path) -> None:

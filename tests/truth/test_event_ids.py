@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.events import EventStream
+from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
+from texvent.scenes.scene import Shape
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
 from texvent.truth.source import Flow, Snapshot
 
-from .hand_video import SIZE, board_video
+from ..scenes.hand_scenes import HandScene, MovingShape, moving, still
+from .hand_video import FPS, SIZE, board_video, level
 
 SMALL = SensorSize(8, 1)
 
@@ -38,12 +44,33 @@ def test_an_event_of_a_scene_is_what_its_pixel_touches_at_either_instant():
     assert set(found) == {0, 3}
 
 
-def test_the_nearer_object_wins_wherever_a_pixel_sees_two():
-    before = snapshot(0, [0, 1, 1, 2, 2, 0, 0, 0], [9, 5, 5, 3, 3, 9, 9, 9], np.zeros(8))
-    after = snapshot(1000, [0, 1, 2, 2, 1, 0, 0, 0], [9, 5, 3, 3, 5, 9, 9, 9])
-    found = ids_of_frames(before, after, Interval(0, 1000, events_at(range(8))))
-    # Moved by nothing, the ids stay until the later frame: there the earlier ones are still seen.
-    assert found.tolist() == [0, 1, 1, 2, 2, 0, 0, 0]
+INSTANT = st.lists(st.tuples(st.integers(0, 2), st.integers(1, 9)), min_size=8, max_size=8)
+"""Id and depth of eight pixels."""
+
+
+@given(INSTANT, INSTANT)
+def test_an_event_shows_the_nearest_object_of_both_instants(first, second):
+    before, after = (snapshot(t, *zip(*one, strict=True)) for t, one in ((0, first), (9, second)))
+    found = ids_of_frames(before, after, Interval(0, 9, events_at(range(8))))
+    for one, *seen in zip(found.tolist(), first, second, strict=True):
+        objects = [(depth, number) for number, depth in seen if number]
+        assert one == min(objects, key=lambda pair: pair[0], default=(0, 0))[1]
+
+
+@pytest.mark.parametrize("gone_first", [True, False])
+def test_of_two_objects_of_a_scene_seen_one_after_the_other_the_nearer_one_counts(gone_first):
+    """A near board moves off a far one, or before it; each pixel sees one at each instant."""
+    way = 15.0 * (1 if gone_first else -1)
+    near = moving((0.0 if gone_first else 0.6, 0.0, 1.5), (way, 0.0, 0.0))
+    boards = (
+        MovingShape(Shape.BOX, (0.5, 0.1, 1.0), near, instance=3),
+        MovingShape(Shape.BOX, (9.0, 0.1, 5.0), still(0.0, 4.0, 1.5), instance=4),
+    )
+    video = ProceduralVideo(HandScene(boards, level), SIZE, ProceduralConfig(fps=FPS, duration=0.1))
+    found = ids_of_scene(video, Interval(0, 40_000, events_at(range(80), 25, SIZE)))
+    # 0.5 m either side of 0, then of 0.6 m, 7.9 m away, at a focal length of 80 px.
+    assert np.flatnonzero(found == 3).tolist() == list(range(34, 52))
+    assert set(found) == {3, 4}
 
 
 def test_ids_move_along_their_vectors_and_near_ones_cover_far_ones():

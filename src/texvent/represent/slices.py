@@ -89,10 +89,9 @@ def _by_time(
     start = int(events.t[0]) if start_us is None else start_us
     last = int(events.t[-1])
     while start <= last:
-        is_partial = start + length > last + 1
-        if not is_partial or keep_partial:
+        if start + length <= last + 1 or keep_partial:
             yield events.cut(start, start + length)
-        if is_partial:
+        if start + length > last:
             return
         start += stride
 

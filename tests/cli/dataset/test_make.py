@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import subprocess
 import sys
@@ -122,20 +121,6 @@ def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     said = capsys.readouterr().err
     assert "2 of 3 prompts are refused, such as 'a wug and a dog run': strict: " in said
     assert not (folder / "wugs").exists()
-
-
-def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
-    assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
-    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
-    planned = {row[0]: int(row[4].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
-    assert run("make", "cars.toml", "--workers", 1, "-q") == 0
-    capsys.readouterr()
-    assert run("stats", "cars", "--json") == 0
-    for name, splits in json.loads(capsys.readouterr().out)["variants"].items():
-        events, samples = (
-            sum(one[key] for one in splits.values()) for key in ("events", "samples")
-        )
-        assert events / samples == pytest.approx(planned[name], abs=1)
 
 
 def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder, capsys):

@@ -133,20 +133,6 @@ def test_as_many_events_as_are_allowed_are_kept() -> None:
     assert over.left_out == f"more than {count - 1:,} events"
 
 
-def test_only_what_is_missing_is_made(cars: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "cars"
-    shutil.copytree(cars, folder)
-    (folder / "esim" / "test-000000.json").unlink()
-    (folder / "paper" / "train-000000.tar").write_bytes(b"cut off")
-    work = find_work(load_recipe(folder), folder)
-    assert [[str(one.path) for one in task.shards] for task in work.todo] == [
-        ["paper/train-000000.tar"],
-        ["esim/test-000000.tar"],
-    ]
-    make(load_recipe(folder), folder)
-    assert digests(folder) == digests(cars)
-
-
 def test_another_specification_is_refused_with_the_difference(cars: Path) -> None:
     with pytest.raises(ConfigError, match="seed was 3, is 4"):
         recipe_of(seed=4).begin(cars)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import json
-from itertools import pairwise
 from pathlib import Path
 
+import cv2
 import h5py
 import numpy as np
 import pytest
 import yaml
+from tests.dataset.conftest import assert_same
 from tests.dataset.layouts.crossing import SIZE, crossing, crossing_boxes, crossing_events
+from tests.dataset.layouts.readers import READERS
 
 from texvent.dataset.export import LAYOUTS
 from texvent.dataset.layouts.rvt import REPRESENTATION, write_rvt
@@ -69,64 +70,17 @@ def test_rvt_leaves_out_what_has_no_box_and_leaves_nothing_half_written(tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("count", [0, 30_000])
-def test_gen1_by_the_bits_of_the_toolbox(tmp_path: Path, count: int) -> None:
-    events = crossing_events()[:count]
-    sample = crossing(read_events=lambda: events)
-    assert LAYOUTS["gen1"].write(sample, tmp_path / "abc_td.dat")
-    with (tmp_path / "abc_td.dat").open("rb") as file:
-        header = {}
-        while (line := file.peek(2)[:2]) == b"% ":
-            words = file.readline().split()
-            header[words[1]] = words[2]
-        assert file.read(2)[1] == 8
-        raw = np.frombuffer(file.read(), "<u4").reshape(-1, 2)
-    assert line != b"% "
-    assert (header[b"Width"], header[b"Height"]) == (b"64", b"48")
-    np.testing.assert_array_equal(raw[:, 0], events.t)
-    np.testing.assert_array_equal(raw[:, 1] & 16383, events.x)
-    np.testing.assert_array_equal(raw[:, 1] >> 14 & 16383, events.y)
-    np.testing.assert_array_equal(raw[:, 1] >> 28, events.p)
-    boxes = np.load(tmp_path / "abc_bbox.npy")
-    for name in sample.boxes.dtype.names:
-        np.testing.assert_array_equal(boxes[name], sample.boxes[name])
-
-
-def test_dsec_det_windows_between_images(tmp_path: Path) -> None:
+def test_dsec_det_begins_its_index_at_the_first_image_before_any_event(tmp_path: Path) -> None:
     sample = crossing()
-    events = sample.read_events().between(3_000, 200_000)  # later than the first image
-    LAYOUTS["dsec-det"].write(crossing(read_events=lambda: events), tmp_path / "abc")
-    times = np.genfromtxt(tmp_path / "abc/images/timestamps.txt", dtype="int64")
-    assert times.tolist() == sample.instants_us.tolist()
-    pictures = sorted((tmp_path / "abc/images/left/distorted").glob("*.png"))
-    assert len(pictures) == len(times)
-    tracks = np.load(tmp_path / "abc/object_detections/left/tracks.npy")
-    assert tracks.dtype.names == (
-        "t",
-        "x",
-        "y",
-        "h",
-        "w",
-        "class_id",
-        "class_confidence",
-        "track_id",
-    )
-    assert set(tracks["t"].tolist()) <= set(times.tolist())
+    events = sample.read_events().between(3_000, 200_000)
+    (tmp_path / "train").mkdir()
+    LAYOUTS["dsec-det"].write(crossing(read_events=lambda: events), tmp_path / "train/abc")
+    LAYOUTS["dsec-det"].finish(tmp_path, [sample], ())
+    ((_, read),) = READERS["dsec-det"](tmp_path)
+    assert_same(read.events, events)
+    tracks = np.load(tmp_path / "train/abc/object_detections/left/tracks.npy")
+    assert tracks.dtype.names == (*"txyhw", "class_id", "class_confidence", "track_id")
     np.testing.assert_array_equal(tracks["h"], sample.boxes["h"])
-    with h5py.File(tmp_path / "abc/events/left/events.h5") as file:
-        index, offset = file["ms_to_idx"][()], int(file["t_offset"][()])
-        columns = {name: file["events"][name][()] for name in "xytp"}
-    kinds = [columns[name].dtype.str for name in "xytp"]
-    assert (kinds, index.dtype.str) == (["<u2", "<u2", "<u4", "|u1"], "<u8")
-    for start, stop in pairwise(times):
-        # Whole milliseconds: the index alone gives the events.
-        first, last = (
-            index[(start - offset) // 1000],
-            index[min((stop - offset) // 1000, len(index) - 1)],
-        )
-        part = events.cut(int(start), int(stop))
-        np.testing.assert_array_equal(columns["t"][first:last] + offset, part.t)
-        np.testing.assert_array_equal(columns["y"][first:last], part.y)
 
 
 def test_dsec_det_names_the_sequences_of_splits_that_share_a_folder(tmp_path: Path) -> None:
@@ -136,50 +90,10 @@ def test_dsec_det_names_the_sequences_of_splits_that_share_a_folder(tmp_path: Pa
     assert found == {"train": ["a"], "val": ["b"]}
 
 
-def test_timelens_has_the_events_between_two_frames_beside_them(tmp_path: Path) -> None:
-    import cv2
-
+def test_timelens_has_the_frames_as_they_are(tmp_path: Path) -> None:
     sample = crossing()
     LAYOUTS["timelens"].write(sample, tmp_path / "abc")
-    times = np.loadtxt(tmp_path / "abc/images/timestamp.txt").tolist()
-    assert times == sample.instants_us.tolist()
     with sample.read_frames() as frames:
         for index, frame in enumerate(frames):
             picture = cv2.imread(str(tmp_path / f"abc/images/{index:06d}.png"))[..., ::-1]
             np.testing.assert_array_equal(picture, frame_image(frame))
-    files = sorted((tmp_path / "abc/events").iterdir())
-    assert [one.name for one in files] == [f"{index:06d}.npz" for index in range(1, 7)]
-    stored = [np.load(one) for one in files]
-    events = sample.read_events()
-    for name in "xytp":
-        np.testing.assert_array_equal(
-            np.concatenate([one[name] for one in stored]), getattr(events, name)
-        )
-    assert all(
-        ((one["t"] >= 40_000 * n) & (one["t"] < 40_000 * (n + 1))).all()
-        for n, one in enumerate(stored)
-    )
-
-
-def test_coco_has_an_image_of_every_instant_with_events_behind_it(tmp_path: Path) -> None:
-    sample = crossing()
-    LAYOUTS["coco"].write(sample, tmp_path / "train/abc") if (
-        tmp_path / "train"
-    ).mkdir() is None else None
-    LAYOUTS["coco"].finish(
-        tmp_path, [sample, crossing(key="b", boxes=sample.boxes[:0])], ("car", "man")
-    )
-    found = json.loads((tmp_path / "train/annotations.json").read_text())
-    assert found["categories"][1] == {"id": 2, "name": "man", "supercategory": "object"}
-    assert [one["t_us"] for one in found["images"]] == [
-        80_000,
-        120_000,
-        160_000,
-        200_000,
-        240_000,
-    ] * 2
-    assert all((tmp_path / "train" / one["file_name"]).is_file() for one in found["images"][:5])
-    assert len(found["annotations"]) == 9
-    last = found["annotations"][-1]
-    assert last == {"id": 9, "image_id": 5, "category_id": 2, "bbox": [40, 20, 8, 20], "area": 160,
-                    "iscrowd": 0, "track_id": 9}  # fmt: skip
