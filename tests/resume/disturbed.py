@@ -1,12 +1,11 @@
-"""Commands that resume, and everything that may happen between two of their runs.
+"""Commands that resume, and what may happen between two of their runs.
 
-`Resumable` is a row of a table of commands. A kill is the folder as it is before a step that
-changes it: such copies are taken of a whole run, and each is what the next process would find.
+A kill is the folder as it is before a step that changes it: such copies are taken of a whole run,
+and each is what the next process would find.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import shutil
@@ -27,8 +26,8 @@ STEPS = ("replace", "rename", "unlink", "remove", "rmdir", "mkdir", "fsync")
 """Functions of `os` that change a folder, or make a change durable."""
 NOBODY = 2**22 + 1
 """A number that no process has."""
-OF_THE_CLOCK = ("seconds", "seen", "train_seconds")
-"""Values that no two runs share: times of work, and states that hold times of change."""
+OF_THE_CLOCK = ("seconds", "seen")
+"""Times of work, and states that hold times of change: no two runs share them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,48 +36,82 @@ class Resumable:
 
     prepare: Callable[[], None]
     """Writes its inputs."""
-    words: tuple[object, ...] = ()
-    """The command."""
-    run: Callable[..., int] = run
-    """Runs the words; returns an exit code."""
-    out: str = "out"
-    """Folder of its outputs."""
-    index: tuple[str, ...] = ()
-    """Files in it that say what is done."""
+    words: tuple[object, ...]
+    """The command; its outputs are in the folder `out`."""
+    index: tuple[str, ...]
+    """Patterns of files there that say what is done."""
+    rewritten: tuple[str, ...] = ()
+    """Patterns of those that every run writes."""
     changes: Mapping[str, Callable[[], tuple[object, ...] | None]] = field(default_factory=dict)
     """Changes of inputs; each gives the words of the run that follows, if they are others."""
     checks: tuple[object, ...] = ()
-    """A command that sees damage of outputs at which a second run does not look: those of
-    `STATED_ELSEWHERE`."""
+    """A command that sees damage that leaves the size of an output as it was, where a second run
+    does not look."""
     readers: Mapping[str, Callable[[Path], Any]] = field(default_factory=dict)
-    """Extension → what is compared of a file; without one, all its bytes."""
+    """Extension → what is compared of a file; else its bytes, or values without the clock's."""
 
-    def contents(self) -> dict[str, Any]:
-        """Place of every output, hidden ones too → what is compared of it."""
-        folder = Path(self.out)
-        files = sorted(one for one in folder.rglob("*") if one.is_file())
-        return {str(one.relative_to(folder)): self._read(one) for one in files}
+    def outputs(self) -> dict[str, Any]:
+        """Place of every output, also of hidden ones → what is compared of it."""
+        readers = {".json": _as_json, ".jsonl": _as_rows, **self.readers}
+        files = sorted(one for one in Path("out").rglob("*") if one.is_file())
+        return {str(one): readers.get(one.suffix, Path.read_bytes)(one) for one in files}
 
-    def _read(self, path: Path) -> Any:
-        reader = {".json": as_json, ".jsonl": as_rows, **self.readers}.get(path.suffix)
-        return path.read_bytes() if reader is None else reader(path)
+    def states(self) -> dict[str, tuple[int, int]]:
+        """Place of every output that one run writes → its number on the disk, time of change."""
+        again = (*self.index, *self.rewritten)
+        found = {name: Path(name).stat() for name in self.outputs()}
+        return {
+            name: (one.st_ino, one.st_mtime_ns)
+            for name, one in found.items()
+            if not any(map(Path(name).match, again))
+        }
 
 
-def as_json(path: Path) -> Any:
-    """Values of a JSON file without those of the clock."""
+def _as_json(path: Path) -> Any:
     return _timeless(json.loads(path.read_text()))
 
 
-def as_rows(path: Path) -> Any:
-    """The last line of every key, without values of the clock."""
+def _as_rows(path: Path) -> Any:
+    """The last line of every key: others say that it was begun."""
     rows = [_timeless(json.loads(line)) for line in path.read_text().splitlines()]
     return {row.get("key", number): row for number, row in enumerate(rows)}
 
 
 def _timeless(value: Any) -> Any:
     if isinstance(value, dict):
-        return {n: _timeless(one) for n, one in value.items() if n not in OF_THE_CLOCK}
-    return [_timeless(one) for one in value] if isinstance(value, list) else value
+        return {name: _timeless(one) for name, one in value.items() if name not in OF_THE_CLOCK}
+    return [*map(_timeless, value)] if isinstance(value, list) else value
+
+
+@dataclass(frozen=True)
+class Runs:
+    """A command that nothing disturbed: the folder before, after and when it was killed."""
+
+    command: Resumable
+    begun: Path
+    done: Path
+    killed: list[Path]
+    whole: dict[str, Any]
+
+    def run_again(self, state: Path, words: tuple[object, ...] = ()) -> int:
+        """The exit code of a run in a folder as it was, by what could be a new process."""
+        restore(state)
+        return run(*(words or self.command.words))
+
+
+@contextmanager
+def undisturbed(command: Resumable, places: Path) -> Iterator[Runs]:
+    """A command run in a folder of `places`, which is the working directory inside the block."""
+    here, begun, done, killed = (places / name for name in ("here", "begun", "done", "killed"))
+    here.mkdir()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(here)
+        command.prepare()
+        shutil.copytree(here, begun)
+        with kills(killed):
+            assert run(*command.words) == 0
+        shutil.copytree(here, done)
+        yield Runs(command, begun, done, sorted(killed.iterdir()), command.outputs())
 
 
 def restore(state: Path) -> None:
@@ -91,193 +124,131 @@ def restore(state: Path) -> None:
 
 
 @contextmanager
-def kills(kept: Path) -> Iterator[list[Path]]:
-    """Copies of the working directory before every step inside the block.
+def kills(kept: Path) -> Iterator[None]:
+    """Keep the working directory before every step inside the block, as a kill leaves it.
 
     Of those in which the same is visible, the one with most hidden parts; parts have the name of a
     process that is dead.
     """
     found: dict[str, tuple[int, Path]] = {}
-    copies: list[Path] = []
-    lock, here = threading.RLock(), Path.cwd()
-    is_copying = False
+    lock, here, is_copying = threading.RLock(), Path.cwd(), False
 
-    def take() -> None:
-        paths = sorted(here.rglob("*"))
-        hidden = [one for one in paths if atomic.PREFIX in str(one)]
-        shown = [one for one in paths if one.is_file() and one not in hidden]
-        seen = repr([(str(one), one.read_bytes()) for one in shown]).encode()
-        key = hashlib.sha256(seen).hexdigest()
-        if key in found and found[key][0] >= len(hidden):
+    def keep() -> None:
+        paths = sorted(one for one in here.rglob("*") if one.is_file())
+        shown = {str(one): one.read_bytes() for one in paths if atomic.PREFIX not in str(one)}
+        parts = len(paths) - len(shown)
+        before, place = found.get(repr(shown), (-1, kept / f"{len(found):03d}"))
+        if parts <= before:
             return
-        place = kept / f"{len(list(kept.iterdir())):03d}"
+        shutil.rmtree(place, ignore_errors=True)
         shutil.copytree(here, place)
         for one in sorted(place.rglob(f"{atomic.PREFIX}*"), reverse=True):
             one.rename(one.with_name(one.name.replace(f"-{os.getpid()}-", f"-{NOBODY}-")))
-        found[key] = len(hidden), place
+        found[repr(shown)] = parts, place
 
-    def watched(function: Callable[..., Any]) -> Callable[..., Any]:
+    def watched(step: Callable[..., Any]) -> Callable[..., Any]:
         def call(*words: Any, **named: Any) -> Any:
             nonlocal is_copying
             with lock:
                 if not is_copying:
                     is_copying = True
-                    try:
-                        take()
-                    finally:
-                        is_copying = False
-                return function(*words, **named)
+                    keep()
+                    is_copying = False
+                return step(*words, **named)
 
         return call
 
     with pytest.MonkeyPatch.context() as patch:
         for name in STEPS:
             patch.setattr(os, name, watched(getattr(os, name)))
-        yield copies
-    copies += [place for _, place in found.values()]
+        yield
 
 
-@dataclass(frozen=True)
-class Runs:
-    """A command run without disturbance, and the folders that kills of it leave."""
-
-    command: Resumable
-    begun: Path
-    """The folder before."""
-    done: Path
-    """The folder after."""
-    killed: list[Path]
-    whole: dict[str, Any]
-    """Contents of the outputs."""
-
-
-@contextmanager
-def undisturbed(command: Resumable, places: Path) -> Iterator[Runs]:
-    """A command run in a folder inside `places`, which is the working directory in the block."""
-    here, kept = places / "here", places / "kept"
-    for one in (here, kept):
-        one.mkdir()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(here)
-        command.prepare()
-        shutil.copytree(here, places / "begun")
-        with kills(kept) as killed:
-            assert command.run(*command.words) == 0
-        shutil.copytree(here, places / "done")
-        yield Runs(command, places / "begun", places / "done", killed, command.contents())
-
-
-def goes_on_after_every_kill(runs: Runs) -> None:
+def kill_it(runs: Runs, capsys: pytest.CaptureFixture[str]) -> None:
+    """Killed at any instant it goes on, and nothing is left of the process that died."""
     assert len(runs.killed) > 3
     for killed in runs.killed:
-        restore(killed)
-        assert runs.command.run(*runs.command.words) == 0, killed.name
-        assert runs.command.contents() == runs.whole, killed.name
+        assert runs.run_again(killed) == 0, killed.name
+        assert runs.command.outputs() == runs.whole, killed.name
 
 
-def notices_every_change(runs: Runs, capsys: pytest.CaptureFixture[str]) -> None:
+def run_it_twice(runs: Runs, capsys: pytest.CaptureFixture[str]) -> None:
+    """Outputs that are all there are not made again, though inputs were touched."""
+    restore(runs.done)
+    before = runs.command.states()
+    for one in Path().rglob("*"):
+        if one.is_file() and "out" not in one.parts:
+            os.utime(one, (1, 1))
+    assert run(*runs.command.words) == 0
+    assert runs.command.states() == before
+    assert runs.command.outputs() == runs.whole
+
+
+def change_its_inputs(runs: Runs, capsys: pytest.CaptureFixture[str]) -> None:
     """Every change ends as a run of the changed inputs in a new folder, or is refused."""
-    command = runs.command
-    for name, change in command.changes.items():
+    for name, change in runs.command.changes.items():
         restore(runs.begun)
-        words = change() or command.words
-        assert command.run(*words) == 0, name
-        expected = command.contents()
+        words = change() or runs.command.words
+        assert run(*words) == 0, name
+        expected = runs.command.outputs()
         restore(runs.done)
         change()
-        if not is_refused(command.run, words, capsys):
-            assert command.contents() == expected, name
+        if not _is_refused(words, capsys):
+            assert runs.command.outputs() == expected, name
 
 
-def is_refused(
-    run: Callable[..., int], words: tuple[object, ...], capsys: pytest.CaptureFixture[str]
-) -> bool:
+def damage_its_outputs(
+    runs: Runs, capsys: pytest.CaptureFixture[str], *, how_often: int = 1
+) -> None:
+    """What is damaged is made again or refused, or a command that checks outputs says it."""
+    command, kinds = runs.command, dict[str, str]()
+    for name in runs.whole:
+        path = Path(name)
+        is_state = len(path.parts) == 2 and any(map(path.match, command.index))
+        kinds.setdefault(name if is_state else f"{len(path.parts)} {path.suffixes[-2:]}", name)
+    for number, name in enumerate(kinds.values()):
+        some = [OF_OUTPUTS[(number + n) % len(OF_OUTPUTS)] for n in range(how_often)]
+        is_index = any(map(Path(name).match, command.index))
+        for how in OF_INDICES if is_index else ("deleted", *some):
+            restore(runs.done)
+            content = DAMAGE[how](Path(name).read_bytes())
+            Path(name).unlink() if content is None else Path(name).write_bytes(content)
+            if _is_refused(command.words, capsys) or command.outputs() == runs.whole:
+                continue
+            assert (how, command.checks != ()) == ("flipped", True), (name, how)
+            assert run(*command.checks) != 0, (name, how)
+
+
+def damage_its_outputs_in_every_way(runs: Runs, capsys: pytest.CaptureFixture[str]) -> None:
+    """As `damage_its_outputs`."""
+    damage_its_outputs(runs, capsys, how_often=len(OF_OUTPUTS))
+
+
+def _is_refused(words: tuple[object, ...], capsys: pytest.CaptureFixture[str]) -> bool:
     """Whether a run ends with one line that says why."""
     capsys.readouterr()
     code = run(*words)
     errors = [line for line in capsys.readouterr().err.splitlines() if line.startswith("error: ")]
-    assert (code != 0) == (len(errors) == 1)
+    assert len(errors) == (code != 0)
     return code != 0
-
-
-HARMS: Mapping[str, Callable[[bytes, bytes], bytes | None]] = {
-    "deleted": lambda content, older: None,
-    "truncated": lambda content, older: content[: len(content) // 2],
-    "flipped": lambda content, older: _flipped(content),
-    "older": lambda content, older: older,
-    "cut": lambda content, older: content[:-9],
-    "emptied": lambda content, older: b"",
-}
-"""Name → content of a damaged file, from that before and that of another run; None: no file."""
-OF_OUTPUTS = ("truncated", "flipped", "older")
-OF_INDICES = ("deleted", "cut", "emptied")
-STATED_ELSEWHERE = ("flipped", "older")
-"""Damage that leaves the size of a file as it was, or may leave it."""
-Harms = Callable[[int], tuple[str, ...]]
-"""Number of an output → what is done to it."""
-
-
-def FEW(number: int) -> tuple[str, ...]:
-    """It is deleted, and damaged in one way."""
-    return ("deleted", OF_OUTPUTS[number % len(OF_OUTPUTS)])
-
-
-def ALL(number: int) -> tuple[str, ...]:
-    """Everything."""
-    return ("deleted", *OF_OUTPUTS)
 
 
 def _flipped(content: bytes) -> bytes:
     middle = len(content) // 2
-    return (
-        content[:middle]
-        + bytes(one ^ 0x10 for one in content[middle : middle + 1])
-        + (content[middle + 1 :])
-    )
+    return bytes(one ^ 16 if place == middle else one for place, one in enumerate(content))
 
 
-def makes_damaged_outputs_again(
-    runs: Runs, harms: Harms, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Damaged outputs are made again or named, by the command or by the one that checks them."""
-    command, older = runs.command, _older(runs)
-    for place, how in _damage(command, runs.whole, harms):
-        restore(runs.done)
-        path, other = Path(command.out, place), older / place
-        before = path.read_bytes()
-        content = HARMS[how](before, other.read_bytes() if other.exists() else before)
-        if content == before:
-            continue
-        path.unlink() if content is None else path.write_bytes(content)
-        if is_refused(command.run, command.words, capsys) or command.contents() == runs.whole:
-            continue
-        assert how in STATED_ELSEWHERE, (place, how)
-        assert command.checks, (place, how)
-        assert command.run(*command.checks) != 0, (place, how)
-
-
-def _older(runs: Runs) -> Path:
-    """Outputs of a run on another content, under the same names where those do not tell."""
-    older = runs.done.with_name("older")
-    if "content" in runs.command.changes and not older.exists():
-        restore(runs.begun)
-        runs.command.changes["content"]()
-        runs.command.run(*runs.command.words)
-        shutil.copytree(runs.command.out, older)
-    return older
-
-
-def _damage(
-    command: Resumable, whole: Mapping[str, Any], harms: Harms
-) -> Iterator[tuple[str, str]]:
-    """Place of one file of every kind, and what is done to it."""
-    kinds: dict[object, str] = {}
-    for place in whole:
-        path = Path(place)
-        is_index = any(map(path.match, command.index))
-        kind = place if is_index and len(path.parts) == 1 else (len(path.parts), path.suffixes[-2:])
-        kinds.setdefault(repr((is_index, kind)), place)
-    for number, place in enumerate(kinds.values()):
-        is_index = any(map(Path(place).match, command.index))
-        for how in OF_INDICES if is_index else harms(number):
-            yield place, how
+DAMAGE: Mapping[str, Callable[[bytes], bytes | None]] = {
+    "deleted": lambda content: None,
+    "truncated": lambda content: content[: len(content) // 2],
+    "flipped": _flipped,
+    "cut": lambda content: content[:-9],
+    "emptied": lambda content: b"",
+    "begun otherwise": lambda content: b"x" + content[1:],
+}
+"""Name → content of a damaged file, from that before; None: no file."""
+OF_OUTPUTS, OF_INDICES = ("truncated", "flipped"), ("deleted", "cut", "emptied", "begun otherwise")
+DISTURBANCES = [
+    *(kill_it, run_it_twice, change_its_inputs, damage_its_outputs),
+    pytest.param(damage_its_outputs_in_every_way, marks=pytest.mark.nightly),
+]

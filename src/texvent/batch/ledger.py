@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -47,18 +47,21 @@ class Ledger:
         folder = self._path.parent
         return files is not None and all(is_unchanged(folder / n, one) for n, one in files.items())
 
-    def begin(self, keys: Iterable[str], *, without: Collection[str] = ()) -> None:
+    def begin(self, keys: Iterable[str]) -> None:
         """Note results that are to be made now; durable before it returns.
 
         Until they are complete again, what is there of them may be replaced.
-
-        Args:
-            keys: of these results.
-            without: keys of results to forget.
         """
         self._rows |= {key: {"key": key} for key in keys}
-        self._rows = {key: row for key, row in self._rows.items() if key not in without}
-        # Written anew: a line that was cut off by a power failure goes.
+        self.write()
+
+    def forget(self, keys: Iterable[str]) -> None:
+        """Drop results; `write` makes it durable."""
+        for key in keys:
+            del self._rows[key]
+
+    def write(self) -> None:
+        """Write a line for each result anew; one that was cut off by a power failure goes."""
         with atomic_file(self._path, overwrite=True) as part:
             text = "".join(f"{json.dumps(row)}\n" for row in self._rows.values())
             part.write_text(text, encoding="utf-8")

@@ -65,6 +65,10 @@ class Manifest:
         with atomic_file(self._folder / OPTIONS_FILE, overwrite=True) as part:
             part.write_text(json.dumps(options, indent=1) + "\n", encoding="utf-8")
 
+    def end(self) -> None:
+        """Leave one line for each sample."""
+        self._ledger.write()
+
     def is_done(self, sample: Sample) -> bool:
         """True if its files are there, as they were, and so is all that it was made of."""
         if self._options is None or not self._ledger.is_complete(sample.key):

@@ -103,7 +103,7 @@ def export(
     _begin(dataset, layout, folder, variant, listed)
     ledger = Ledger(folder / LEDGER_FILE, remedy=REMEDY)
     samples = Samples(dataset, chosen, variant, listed, recipe)
-    ledger.begin(())
+    ledger.write()
     written, kept, empty, others = 0, 0, 0, {*ledger}
     for sample in samples:
         others.discard(sample.place)
@@ -115,7 +115,8 @@ def export(
         written += 1
     for place in others:  # of samples that the data set no longer has
         _remove(chosen.files_of(inside(folder, place)))
-    ledger.begin((), without=others)
+    ledger.forget(others)
+    ledger.write()
     chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
     doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:

@@ -229,6 +229,7 @@ def _make_all(
                 else:
                     failed += 1
                     say(f"failed   {outcome.task.sample.where}: {outcome.failure}")
+            manifest.end()
             tally = ReportTally()
             for report in filter(None, map(manifest.report_of, samples)):
                 tally.add(report)

@@ -198,7 +198,7 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
 
 
 def _facts_of_score(state: TrainingState, clips: Path) -> dict[str, Any]:
-    """The training, the clips of its arm, and whether there is a street: a score depends on them."""
+    """A score depends on a training, on the clips of its arm, and on whether there is a street."""
     made_of = Ledger(clips / LEDGER_FILE, remedy="delete it, and the clips are exported again")
     facts = {
         "texvent_version": state.version,
