@@ -229,7 +229,7 @@ def _is_refused(words: tuple[object, ...], capsys: pytest.CaptureFixture[str]) -
     capsys.readouterr()
     code = run(*words)
     errors = [line for line in capsys.readouterr().err.splitlines() if line.startswith("error: ")]
-    assert len(errors) == (code != 0)
+    assert len(errors) == (code != 0), (code, errors)
     return code != 0
 
 

@@ -23,18 +23,17 @@ def write_bars(shift: int = 0) -> None:
 
 
 def write_clips() -> None:
-    write_specification(Path(), TEXT.replace("0.125", "0.07"))
+    write_specification(Path(), TEXT.replace("0.125", "0.07").replace(', "white"', ""))
     Path("clips.toml").write_text(
-        "schedule = {epochs = 2, batch_size = 1}\nnetwork.name = 'firenet'\n"
-        "data = {specification = 'tiny.toml', variant = 'paper', cache = 'out/cache', "
+        "schedule = {epochs = 1, batch_size = 1}\nnetwork.name = 'firenet'\n"
+        "data = {specification = 'tiny.toml', variant = 'paper', cache = 'cache', "
         "slice_us = 20_000, length = 2, crop = 16}\nloss = {lpips = 0, l1 = 1}\n"
     )
 
 
-def other_rate() -> None:
-    for path in map(Path, ("bars.toml", "clips.toml")):
-        if path.exists():
-            path.write_text(path.read_text().replace("epochs = 2", "epochs = 2\nweight_decay = .5"))
+def other_option() -> None:
+    path = Path("bars.toml")
+    path.write_text(f"{path.read_text()}weight_decay = 0.5\n")
 
 
 def as_weights(path: Path) -> Any:
@@ -54,7 +53,7 @@ TRAININGS = {
     "classification": Resumable(
         prepare=write_bars,
         words=("train", "classification", "bars.toml", "-o", "out", "--device", "cpu", "-q"),
-        changes={"content": lambda: write_bars(shift=1), "option": other_rate},
+        changes={"content": lambda: write_bars(shift=1), "option": other_option},
         **TRAIN,
     ),
     "reconstruction": Resumable(

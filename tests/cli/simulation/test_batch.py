@@ -5,15 +5,11 @@ from __future__ import annotations
 import io
 import json
 import multiprocessing
-import os
-import signal
 import sys
-import time
 from pathlib import Path
 
 import cv2
 import numpy as np
-import pytest
 from tests.cli.running import run
 
 import texvent
@@ -169,33 +165,3 @@ def test_mistakes_are_one_line(folder, capsys):
     assert run("batch", "p.txt", "--jobs", "0") == 2
     assert run("batch", "p.txt", "--keep-partial") == 2
     assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())
-
-
-TREES = "\n".join(f"a red car drives left past {count} trees" for count in range(2, 6))
-SMALL = ("--sensor", "48x36", "--duration", "0.2", "--previews", "png")
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """The samples of `TREES` made in one go, by this process."""
-    folder = tmp_path_factory.mktemp("whole")
-    (folder / "p.txt").write_text(TREES)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        assert run("batch", "p.txt", "--jobs", 1, *SMALL, "-o", "whole", "-q") == 0
-    return folder / "whole"
-
-
-def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn):
-    (folder / "p.txt").write_text(TREES)
-    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", "2"]
-    process = spawn([*words, *SMALL, "-o", "killed"], start_new_session=True)
-    manifest = Path("killed", "samples.jsonl")
-    while process.poll() is None and not (manifest.exists() and '"name"' in manifest.read_text()):
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate(timeout=300)
-    assert run("batch", "p.txt", *SMALL, "-o", "killed", "-q") == 0
-    assert recordings(folder / "killed") == recordings(whole)
-    names = {path.name for path in whole.iterdir()}
-    assert {path.name for path in Path("killed").iterdir()} == names

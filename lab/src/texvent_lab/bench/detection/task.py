@@ -49,8 +49,10 @@ def identity_of(clips: Sequence[Clip]) -> str:
     """Number of clips, and a digest of their names and contents."""
     found = hashlib.sha256()
     for one in clips:
-        for part in (one.key.encode(), one.places, one.counts, *one.boxes):
-            found.update(part)
+        found.update(one.key.encode())
+        parts: list[NDArray[Any]] = [one.places, one.counts, *one.boxes]
+        for part in parts:
+            found.update(part.tobytes())
     return f"{len(clips)} ({found.hexdigest()[:12]})"
 
 
