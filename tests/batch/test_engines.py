@@ -13,49 +13,72 @@ from pathlib import Path
 
 import pytest
 
-from texvent.batch.engines import ATTEMPTS, ProcessEngine
+from texvent.batch.engines import ATTEMPTS, Outcome, ProcessEngine
+from texvent.errors import InputError
+from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 
 @dataclass(frozen=True)
 class Task:
-    """A task that gives its process, or kills it."""
+    """A task that gives its process and the threads it may use, fails, or kills its process."""
 
     number: int
-    is_deadly: bool = False
+    how: str = "works"
+    deaths: Path | None = None
+    """Gets a line before every death."""
     is_video = False
 
-    def run(self) -> int:
-        if self.is_deadly:
+    def run(self) -> tuple[int, int]:
+        if self.how == "fails":
+            raise InputError("it cannot be made")
+        if self.how == "kills" and self.deaths is not None:
+            with self.deaths.open("a") as file:
+                file.write("died\n")
             os.kill(os.getpid(), signal.SIGKILL)
-        return os.getpid()
+        return os.getpid(), count_threads()
 
 
-def test_a_task_that_takes_its_process_down_harms_no_other() -> None:
-    with closing(ProcessEngine(2)) as engine:
-        for number in range(4):
-            engine.submit(Task(number, is_deadly=number == 1))
-        outcomes = {outcome.task.number: outcome for outcome in (engine.next() for _ in range(4))}
+def outcomes_of(processes: int, *tasks: Task) -> dict[int, Outcome]:
+    """Number of a task → its outcome."""
+    with closing(ProcessEngine(processes)) as engine:
+        for task in tasks:
+            engine.submit(task)
+        return {outcome.task.number: outcome for outcome in (engine.next() for _ in tasks)}
+
+
+def test_a_task_that_takes_its_process_down_harms_no_other(tmp_path: Path) -> None:
+    deaths = tmp_path / "deaths"
+    deadly = Task(1, "kills", deaths)
+    outcomes = outcomes_of(2, Task(0), deadly, Task(2), Task(3))
     assert f"its process died {ATTEMPTS} times" in (outcomes.pop(1).failure or "")
+    assert len(deaths.read_text().splitlines()) == ATTEMPTS
     assert set(outcomes) == {0, 2, 3}
     assert not any(one.failure for one in outcomes.values())
+
+
+def test_tasks_that_fail_leave_their_processes_to_others() -> None:
+    outcomes = outcomes_of(1, *(Task(number, "fails") for number in range(3)), Task(3))
+    assert [bool(outcomes[number].failure) for number in range(4)] == [True, True, True, False]
+
+
+def test_processes_share_the_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, "5")
+    assert [one.result[1] for one in outcomes_of(2, Task(0), Task(1)).values()] == [2, 2]
 
 
 def test_an_idle_process_that_was_killed_is_replaced() -> None:
     with closing(ProcessEngine(1)) as engine:
         engine.submit(Task(0))
-        first = engine.next().result
+        first, _ = engine.next().result
         os.kill(first, signal.SIGKILL)
         engine.submit(Task(1))
         outcome = engine.next()
     assert outcome.failure is None
-    assert outcome.result != first
+    assert outcome.result[0] != first
 
 
 def test_no_more_processes_than_asked_for() -> None:
-    with closing(ProcessEngine(2)) as engine:
-        for number in range(6):
-            engine.submit(Task(number))
-        found = {engine.next().result for _ in range(6)}
+    found = {one.result[0] for one in outcomes_of(2, *map(Task, range(6))).values()}
     assert 1 <= len(found) <= 2
     assert os.getpid() not in found
 

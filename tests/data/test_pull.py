@@ -124,6 +124,10 @@ def test_only_the_named_files_are_unpacked(tmp_path, register, kind):
 def test_a_single_clip_is_returned_as_a_file(tmp_path, register):
     data_set, index = toy(folders=())
     register(data_set)
+    path = pull("toy", folder=tmp_path, client=index)
+    assert path.read_bytes() == CLIP
+    path.write_bytes(CLIP[::-1])
+    assert find_pulled("toy", folder=tmp_path) is None
     assert pull("toy", folder=tmp_path, client=index).read_bytes() == CLIP
 
 

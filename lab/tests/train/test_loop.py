@@ -12,7 +12,6 @@ from texvent.cli.app import main
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from tests.dataset.loading.written_set import write_shard  # noqa: E402
 
 from texvent.errors import TexventError  # noqa: E402
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
@@ -21,7 +20,7 @@ from texvent_lab.train.loop import descend  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
 
-from .written_samples import LABELS, bar, write_bars_training  # noqa: E402
+from .written_samples import write_bars_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 CPU = Hardware(device="cpu")
@@ -119,9 +118,6 @@ def test_another_training_is_not_continued(
     assert main(words) == 2
     assert "learning_rate was 0.01, is 0.02" in capsys.readouterr().err
     specification.write_text(specification.read_text().replace("0.02", "0.01"))
-    write_shard(tmp_path / "bars", "paper", "train", 1, {"one-more": bar(0, 24)}, labels=LABELS)
-    assert main(words) == 2
-    assert "samples was 24 (" in capsys.readouterr().err
     path = tmp_path / "run" / "checkpoint.pt"
     torch.save({**torch.load(path, weights_only=True), "version": "0.0.9"}, path)
     assert main(words) == 2

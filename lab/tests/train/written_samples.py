@@ -22,10 +22,10 @@ def bar(label: int, seed: int) -> EventStream:
     return EventStream(x, y, np.sort(chance.integers(0, 10_000, 60)), p, SIZE)
 
 
-def write_bars(folder: Path) -> Path:
-    """24 samples to train with and 8 to test, classes in turn."""
+def write_bars(folder: Path, shift: int = 0) -> Path:
+    """24 samples to train with and 8 to test, classes in turn; others with another `shift`."""
     for split, count, first in (("train", 24, 0), ("test", 8, 100)):
-        samples = {f"{split}{n:03d}": bar(n % 2, first + n) for n in range(count)}
+        samples = {f"{split}{n:03d}": bar(n % 2, first + n + 1000 * shift) for n in range(count)}
         write_shard(folder, "paper", split, 0, samples, labels=LABELS)
     return folder
 
@@ -41,9 +41,9 @@ def write_recordings(folder: Path, *, per_class: int = 4, format: str = "npz") -
     return folder
 
 
-def write_bars_training(folder: Path, *, epochs: int) -> Path:
+def write_bars_training(folder: Path, *, epochs: int, shift: int = 0) -> Path:
     """A training file, and the bars that it trains with."""
-    write_bars(folder / "bars")
+    write_bars(folder / "bars", shift)
     path = folder / "bars.toml"
     path.write_text(
         f'data = {{folder = "bars"}}\n[schedule]\nepochs = {epochs}\n'

@@ -1,29 +1,32 @@
 """Manifest of a batch in its folder: options in `batch.json`, samples in `samples.jsonl`.
 
-`batch.json` holds the resolved options; a later run with others is refused. `samples.jsonl` gets a
-line when all files of a sample are complete, with their sizes.
+`batch.json` holds the resolved options; a later run with others is refused. `samples.jsonl` is a
+`Ledger` of the samples.
 """
 
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from texvent.batch.identity import digest
+from texvent.batch.ledger import Ledger
 from texvent.batch.samples import ID_DIGITS, Sample
+from texvent.capture.image_folder import find_timestamps
 from texvent.errors import ConfigError, FileFormatError, one_line
 from texvent.io.atomic import atomic_file
-from texvent.runtime.file_names import inside
 from texvent.scenes.report import PromptReport
-from texvent.settings.provenance import describe_state, is_replaced
+from texvent.settings.provenance import describe_state, files_read, is_replaced
+from texvent.settings.resolution import Settings
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"
 """Name, in `batch.json`, of the version that made the samples."""
+REMEDY = "name another folder with -o"
+"""What to do about a damaged file."""
 MOST_DIFFERENCES, MAX_VALUE = 3, 40
 """Differences that an error names, and characters of a value."""
 
@@ -35,41 +38,43 @@ class Manifest:
         FileFormatError: its files are damaged.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, settings: Settings) -> None:
+        """Read it; `settings` are those that all samples share."""
+        self._folder, self._settings = folder, settings
         self._options = _read_options(folder / OPTIONS_FILE)
-        self._done = {row["key"]: row for row in _read_rows(folder / SAMPLES_FILE)}
+        self._ledger = Ledger(folder / SAMPLES_FILE, remedy=REMEDY)
 
-    def begin(self, options: Mapping[str, Any], *, overwrite: bool) -> None:
-        """Note what is asked for; with `overwrite` nothing counts as done.
+    def check_options(self, options: Mapping[str, Any]) -> None:
+        """Refuse to go on with other options.
 
         Raises:
-            ConfigError: the folder was made with other options.
+            ConfigError: the folder was made with others.
         """
         wanted = json.loads(json.dumps(options))
-        if self._options is not None and not overwrite:
+        if self._options is not None:
             differences = describe_differences(self._options, wanted, name_of=_flag)
             if differences:
                 raise ConfigError(
                     f"{self._folder} was made with other options: {differences}; name another "
                     "folder with -o, or replace all with --overwrite"
                 )
-        if self._options != wanted:
-            with atomic_file(self._folder / OPTIONS_FILE, overwrite=True) as part:
-                part.write_text(json.dumps(wanted, indent=1) + "\n", encoding="utf-8")
-        if overwrite:
-            self._done = {}
-        # Written anew: a line that was cut off by a power failure goes.
-        with atomic_file(self._folder / SAMPLES_FILE, overwrite=True) as part:
-            text = "".join(f"{json.dumps(row)}\n" for row in self._done.values())
-            part.write_text(text, encoding="utf-8")
+
+    def begin(self, options: Mapping[str, Any], todo: Iterable[Sample]) -> None:
+        """Note the options, and samples that are to be made; durable before it returns."""
+        self._ledger.begin(sample.key for sample in todo)
+        with atomic_file(self._folder / OPTIONS_FILE, overwrite=True) as part:
+            part.write_text(json.dumps(options, indent=1) + "\n", encoding="utf-8")
+
+    def end(self) -> None:
+        """Leave one line for each sample."""
+        self._ledger.write()
 
     def is_done(self, sample: Sample) -> bool:
-        """True if all its files are there, as large as they were, and its video is the same."""
-        row = self._done.get(sample.key)
-        if row is None or self._is_other_video(sample):
+        """True if its files are there, as they were, and so is all that it was made of."""
+        if self._options is None or not self._ledger.is_complete(sample.key):
             return False
-        return all(_size(self._folder / name) == size for name, size in row["files"].items())
+        files, states = files_of(sample, self._settings), self._ledger.row(sample.key)["inputs"]
+        return len(files) == len(states) and not any(map(is_replaced, files, states))
 
     def settled(self, samples: Iterable[Sample]) -> Iterator[Sample]:
         """The samples, of which those get other keys that stand for videos of other folders."""
@@ -88,20 +93,17 @@ class Manifest:
         """Whether the key of a video is that of another: in this list, or in what is done."""
         if sample.video is None or taken is not None:
             return taken is not None
-        other = self._done.get(sample.key, {}).get("video") != str(sample.video)
-        return other and self._is_other_video(sample)
-
-    def _is_other_video(self, sample: Sample) -> bool:
-        state = self._done.get(sample.key, {}).get("video_state")
-        return sample.video is not None and is_replaced(sample.video, state)
+        row = self._ledger.row(sample.key)
+        is_elsewhere = row.get("video") not in (None, str(sample.video))
+        return is_elsewhere and is_replaced(sample.video, row["inputs"][0])
 
     def is_known(self, sample: Sample) -> bool:
-        """True if the sample was complete once, so that what is left of it may be replaced."""
-        return sample.key in self._done
+        """True if the sample was begun once, so that what is left of it may be replaced."""
+        return sample.key in self._ledger
 
     def report_of(self, sample: Sample) -> PromptReport | None:
         """The report of a complete sample's prompt; None where it has none."""
-        report = self._done.get(sample.key, {}).get("prompt_report")
+        report = self._ledger.row(sample.key).get("prompt_report")
         return None if report is None else PromptReport.from_json(report)
 
     def add(
@@ -110,8 +112,8 @@ class Manifest:
         paths: Sequence[Path],
         *,
         events: int,
+        inputs: Sequence[Mapping[str, str] | None] = (),
         report: PromptReport | None = None,
-        video_state: Mapping[str, str] | None = None,
     ) -> None:
         """Note that a sample is complete; durable before it returns.
 
@@ -119,25 +121,28 @@ class Manifest:
             sample: which.
             paths: its files and folders.
             events: their number.
+            inputs: states of `files_of` it when they were read.
             report: of its prompt.
-            video_state: as `describe_state` gives it.
         """
-        row = {
-            "key": sample.key,
-            "name": sample.name,
-            "seed": sample.seed,
-            "prompt": sample.prompt,
-            "video": None if sample.video is None else str(sample.video),
-            "video_state": video_state,
-            "events": events,
-            "files": {path.name: _size(path) for path in paths},
-            "prompt_report": None if report is None else report.to_json(),
-        }
-        self._done[sample.key] = row
-        with (self._folder / SAMPLES_FILE).open("a", encoding="utf-8") as file:
-            file.write(f"{json.dumps(row)}\n")
-            file.flush()
-            os.fsync(file.fileno())
+        self._ledger.add(
+            sample.key,
+            paths,
+            name=sample.name,
+            seed=sample.seed,
+            prompt=sample.prompt,
+            video=None if sample.video is None else str(sample.video),
+            inputs=[*inputs],
+            events=events,
+            prompt_report=None if report is None else report.to_json(),
+        )
+
+
+def files_of(sample: Sample, settings: Settings) -> list[Path]:
+    """The video of a sample, and every other file that its events depend on."""
+    video = [] if sample.video is None else [sample.video]
+    beside = (find_timestamps(one) for one in video if one.is_dir())
+    named = map(Path, files_read(settings, sample.subject))
+    return [*video, *filter(None, beside), *named]
 
 
 def _read_options(path: Path) -> Any:
@@ -146,26 +151,7 @@ def _read_options(path: Path) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
-        raise FileFormatError(
-            f"{path} is damaged ({one_line(error)}); name another folder with -o"
-        ) from error
-
-
-def _read_rows(path: Path) -> Iterator[dict[str, Any]]:
-    """Complete lines; a last one that was cut off by a power failure is not complete."""
-    lines = path.read_bytes().split(b"\n") if path.is_file() else []
-    for number, line in enumerate(lines[:-1], start=1):
-        try:
-            row = json.loads(line)
-            files = {
-                str(inside(path.parent, name).name): size for name, size in row["files"].items()
-            }
-            yield {**row, "key": str(row["key"]), "name": row["name"], "files": files}
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-            if number < len(lines) - 1:
-                raise FileFormatError(
-                    f"{path} line {number} is damaged; name another folder with -o"
-                ) from None
+        raise FileFormatError(f"{path} is damaged ({one_line(error)}); {REMEDY}") from error
 
 
 def _flag(name: str) -> str:
@@ -200,10 +186,3 @@ def _value(value: Any) -> str:
         return "not set"
     text = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
     return text if len(text) <= MAX_VALUE else f"{text[: MAX_VALUE - 3]}..."
-
-
-def _size(path: Path) -> int | None:
-    """Bytes of a file, or of all files of a folder format; None if there is none."""
-    if path.is_dir():
-        return sum(one.stat().st_size for one in path.rglob("*") if one.is_file())
-    return path.stat().st_size if path.is_file() else None

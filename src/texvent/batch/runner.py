@@ -7,18 +7,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from texvent.batch.manifest import files_of
 from texvent.batch.samples import Sample
-from texvent.errors import ConfigError, FileFormatError, InputError, warnings_to
-from texvent.io.files import open_events
+from texvent.errors import warnings_to
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.scenes.report import PromptReport
 from texvent.settings.provenance import describe_state
 from texvent.settings.resolution import Settings
 from texvent.video import Frame
-
-BATCH_KEY = "batch_key"
-"""Name, in the metadata of event files, of the key of their sample."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +47,8 @@ class MadeSample:
     """Doubts, such as words that are not understood."""
     report: PromptReport | None
     """Report on the words of its prompt; None where the generator gives none."""
-    video_state: Mapping[str, str] | None = None
-    """State of its video when it was read."""
+    inputs: tuple[Mapping[str, str] | None, ...] = ()
+    """States of the files that it was made of, when they were read."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +57,6 @@ class SampleTask:
 
     plan: BatchPlan
     sample: Sample
-    is_replaceable: bool
-    """Whether files that an earlier run made of it may be replaced."""
     is_video = False
 
     def run(self) -> MadeSample:
@@ -73,7 +68,6 @@ class SampleTask:
         """
         plan, sample = self.plan, self.sample
         settings, files = plan.settings_of(sample), plan.files_of(sample)
-        overwrite = files.overwrite or self.is_replaceable or _is_own(files.events, sample)
         events = 0
         found: list[str] = []
 
@@ -81,7 +75,7 @@ class SampleTask:
             nonlocal events
             events += len(packet)
 
-        state = None if sample.video is None else describe_state(sample.video)
+        inputs = tuple(map(describe_state, files_of(sample, settings)))
         with warnings_to(found.append):
             if sample.video is not None:
                 simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
@@ -89,19 +83,8 @@ class SampleTask:
                 simulation = prepare_prompt(sample.subject, settings)
             write_run(
                 simulation,
-                replace(files, overwrite=overwrite),
-                metadata={**simulation.provenance, BATCH_KEY: sample.key},
+                replace(files, overwrite=True),  # the manifest knows them as its own
                 on_step=count,
             )
         report = PromptReport.of_metadata(simulation.video.metadata)
-        return MadeSample(events, tuple(found), report, state)
-
-
-def _is_own(path: Path, sample: Sample) -> bool:
-    """True if an event file is what a batch that was killed made of the same sample."""
-    if not path.exists():
-        return False
-    try:
-        return open_events(path).metadata.get(BATCH_KEY) == sample.key
-    except (InputError, FileFormatError, ConfigError):
-        return False
+        return MadeSample(events, tuple(found), report, inputs)

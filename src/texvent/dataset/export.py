@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import shutil
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._registry import suggest
+from texvent._version import full_version
+from texvent.batch.ledger import Ledger
 from texvent.batch.manifest import describe_differences
+from texvent.dataset.generation.shards import read_json
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import check_layout, doubts_of, find_classes, find_recipe
 from texvent.dataset.layouts.coco import COCO
 from texvent.dataset.layouts.dsec_det import DSEC_DET
 from texvent.dataset.layouts.event_files import HDF5, N_CALTECH101, N_IMAGENET
-from texvent.dataset.layouts.layout import Layout
+from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.layouts.prophesee import GEN1, MEGAPIXEL
 from texvent.dataset.layouts.rvt import RVT
 from texvent.dataset.layouts.samples import Samples
 from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, OutputError, one_line, shown
-from texvent.io.atomic import atomic_file
+from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.runtime.file_names import inside
 
 LAYOUTS: Mapping[str, Layout] = {
@@ -48,7 +52,9 @@ def find_layout(name: str) -> Layout:
     return LAYOUTS[name]
 
 
-NOTE_FILE = "texvent-export.json"
+NOTE_FILE, LEDGER_FILE = "texvent-export.json", "texvent-export.jsonl"
+REMEDY = "name a new folder with -o"
+"""What to do about a folder that cannot go on."""
 
 
 @dataclass(frozen=True)
@@ -95,23 +101,44 @@ def export(
     listed = find_classes(dataset, chosen, layout, variant, classes)
     recipe, no_frames = find_recipe(dataset, chosen, layout)
     _begin(dataset, layout, folder, variant, listed)
+    ledger = Ledger(folder / LEDGER_FILE, remedy=REMEDY)
     samples = Samples(dataset, chosen, variant, listed, recipe)
-    written, kept, empty = 0, 0, 0
+    ledger.write()
+    written, kept, empty, others = 0, 0, 0, {*ledger}
     for sample in samples:
-        path = inside(folder, sample.place)
-        if path.exists():
+        others.discard(sample.place)
+        if ledger.is_complete(sample.place) and ledger.row(sample.place)["of"] == sample.made_of:
             kept += 1
-        else:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            if not chosen.write(sample, path):
-                empty += 1
-                continue
+        elif not _write(chosen, sample, folder, ledger):
+            empty += 1
+            continue
         written += 1
+    for place in others:  # of samples that the data set no longer has
+        _remove(chosen.files_of(inside(folder, place)))
+    ledger.forget(others)
+    ledger.write()
     chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
     doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
     return Exports(written, kept, listed.names, doubts)
+
+
+def _write(layout: Layout, sample: LayoutSample, folder: Path, ledger: Ledger) -> bool:
+    """Write a sample in place of what is there; False if the layout cannot hold it."""
+    path = inside(folder, sample.place)
+    files = layout.files_of(path)
+    _remove(files)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    is_written = layout.write(sample, path)
+    if is_written:
+        ledger.add(sample.place, files, of=sample.made_of)
+    return is_written
+
+
+def _remove(files: Iterable[Path]) -> None:
+    for one in files:
+        shutil.rmtree(one) if one.is_dir() else one.unlink(missing_ok=True)
 
 
 def _begin(
@@ -124,6 +151,7 @@ def _begin(
     """
     first = LAYOUTS[layout].first_class
     note = {
+        "texvent_version": full_version(),
         "layout": layout,
         "data_set": dataset.name,
         "variant": variant,
@@ -133,16 +161,17 @@ def _begin(
     }
     path = folder / NOTE_FILE
     try:
-        before = json.loads(path.read_text("utf-8")) if path.is_file() else None
+        before = read_json(path.read_bytes()) if path.is_file() else None
         if before == note:
             return
         if isinstance(before, dict):
             change = describe_differences(before, note)
-            raise OutputError(f"{folder} is another export: {change}; name a new folder with -o")
-        if folder.exists() and any(folder.iterdir()):
-            raise OutputError(f"{folder} holds something else; name a new folder with -o")
+            raise OutputError(f"{folder} is another export: {change}; {REMEDY}")
+        found = folder.iterdir() if folder.exists() else ()
+        if not all(map(is_hidden_part, found)):  # a part is all that a kill before the note leaves
+            raise OutputError(f"{folder} holds something else; {REMEDY}")
         folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as error:
-        raise OutputError(f"cannot write to {folder} ({one_line(error)})") from error
+    except (OSError, ValueError, RecursionError) as error:
+        raise OutputError(f"cannot go on in {folder} ({one_line(error)}); {REMEDY}") from error
     with atomic_file(path, overwrite=False) as part:
         part.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")

@@ -7,13 +7,16 @@ import functools
 import glob
 import hashlib
 from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
 from texvent.generate.scene_input import SCENE_KEY
+from texvent.runtime.file_names import IMAGE_EXTENSIONS
 from texvent.scenes.report import REPORT_KEY
+from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
 
 END_BYTES = 8 * 2**20
@@ -113,6 +116,16 @@ def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
     return digest.hexdigest()
 
 
+def files_read(settings: Settings, subject: str | Scene = "") -> list[str]:
+    """Files and folders that options and a scene name, which the events depend on."""
+    from texvent.scenes.assets.nouns import files_of  # brings OpenCV
+
+    configs = settings.groups().values()
+    values = (getattr(config, one.name) for config in configs for one in fields(config))
+    named = [str(value) for value in values if isinstance(value, Path)]
+    return [*named, *files_of(subject)]
+
+
 def describe_state(source: str | Path) -> dict[str, str] | None:
     """Facts of a file or folder that tell later whether it was replaced; None: it cannot be read.
 
@@ -120,10 +133,21 @@ def describe_state(source: str | Path) -> dict[str, str] | None:
     """
     try:
         listing = _listing(Path(source))
-        contents = [(Path(one[0]).name, _file_fingerprint(*one)) for one in listing]
+        contents = [(name, _file_fingerprint(*one)) for name, *one in listing]
     except OSError:
         return None
-    return {"seen": _digest(listing), "contents": _digest(contents)} if listing else None
+    return {"seen": _digest(listing), "contents": _digest(contents)}
+
+
+def is_unchanged(source: str | Path, state: Any) -> bool:
+    """Whether a file or folder is there and holds what it held when `describe_state` saw it."""
+    if not isinstance(state, Mapping):
+        return False
+    with contextlib.suppress(OSError):
+        if state.get("seen") == _digest(_listing(Path(source))):
+            return True
+    now = describe_state(source)
+    return now is not None and now["contents"] == state.get("contents")
 
 
 def is_replaced(source: str | Path, state: Any) -> bool:
@@ -131,20 +155,24 @@ def is_replaced(source: str | Path, state: Any) -> bool:
 
     One that is gone, cannot be read, or was not described, was not replaced.
     """
-    if not isinstance(state, Mapping):
+    if not isinstance(state, Mapping) or is_unchanged(source, state):
         return False
-    with contextlib.suppress(OSError):
-        if state.get("seen") == _digest(_listing(Path(source))):
-            return False
-    now = describe_state(source)
-    return now is not None and now["contents"] != state.get("contents")
+    return describe_state(source) is not None
 
 
-def _listing(path: Path) -> list[tuple[str, int, int]]:
-    """Absolute path, size and time of change of a file, or of those in a folder."""
-    inside = sorted(path.iterdir()) if path.is_dir() else [path]
-    files = [(one, one.stat()) for one in inside if one.is_file()]
-    return [(str(one.absolute()), status.st_size, status.st_mtime_ns) for one, status in files]
+def _listing(path: Path) -> list[tuple[str, str, int, int]]:
+    """Name, absolute path, size and time of change of a file, or of those in a folder.
+
+    Of a folder of frames only these count: results may lie below them.
+    """
+    files = {path.name: path}
+    if path.is_dir():
+        inside = [one for one in sorted(path.iterdir()) if one.is_file()]
+        if not any(one.suffix.lower() in IMAGE_EXTENSIONS for one in inside):
+            inside = [one for one in sorted(path.rglob("*")) if one.is_file()]
+        files = {one.relative_to(path).as_posix(): one for one in inside}
+    found = [(name, one.absolute(), one.stat()) for name, one in files.items()]
+    return [(name, str(one), status.st_size, status.st_mtime_ns) for name, one, status in found]
 
 
 def _digest(values: list[Any]) -> str:

@@ -27,6 +27,8 @@ ALONG_MOTION = "motion"
 """The interpolator of frames that come with motion vectors."""
 RENDERED = "exact"
 """The interpolator of what is known at any instant."""
+SENSOR_FILES = (".toml", ".yaml", ".yml")
+"""Ends of the names of sensor files."""
 DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
 """Options that decide which other options there are, or their defaults."""
 
@@ -92,7 +94,7 @@ def base_settings(
     given = {name: value for name, value in deciding.items() if value is not None}
     chosen = {**file_options, **given}
     sensor = chosen.get("sensor")
-    if isinstance(sensor, str) and sensor.lower().endswith((".toml", ".yaml", ".yml")):
+    if isinstance(sensor, str) and sensor.lower().endswith(SENSOR_FILES):
         chosen = {**read_config(chosen.pop("sensor")), **chosen}
     parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
     if command == "simulate" and parts["generator"] is not None:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
-import os
-import shutil
-import signal
+import multiprocessing
 import sys
-import time
 from pathlib import Path
 
 import cv2
 import numpy as np
-import pytest
 from tests.cli.running import run
 
 import texvent
@@ -85,23 +82,6 @@ def test_images_of_a_folder_each_shake_in_their_own_way(folder, capsys):
     assert "kept     2 of 2 samples" in capsys.readouterr().err
 
 
-def test_a_batch_goes_on_where_it_was(folder, capsys):
-    (folder / "p.txt").write_text("a red car drives left\n")
-    assert run("batch", "p.txt", *QUICK) == 0
-    before = recordings(folder / "p")
-    (folder / "p.txt").write_text("# two\na dog runs\na red car drives left\n")
-    capsys.readouterr()
-    assert run("batch", "p.txt", *QUICK) == 0
-    assert "kept     1 of 2 samples" in capsys.readouterr().err
-    after = recordings(folder / "p")
-    assert len(after) == 2
-    assert before.items() < after.items()
-    # Killed before it noted what was complete, it knows its own files.
-    (folder / "p" / "samples.jsonl").write_text("")
-    assert run("batch", "p.txt", *QUICK) == 0
-    assert recordings(folder / "p") == after
-
-
 def test_files_of_others_in_the_folder_are_not_replaced(folder, capsys):
     (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
     (folder / "p").mkdir()
@@ -148,58 +128,33 @@ def counts(folder: Path) -> list[int]:
     return sorted(len(texvent.load(path)) for path in folder.glob("*.h5"))
 
 
-def test_another_video_or_another_content_is_not_taken_for_done(folder, capsys):
-    for seed, name in enumerate("abc"):
-        write_video(folder / name / "x" / "v.npy", seed)
-    expected = {}
-    for name in "abc":
-        assert run("batch", f"{name}/x/v.npy", "-o", f"alone-{name}", *FLAT) == 0
-        (expected[name],) = counts(folder / f"alone-{name}")
-    assert len(set(expected.values())) == 3
-    a, b = ("a/x/v.npy", "b/x/v.npy")
-    for order in ((a,), (b,), (b, a), (a, b)):
+def test_another_video_of_the_same_name_is_not_taken_for_done(folder, capsys):
+    videos = [f"{name}/x/v.npy" for name in "ab"]
+    for seed, video in enumerate(videos):
+        write_video(folder / video, seed)
+        assert run("batch", video, "-o", f"alone-{seed}", *FLAT) == 0
+    expected = sorted(count for seed in (0, 1) for count in counts(folder / f"alone-{seed}"))
+    assert len({*expected}) == 2
+    for order in (videos[:1], videos[1:], videos[::-1], videos):
         assert run("batch", *order, "-o", "out", *FLAT) == 0
-    assert counts(folder / "out") == sorted(expected[name] for name in "ab")
-    said = capsys.readouterr().err
-    assert "kept     2 of 2 samples, done before" in said
-    (folder / "c/x/v.npy").replace(folder / "a/x/v.npy")
-    assert run("batch", a, b, "-o", "out", *FLAT) == 0
-    assert counts(folder / "out") == sorted(expected[name] for name in "bc")
-    os.utime(folder / "a/x/v.npy", (1, 1))
-    capsys.readouterr()
-    assert run("batch", a, b, "-o", "out", *FLAT) == 0
+    assert counts(folder / "out") == expected
     assert "kept     2 of 2 samples, done before" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("harm", ["gone", "empty"])
-def test_every_file_and_folder_of_a_sample_is_made_again(folder, harm, capsys):
-    (folder / "p.csv").write_text("prompt,name\na red car drives left,car\n")
-    words = ("batch", "p.csv", "-o", "out", *QUICK, "--previews", "png", "--truth", "depth,boxes")
-    words = (*words, "--format", "atis")
-    assert run(*words) == 0
-    names = sorted(path.name for path in (folder / "out").glob("car*"))
-    assert names == ["car.bin", "car.bin.json", "car.events.png", "car.truth"]
-    before = {name: (folder / "out" / name) for name in names}
-    for path in before.values():
-        inside = sorted(one for one in path.rglob("*") if one.is_file()) or [path]
-        if harm == "empty":
-            inside[-1].write_bytes(b"")
-        else:
-            shutil.rmtree(path) if path.is_dir() else path.unlink()
-        assert run(*words) == 0
-        assert all(one.exists() for one in before.values())
-        assert inside[-1].stat().st_size > 0
-
-
-def test_several_processes_make_the_same_files(folder, capsys):
+def test_several_processes_make_the_same_files(folder, monkeypatch):
     (folder / "p.txt").write_text("a red car drives left\na dog runs\na ball bounces\n")
-    assert run("batch", "p.txt", "-o", "one", *QUICK) == 0
-    assert run("batch", "p.txt", "-o", "two", "--jobs", 2, *QUICK) == 0
-    assert recordings(folder / "one") == recordings(folder / "two")
-    lines = {
-        name: set(Path(name, "samples.jsonl").read_text().splitlines()) for name in ("one", "two")
-    }
-    assert lines["one"] == lines["two"]
+    seen = {"1": set(), "2": set()}
+    for jobs, ids in seen.items():
+
+        class Watched(io.StringIO):
+            def write(self, text, ids=ids):
+                ids.update(one.pid for one in multiprocessing.active_children())
+                return super().write(text)
+
+        monkeypatch.setattr(sys, "stderr", Watched())
+        assert run("batch", "p.txt", "-o", jobs, "--jobs", jobs, *QUICK) == 0
+    assert [len(ids) for ids in seen.values()] == [0, 2]
+    assert recordings(folder / "1") == recordings(folder / "2")
 
 
 def test_mistakes_are_one_line(folder, capsys):
@@ -210,35 +165,3 @@ def test_mistakes_are_one_line(folder, capsys):
     assert run("batch", "p.txt", "--jobs", "0") == 2
     assert run("batch", "p.txt", "--keep-partial") == 2
     assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())
-
-
-TREES = "\n".join(f"a red car drives left past {count} trees" for count in range(2, 6))
-SMALL = ("--sensor", "48x36", "--duration", "0.2", "--previews", "png")
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """The samples of `TREES` made in one go, by this process."""
-    folder = tmp_path_factory.mktemp("whole")
-    (folder / "p.txt").write_text(TREES)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        assert run("batch", "p.txt", "--jobs", 1, *SMALL, "-o", "whole", "-q") == 0
-    return folder / "whole"
-
-
-def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn):
-    (folder / "p.txt").write_text(TREES)
-    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", "2"]
-    process = spawn([*words, *SMALL, "-o", "killed"], start_new_session=True)
-    manifest = Path("killed", "samples.jsonl")
-    while process.poll() is None and not (manifest.exists() and manifest.read_text()):
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate(timeout=300)
-    done = [json.loads(line)["name"] for line in manifest.read_text().splitlines()]
-    assert len(done) >= 1
-    assert run("batch", "p.txt", *SMALL, "-o", "killed", "-q") == 0
-    assert recordings(folder / "killed") == recordings(whole)
-    names = {path.name for path in whole.iterdir()}
-    assert {path.name for path in Path("killed").iterdir()} == names

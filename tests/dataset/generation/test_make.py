@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import shutil
 import tarfile
 from pathlib import Path
@@ -26,7 +25,7 @@ from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.reading.stored_events import events_of, npy_column
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
-from texvent.errors import ConfigError, FileFormatError, OutputError, TexventWarning
+from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
@@ -190,24 +189,6 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     assert digests(whole) == digests(folder)
 
 
-def test_shards_of_a_replaced_video_are_made_again_and_no_others(tmp_path: Path) -> None:
-    recipe, folder = clips_recipe(tmp_path, clips=4), tmp_path / "out"
-    make(recipe, folder)
-    before, clip = digests(folder), tmp_path / "clips/0.npy"
-    os.utime(clip, (1, 1))
-    assert not find_work(recipe, folder).todo
-    content = np.load(clip)
-    np.save(clip, content[::-1])
-    with pytest.warns(TexventWarning, match=r"clips/0\.npy was replaced since"):
-        make(recipe, folder)
-    after = digests(folder)
-    changed = {Path(name).name for name in after if after[name] != before[name]}
-    assert len(changed) == 1
-    assert not find_work(recipe, folder).todo
-    clip.unlink()  # what is made needs no video
-    assert not find_work(recipe, folder).todo
-
-
 def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -229,24 +210,6 @@ def test_videos_of_folders_of_one_name_are_told_apart(tmp_path: Path) -> None:
     recipe = Recipe.of(specification_from(tables, folder=tmp_path))
     assert [Path(one.video or "").parts[-3] for one in recipe.items.all] == ["a", "b"]
     assert recipe.items.duplicates == 1
-
-
-@pytest.mark.parametrize("harm", ["tar", "json", "cut", "nothing"])
-def test_a_shard_without_its_file_or_record_is_made_again(
-    cars: Path, tmp_path: Path, harm: str
-) -> None:
-    folder = shutil.copytree(cars, tmp_path / "cars")
-    shard = folder / "paper" / "train-000000.tar"
-    if harm == "cut":
-        shard.write_bytes(shard.read_bytes()[:-1])
-    elif harm != "nothing":
-        shard.with_suffix(f".{harm}").unlink()
-    work = find_work(load_recipe(folder), folder)
-    assert [one.shards[0].path for one in work.todo] == [Path("paper/train-000000.tar")] * (
-        harm != "nothing"
-    )
-    make(load_recipe(folder), folder)
-    assert digests(folder) == digests(cars)
 
 
 @pytest.mark.parametrize("kept", ["all", "noise"])

@@ -53,6 +53,7 @@ def crossing(**changes: Any) -> LayoutSample:
         "key": "abc",
         "split": "train",
         "place": "train/abc",
+        "made_of": "",
         "size": SIZE,
         "start_us": 0,
         "stop_us": 240_000,

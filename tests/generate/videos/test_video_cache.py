@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.generate.videos.stored_video import (
     reopen,
     to_16_bits,
@@ -73,6 +73,17 @@ def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     assert found.metadata["seed"] == 0
     assert [frame.t_us for frame in found][1] == 100_000
     assert cache.find("abd", FPS) is None
+
+
+def test_a_kept_video_that_is_cut_is_not_found_or_refused(cache):
+    path = cache.store("abc", noise(), FPS, {}).path
+    content = path.read_bytes()
+    for size in range(0, len(content) - 2000, len(content) // 30):
+        path.write_bytes(content[:size])
+        found = cache.find("abc", FPS)
+        if found is not None:
+            with pytest.raises(FileFormatError, match="delete it and generate again"):
+                list(found)
 
 
 def test_without_reuse_nothing_is_kept_in_the_made_folder():

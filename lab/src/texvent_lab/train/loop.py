@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 import json
 import time
+import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -79,6 +80,9 @@ def read_state(folder: Path, tables: Mapping[str, Any]) -> TrainingState | None:
     if not path.exists():
         return None
     try:
+        with zipfile.ZipFile(path) as archive:
+            if archive.testzip() is not None:  # torch does not look
+                raise zipfile.BadZipFile
         values = torch.load(path, map_location="cpu", weights_only=True)
         state = TrainingState(**values)
     except DAMAGE as error:
@@ -214,11 +218,14 @@ def train(
     device = hardware.find_device()
     batches = task.batches(workers=hardware.workers)
     _make_folder(folder)
-    tables = {**tables, "samples": batches.make.identity}
+    tables = {**tables, "samples": batches.make.identity, "validation": task.identity}
     state = read_state(folder, tables) or TrainingState(tables=tables)
     network = task.make_network().to(device)
     optimizer = schedule.make_optimizer(network)
-    _take_up(state, network, optimizer)
+    if state.epochs:
+        network.load_state_dict(state.network)
+        optimizer.load_state_dict(state.optimizer)
+        _write_results(folder, state, task, network)  # they may be gone, or ahead of the state
     while not _is_over(state, schedule):
         started = time.perf_counter()
         _decay(optimizer, schedule, state.epochs)
@@ -236,13 +243,6 @@ def train(
         write_state(folder, state)
         progress.announce(_row_text(row, schedule.epochs))
     return state
-
-
-def _take_up(state: TrainingState, network: Any, optimizer: Any) -> None:
-    """Give network and optimizer what they were when the state was stored, if it was."""
-    if state.epochs:
-        network.load_state_dict(state.network)
-        optimizer.load_state_dict(state.optimizer)
 
 
 def _decay(optimizer: Any, schedule: Schedule, epoch: int) -> None:

@@ -26,6 +26,11 @@ class Task(Protocol):
     score: ClassVar[str]
     """Name of the score, in what `validate` gives, whose highest value is the best epoch's."""
 
+    @property
+    def identity(self) -> str:
+        """Of the validation samples, and of weights that it begins with; see `MakeSample`."""
+        ...
+
     def make_network(self) -> Any:
         """The network, a torch module, with initial weights that depend on the seed alone."""
         ...

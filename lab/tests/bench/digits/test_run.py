@@ -80,6 +80,14 @@ def test_a_run_that_was_stopped_ends_as_one_that_was_not(data, tmp_path, report)
     again = []
     run_digits(plan, progress=again.append)
     assert again == []
+    for kind in ("recordings", "predicted"):
+        path = next(tmp_path.glob(f"{kind}-*"))
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 16
+        path.write_bytes(content)
+    resumed = run_digits(plan, progress=again.append)
+    assert len(again) == 1
+    assert dataclasses.replace(resumed, seconds=report.seconds) == report
 
 
 @pytest.mark.torch

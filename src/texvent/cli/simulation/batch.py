@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.batch.engines import Outcome, local_engine
-from texvent.batch.manifest import Manifest
+from texvent.batch.manifest import SAMPLES_FILE, Manifest
 from texvent.batch.prompts import refuse_prompts, tally_prompts
 from texvent.batch.runner import BatchPlan, SampleTask
 from texvent.batch.samples import Sample, are_videos, read_samples
@@ -105,7 +105,7 @@ def run(arguments: Sequence[str]) -> int:
     if (samples[0].video is not None) != is_of_videos:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)
-    manifest = Manifest(plan.folder)
+    manifest = Manifest(plan.folder, settings)
     samples = tuple(manifest.settled(samples))
     if output.dry_run:
         return _describe(plan, samples, manifest)
@@ -113,9 +113,14 @@ def run(arguments: Sequence[str]) -> int:
         refuse_prompts([(sample.where, sample.subject) for sample in samples], settings)
     if isinstance(own, PromptBatchOptions):
         warn_low_fps(own.generator)
+    options = _options(plan, is_of_videos)
+    if not output.overwrite:
+        manifest.check_options(options)
+    todo = [one for one in samples if output.overwrite or not manifest.is_done(one)]
+    _refuse_files_of_others(plan, [one for one in todo if not manifest.is_known(one)])
     plan.folder.mkdir(parents=True, exist_ok=True)
-    manifest.begin(_options(plan, is_of_videos), overwrite=output.overwrite)
-    return _make_all(plan, samples, manifest, jobs=own.jobs, is_quiet=output.quiet)
+    manifest.begin(options, todo)
+    return _make_all(plan, samples, todo, manifest, jobs=own.jobs, is_quiet=output.quiet)
 
 
 def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> BatchPlan:
@@ -144,6 +149,21 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         overwrite=output.overwrite,
     )
     return BatchPlan(settings, folder, extension, files)
+
+
+def _refuse_files_of_others(plan: BatchPlan, samples: Sequence[Sample]) -> None:
+    """Refuse to replace what no batch in this folder has begun.
+
+    Raises:
+        OutputError: a file or folder of such a sample is there.
+    """
+    for sample in samples if not plan.files.overwrite else ():
+        for path in plan.files_of(sample).outputs:
+            if path.exists():
+                raise OutputError(
+                    f"{path} exists already, and {SAMPLES_FILE} beside it does not know it; name "
+                    "another folder with -o, or replace all with --overwrite"
+                )
 
 
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
@@ -182,16 +202,13 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
 def _make_all(
     plan: BatchPlan,
     samples: Sequence[Sample],
+    todo: Sequence[Sample],
     manifest: Manifest,
     *,
     jobs: int,
     is_quiet: bool,
 ) -> int:
-    tasks = [
-        SampleTask(plan, sample, manifest.is_known(sample))
-        for sample in samples
-        if not manifest.is_done(sample)
-    ]
+    tasks = [SampleTask(plan, sample) for sample in todo]
     done, failed = len(samples) - len(tasks), 0
     try:
         with (
@@ -212,6 +229,7 @@ def _make_all(
                 else:
                     failed += 1
                     say(f"failed   {outcome.task.sample.where}: {outcome.failure}")
+            manifest.end()
             tally = ReportTally()
             for report in filter(None, map(manifest.report_of, samples)):
                 tally.add(report)
@@ -239,6 +257,6 @@ def _note(plan: BatchPlan, manifest: Manifest, outcome: Outcome, progress: Progr
         [*files.outputs, *sorted(beside)],
         events=made.events,
         report=made.report,
-        video_state=made.video_state,
+        inputs=made.inputs,
     )
     progress.announce(f"made     {files.events}, {made.events:,} events")

@@ -48,6 +48,7 @@ from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.runtime.file_names import inside
+from texvent.scenes.assets.nouns import files_of
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
@@ -155,15 +156,19 @@ def is_complete(recipe: Recipe, folder: Path, shard: Shard) -> ShardRecord | Non
 
 
 def find_replaced(recipe: Recipe, shard: Shard, record: ShardRecord) -> str | None:
-    """A video of samples that did not fail, or its labels, replaced since; None: there is none."""
+    """A file that samples which did not fail depend on, replaced since; None: there is none."""
     names = _inputs_of(recipe, shard, {one.clip for one in record.samples if one.status == FAILED})
     return next((name for name in names if is_replaced(name, record.inputs.get(name))), None)
 
 
 def _inputs_of(recipe: Recipe, shard: Shard, without: Collection[str] = ()) -> list[str]:
-    clips = recipe.clips_of(shard) if recipe.items.are_videos else ()
-    items = [clip.item for clip in clips if clip.key not in without]
-    return list(dict.fromkeys(name for one in items for name in (one.video, one.boxes) if name))
+    """Files that the samples of a shard, but for those of some clips, depend on."""
+    found = [*recipe.files_named[shard.variant]]
+    items = [clip.item for clip in recipe.clips_of(shard) if clip.key not in without]
+    for item in items:
+        found += [name for name in (item.video, item.boxes) if name]
+        found += files_of(item.subject) if item.scene is not None else ()
+    return list(dict.fromkeys(found))
 
 
 def _keep(path: Path, record: SampleRecord, writer: TarShardWriter) -> SampleRecord:

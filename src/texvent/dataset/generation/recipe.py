@@ -18,13 +18,26 @@ from texvent.dataset.generation.shards import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
-from texvent.dataset.specification.specification import Specification, Variant, is_range
+from texvent.dataset.specification.specification import (
+    Specification,
+    Variant,
+    extreme_options,
+    is_range,
+)
 from texvent.dataset.specification.truth import check_truth
-from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
+from texvent.errors import (
+    ConfigError,
+    FileFormatError,
+    InputError,
+    OutputError,
+    one_line,
+    warnings_to,
+)
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.settings.config_files import Command
-from texvent.settings.resolution import Settings, resolve
+from texvent.settings.provenance import files_read
+from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
 VIDEOS = "videos"
@@ -111,6 +124,19 @@ class Recipe:
         """The settings that all prompts share; ranges are left out."""
         options = self.specification.options
         return resolve("generate", {n: one for n, one in options.items() if not is_range(one)})
+
+    @functools.cached_property
+    def files_named(self) -> Mapping[str, tuple[str, ...]]:
+        """Stage → files and folders that its options name."""
+        return {stage: tuple(dict.fromkeys(self._find_files(stage))) for stage in self.stages}
+
+    def _find_files(self, stage: str) -> Iterator[str]:
+        own = {} if stage == VIDEOS else self.variants[stage].options
+        with warnings_to(lambda text: None):  # they were told when the options were checked
+            for options in extreme_options({**self.specification.options, **own}):
+                yield from files_read(resolve(self.command, options))
+                sensor = str(options.get("sensor"))
+                yield from [sensor] if sensor.lower().endswith(SENSOR_FILES) else ()
 
     @property
     def stages(self) -> tuple[str, ...]:

@@ -80,7 +80,8 @@ class ShardRecord:
     seconds: float
     """Working time, s."""
     inputs: Mapping[str, Any] = field(default_factory=dict)
-    """Path of a video or of its labels → its state; see `settings.provenance.describe_state`."""
+    """Path of a video, its labels, or another file that the samples depend on → its state; see
+    `settings.provenance.describe_state`."""
     versions: Mapping[str, str] = field(default_factory=dict)
     """Package → version, of the process that made it."""
     layout: int = LAYOUT

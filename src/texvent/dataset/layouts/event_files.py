@@ -10,6 +10,7 @@ from pathlib import Path
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.io.atomic import atomic_file
 from texvent.io.files import save
+from texvent.io.metadata import sidecar_path
 from texvent.runtime.file_names import inside
 
 EVALUATION = ("val", "valid", "validation", "test", "testing")
@@ -54,6 +55,7 @@ N_IMAGENET = Layout(
 N_CALTECH101 = Layout(
     place="Caltech101/{label}/{key}.bin",
     write=partial(_write, "atis"),
+    beside=sidecar_path,
     finish=partial(_write_lists, "{split}.txt", are_absolute=False),
     lost="captions, splits (lists beside it say them), sensors over 256x240, times from 8.39 s on",
 )

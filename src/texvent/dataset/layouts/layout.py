@@ -38,6 +38,8 @@ class LayoutSample:
     """Inside the sensor, in time order; `class_id` is the place in the layout's list of classes."""
     instants_us: NDArray[np.int64]
     """Instants at which boxes are known, µs."""
+    made_of: str
+    """SHA-256 of the shard that it is in."""
     read_events: Callable[[], EventStream]
     read_frames: Callable[[], AbstractContextManager[FrameStream]] | None
     """None where the data set stores no frames."""
@@ -61,6 +63,8 @@ class Layout:
     place: str
     """Path of a sample in the exported folder, of its {split}, {folder}, {label} and {key}."""
     write: Write
+    beside: Callable[[Path], Path] | None = None
+    """Path of the second file of a sample, if there is one."""
     finish: Finish = nothing_more
     splits: Mapping[str, str] = field(default_factory=dict)
     """Split → the layout's name, where it has another."""
@@ -86,6 +90,10 @@ class Layout:
     def needs_classes(self) -> bool:
         """True if each class has a folder."""
         return "{label}" in self.place
+
+    def files_of(self, path: Path) -> list[Path]:
+        """The files, or the folder, of a sample at a path."""
+        return [path] if self.beside is None else [path, self.beside(path)]
 
     def split_of(self, split: str) -> str:
         """The layout's name of a split."""

@@ -29,10 +29,13 @@ EVENTS_END, BOXES_END = "_td.dat", "_bbox.npy"
 LARGE = "pedestrian,two wheeler,car,truck,bus,traffic sign,traffic light"
 
 
+def _boxes_beside(path: Path) -> Path:
+    return path.with_name(path.name.removesuffix(EVENTS_END) + BOXES_END)
+
+
 def _write(sample: LayoutSample, path: Path) -> bool:
     """Write the boxes, then the events, whose file says that both are there."""
-    boxes = path.with_name(path.name.removesuffix(EVENTS_END) + BOXES_END)
-    with atomic_file(boxes, overwrite=True) as part, part.open("wb") as file:
+    with atomic_file(_boxes_beside(path), overwrite=True) as part, part.open("wb") as file:
         np.save(file, records_of(sample.boxes, LABEL_RECORD))
     events = replace(sample.read_events(), label=None, metadata={})
     save(path, events, format="dat")
@@ -42,6 +45,7 @@ def _write(sample: LayoutSample, path: Path) -> bool:
 GEN1 = Layout(
     place="{split}/{key}" + EVENTS_END,
     write=_write,
+    beside=_boxes_beside,
     splits=USUAL_SPLITS,
     size=(304, 240),
     lost="captions",

@@ -80,6 +80,7 @@ class Samples:
             stop_us=sample.start_us + sample.duration_us,
             boxes=boxes,
             instants_us=instants,
+            made_of=record.sha256,
             read_events=partial(read_events, shard.path, sample),
             read_frames=frames,
         )

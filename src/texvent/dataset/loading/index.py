@@ -34,6 +34,8 @@ class Index:
     """Of each shard."""
     splits: tuple[str, ...]
     """Of each shard."""
+    digests: tuple[str, ...]
+    """SHA-256 of each shard, as its record says."""
     captions: tuple[str | None, ...]
     """All different captions."""
     labels: tuple[str | None, ...]
@@ -145,7 +147,7 @@ class _Rows:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._shards: list[tuple[str, str, str]] = []
+        self._shards: list[tuple[str, str, str, str]] = []
         self._captions: dict[str | None, int] = {}
         self._labels: dict[str | None, int] = {}
         self.keys: list[str] = []
@@ -155,7 +157,8 @@ class _Rows:
     def add(self, path: Path, record: ShardRecord) -> None:
         """The samples of a shard."""
         shard = len(self._shards)
-        self._shards.append((str(path.relative_to(self._folder)), record.variant, record.split))
+        place = str(path.relative_to(self._folder))
+        self._shards.append((place, record.variant, record.split, record.sha256))
         for sample in record.samples:
             if sample.status == MADE:
                 self.keys.append(sample.key)
@@ -170,11 +173,12 @@ class _Rows:
     def index(self) -> Index:
         """The index."""
         numbers = np.array(self._numbers, np.int64)
-        shards, variants, splits = zip(*self._shards, strict=True)
+        shards, variants, splits, digests = zip(*self._shards, strict=True)
         return Index(
             shards=shards,
             variants=variants,
             splits=splits,
+            digests=digests,
             captions=tuple(self._captions),
             labels=tuple(self._labels),
             shard=numbers[:, 0],

@@ -43,6 +43,8 @@ from texvent.video import (
 )
 
 EXTENSION = ".avi"
+REMEDY = "delete it and generate again"
+"""What to do about a damaged file."""
 FULL_SCALE = 65_535.0
 _CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
 _EIGHT_BITS = 8
@@ -82,8 +84,13 @@ class StoredVideo(NotebookFrames):
         Raises:
             FileFormatError: the file is damaged.
         """
+        index = -1
         for index, pixels in enumerate(_decode(self.path)):
             yield _frame(pixels, frame_time_us(index, self.fps), transfer_of(self))
+        if index + 1 != self.frame_count:
+            raise FileFormatError(
+                f"{self.path} has {self.frame_count} frames and ends after {index + 1}; {REMEDY}"
+            )
 
 
 def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> StoredVideo:
@@ -231,6 +238,5 @@ def _decode(path: Path) -> Iterator[PixelArray]:
     except FFmpegError as error:
         raise_scarcity(error, path)
         raise FileFormatError(
-            f"{path} cannot be decoded, it is damaged ({error.strerror}); delete it and "
-            "generate again"
+            f"{path} cannot be decoded, it is damaged ({error.strerror}); {REMEDY}"
         ) from error

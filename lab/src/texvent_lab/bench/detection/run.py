@@ -19,9 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent import dataset
+from texvent.batch.identity import digest
+from texvent.batch.ledger import Ledger
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
-from texvent.dataset.export import export
+from texvent.dataset.export import LEDGER_FILE, export
 from texvent.dataset.layouts.rvt import WINDOW_US
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.items import read_items
@@ -47,7 +49,7 @@ from texvent_lab.bench.detection.task import (
 )
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
-from texvent_lab.train.loop import train
+from texvent_lab.train.loop import TrainingState, train
 from texvent_lab.train.schedule import Hardware, Schedule
 
 CLASSES = "car,truck,bus,motorcycle,cyclist,pedestrian"
@@ -174,8 +176,10 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     state = train(
         task, plan.schedule, folder, tables=tables, hardware=hardware, progress=NO_PROGRESS
     )
-    if (folder / SCORES_FILE).is_file():
-        return ArmScore(**json.loads((folder / SCORES_FILE).read_text(encoding="utf-8")))
+    facts = _facts_of_score(state, Path(config.data.folder or ""))
+    kept = _read_score(folder / SCORES_FILE, facts)
+    if kept is not None:
+        return kept
     network, device = task.make_network(), hardware.find_device()
     network.load_state_dict(state.best)
     network.to(device).eval()
@@ -188,8 +192,31 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
         seconds=time.perf_counter() - started,
     )
     with atomic_file(folder / SCORES_FILE, overwrite=True) as part:
-        part.write_text(json.dumps(asdict(score), indent=1) + "\n", encoding="utf-8")
+        content = {"of": facts, "score": asdict(score)}
+        part.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
     return score
+
+
+def _facts_of_score(state: TrainingState, clips: Path) -> dict[str, Any]:
+    """A score depends on a training, on the clips of its arm, and on whether there is a street."""
+    made_of = Ledger(clips / LEDGER_FILE, remedy="delete it, and the clips are exported again")
+    facts = {
+        "texvent_version": state.version,
+        "training": state.tables,
+        "epochs": state.epochs,
+        "clips": digest([[place, made_of.row(place)["of"]] for place in sorted(made_of)]),
+        "street": find_pulled(STREET) is not None,
+    }
+    return dict(json.loads(json.dumps(facts)))
+
+
+def _read_score(path: Path, facts: Mapping[str, Any]) -> ArmScore | None:
+    """The stored score of these facts; None: there is none, or it is damaged."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return ArmScore(**content["score"]) if content["of"] == facts else None
+    except (OSError, ValueError, TypeError, KeyError, RecursionError):
+        return None
 
 
 def score_network(network: Any, config: DetectionConfig, device: Any, arm: str) -> ArmScore:

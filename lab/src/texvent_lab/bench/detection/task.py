@@ -9,6 +9,7 @@ may be binned.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,6 +45,17 @@ CLIP_US = 10_000_000
 NUMBER, FLIP, FIRST, LEARNED = "number", "flip", "first", "learned"
 
 
+def identity_of(clips: Sequence[Clip]) -> str:
+    """Number of clips, and a digest of their names and contents."""
+    found = hashlib.sha256()
+    for one in clips:
+        found.update(one.key.encode())
+        parts: list[NDArray[Any]] = [one.places, one.counts, *one.boxes]
+        for part in parts:
+            found.update(part.tobytes())
+    return f"{len(clips)} ({found.hexdigest()[:12]})"
+
+
 @dataclass(frozen=True)
 class DrawnClips:
     """Training clips by number; see `MakeSample`."""
@@ -56,8 +68,7 @@ class DrawnClips:
     @property
     def identity(self) -> str:
         """See `MakeSample`."""
-        names = (f"{one.key}:{len(one.places)}" for one in self.clips)
-        return " ".join(names)
+        return identity_of(self.clips)
 
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
         """A clip, whether it is mirrored, its first window, and those learned, from there on."""
@@ -82,6 +93,11 @@ class DetectionTask:
         """A task of clips that are scored, and learned until `batches` reads those for that."""
         self._config, self.classes = config, classes
         self._validation = self._clips = clips
+
+    @property
+    def identity(self) -> str:
+        """See `Task`."""
+        return identity_of(self._validation)
 
     def make_network(self) -> Any:
         """See `Task`."""

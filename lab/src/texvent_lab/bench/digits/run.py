@@ -10,6 +10,8 @@ import dataclasses
 import hashlib
 import json
 import time
+import zipfile
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,10 +78,10 @@ def run_digits(
     require("torch", extra=EXTRA)
     run = open_run(plan)
     steps = (
-        (make_set, [cell for cell in plan.cells if not run.set_path(cell).exists()]),
+        (make_set, [cell for cell in plan.cells if not is_whole(run.set_path(cell))]),
         (
             train_one,
-            [one for one in plan.every_training if not run.prediction_path(one).exists()],
+            [one for one in plan.every_training if not is_whole(run.prediction_path(one))],
         ),
     )
     for function, missing in steps:
@@ -125,7 +127,16 @@ class Run:
         seen = self.set_path(training.cell).stem if training.cell else (training.fold, plan.folds)
         how = (plan.steps, schedule.batch_size, schedule.learning_rate, plan.precision)
         facts = (self.recorded, seen, training.representation, training.seed, *how)
-        return self.path("predicted", ".npy", *facts)
+        return self.path("predicted", ".npz", *facts)
+
+
+def is_whole(path: Path) -> bool:
+    """Whether a result is there and as it was written; a zip knows sums of its parts."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return archive.testzip() is None
+    except (OSError, zipfile.BadZipFile, zlib.error):
+        return False
 
 
 def digest_of(*values: Any) -> str:
@@ -170,7 +181,7 @@ def open_run(plan: DigitsPlan) -> Run:
         polarity=polarity,
     )
     make_folder(plan.work)
-    if not run.recordings_path.exists():
+    if not is_whole(run.recordings_path):
         represent_recordings(recorded).write(run.recordings_path)
     return run
 
@@ -259,7 +270,7 @@ def train_one(run: Run, training: Training) -> str:
     images = recorded.images[training.representation]
     predicted = np.where(is_seen, -1, predict(network, images))
     with atomic_file(run.prediction_path(training), overwrite=True) as part, part.open("wb") as out:
-        np.save(out, predicted)
+        np.savez(out, predicted=predicted)
     right = (predicted == recorded.labels)[~is_seen].mean()
     return f"{training.name}: {right:.3f} ({time.perf_counter() - start:.0f} s)"
 
@@ -271,7 +282,7 @@ def collect(run: Run, seconds: float) -> DigitsReport:
 
     def predicted(trainings: Sequence[Training]) -> NDArray[np.int64]:
         """[trainings, recordings]; −1 for a recording that a network saw."""
-        return np.stack([np.load(run.prediction_path(one)) for one in trainings])
+        return np.stack([np.load(run.prediction_path(one))["predicted"] for one in trainings])
 
     scores: list[SetScore] = []
     for kind in REPRESENTATIONS:

@@ -26,7 +26,7 @@ class DataSetSamples:
         self.name = f"split {split} of {source.folder}"
         self._samples = open(source.folder or Path(), variant=source.variant, split=split)
         self.labels = self._samples.labels
-        self.identity = _identity(self._samples.index.key.tolist())
+        self.identity = _identity(self._samples.index.key.tolist(), self._samples.index.digests)
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -81,7 +81,7 @@ class RecordedSamples:
         if not self._files:
             raise InputError(f"{folder} holds no event files in folders of classes")
         names = [str(path.relative_to(folder)) for _, path in self._files]
-        self.identity = _identity(names)
+        self.identity = _identity(names, [path.stat().st_size for _, path in self._files])
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -114,6 +114,6 @@ class RecordedSamples:
         return str(self._files[number][1])
 
 
-def _identity(names: Sequence[str]) -> str:
-    """Number of samples, and a digest of their names in order."""
-    return f"{len(names)} ({digest(names)[:12]})"
+def _identity(names: Sequence[str], contents: Sequence[object]) -> str:
+    """Number of samples, and a digest of their names in order and of facts of their contents."""
+    return f"{len(names)} ({digest([*names, *contents])[:12]})"

@@ -16,6 +16,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
+from texvent.settings.provenance import fingerprint
 from texvent.transform.edits import resize
 from texvent_lab.networks.layers import Network, make_seeded
 from texvent_lab.networks.resnet34 import ResNet
@@ -92,6 +93,13 @@ class ClassificationTask:
         self._classes = list(self._validation.labels)
         examples = self._examples(self._validation)
         self._channels = len(examples(0, np.random.default_rng(0))[IMAGE])
+
+    @property
+    def identity(self) -> str:
+        """See `Task`."""
+        begin = self._config.start_from
+        weights = [] if begin is None else [f"from {str(fingerprint(str(begin)))[:12]}"]
+        return ", ".join([self._examples(self._validation).identity, *weights])
 
     def make_network(self) -> Any:
         """See `Task`."""

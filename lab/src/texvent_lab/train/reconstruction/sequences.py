@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.batch.identity import digest
 from texvent.config import check_range
 from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
 from texvent.errors import InputError
@@ -21,6 +22,7 @@ from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize
+from texvent.settings.provenance import fingerprint
 from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips
 
 
@@ -86,14 +88,17 @@ def write_clip(path: Path, clip: SlicedClip, targets: Sequence[Target]) -> None:
         h5py.File(part, "w", locking=False) as file,
     ):
         for name in COLUMNS:
-            file.create_dataset(f"events/{name}", data=getattr(events, name))
+            column = getattr(events, name)
+            file.create_dataset(f"events/{name}", data=column, chunks=True, fletcher32=True)
         file["ends"] = np.cumsum([len(one) for one in parts])
         file["edges_us"] = [clip.start_us, *clip.frames]
         file.attrs["width"], file.attrs["height"] = events.size
         for target in targets:
             values = np.stack([target_of(clip, target, window) for window in clip.windows])
             chunks = (1, *values.shape[1:])
-            file.create_dataset(target, data=values, chunks=chunks, compression="lzf", shuffle=True)
+            file.create_dataset(
+                target, data=values, chunks=chunks, compression="lzf", shuffle=True, fletcher32=True
+            )
 
 
 def count_windows(path: Path) -> int:
@@ -187,8 +192,11 @@ class WindowedClips:
 
     @property
     def identity(self) -> str:
-        """Of all clips of the specification."""
-        return self.simulated.recipe.identity
+        """Of all clips of the specification, and of the files that they are made of."""
+        recipe, variant = self.simulated.recipe, self.simulated.variant.name
+        videos = [item.video for item in recipe.items.all]
+        files = map(fingerprint, (*videos, *recipe.files_named[variant]))
+        return digest([recipe.identity, *files])
 
     @property
     def folder(self) -> Path:

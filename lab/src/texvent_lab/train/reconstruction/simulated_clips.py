@@ -82,7 +82,8 @@ class SimulatedClips:
         clip, seed_number = self._clip(number)
         options = self._settings(clip).as_tables()
         item = dataclasses.asdict(clip.item)
-        state = _state_of(clip.item.video)
+        files = (clip.item.video, *self.recipe.files_named[self.variant.name])
+        state = [_state_of(Path(one)) for one in files if one is not None]
         parts = [full_version(), options, item, state, clip.seed, seed_number, *facts]
         return digest([json.dumps(parts, sort_keys=True)])
 
@@ -99,12 +100,11 @@ class SimulatedClips:
         return self.recipe.clips.clip(self.split, place), seed_number
 
 
-def _state_of(video: str | None) -> list[int]:
-    """Size and time of change of a file; nothing of one that is not there or not needed."""
-    if video is None or not Path(video).exists():
-        return []
-    state = Path(video).stat()
-    return [state.st_size, state.st_mtime_ns]
+def _state_of(path: Path) -> list[tuple[str, int, int]]:
+    """Names, sizes and times of change; nothing of a file that is not there or not needed."""
+    files = sorted(path.iterdir()) if path.is_dir() else [path]
+    states = [(one.name, one.stat()) for one in files if one.exists()]
+    return [(name, one.st_size, one.st_mtime_ns) for name, one in states]
 
 
 def _chosen(what: str, name: str, known: tuple[str, ...]) -> str:

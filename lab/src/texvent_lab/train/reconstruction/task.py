@@ -67,6 +67,11 @@ class ReconstructionTask:
         self._published: PublishedNetwork = RECONSTRUCTORS.load(config.network.name)
         self._validation = WindowedClips.open(config.data, config.data.validation_split, ["frame"])
 
+    @property
+    def identity(self) -> str:
+        """See `Task`."""
+        return self._validation.identity
+
     @functools.cached_property
     def _loss(self) -> SequenceLoss:
         options = self._config.loss
