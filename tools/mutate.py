@@ -96,6 +96,7 @@ def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
     """Whether tests of a copy of the tree notice its change, and which one does."""
     words = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider", "-rfE"]
     words += ["--timeout", str(TEST_PATIENCE_S), *map(str, tests)]
+    words += ["-o", f"faulthandler_timeout={TEST_PATIENCE_S + 60}"]
     paths = [str(tree / "src"), str(tree / LAB / "src"), str(tree), os.environ.get("PYTHONPATH")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     with tempfile.TemporaryFile() as said:
