@@ -40,9 +40,7 @@ def reply(content: object, reason: str = "stop") -> str:
 
 
 @contextmanager
-def served(
-    text: str, status: int = 200, held: threading.Event | None = None
-) -> Iterator[tuple[str, list[Any]]]:
+def served(text: str, status: int = 200, held: Any = None) -> Iterator[tuple[str, list[Any]]]:
     """A server that gives one reply to everything; its address, and what it was asked."""
     asked: list[Any] = []
 
@@ -50,8 +48,7 @@ def served(
         def do_POST(self) -> None:
             body = self.rfile.read(int(self.headers["Content-Length"]))
             asked.append((self.path, dict(self.headers), json.loads(body)))
-            if held:
-                held.wait()
+            _ = held and held.wait()
             self.send_response(status)
             self.end_headers()
             with suppress(BrokenPipeError):  # nobody waits any more
