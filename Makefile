@@ -44,6 +44,8 @@ HASHED := -m pip install --quiet --disable-pip-version-check --require-hashes -r
 PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
+# Seconds after which one of the long tests hangs.
+UNHURRIED := --timeout 3600 -o faulthandler_timeout=3660
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
 # Tests start many processes: without compiled modules each would compile texvent anew.
@@ -87,8 +89,8 @@ test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5
 
 nightly: $(VENV)/.dev
-	$(VENV)/bin/python -m pytest -q -n 2 -m nightly
-	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz
+	$(VENV)/bin/python -m pytest -q -n 2 -m nightly $(UNHURRIED)
+	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz $(UNHURRIED)
 
 coverage: $(VENV)/.dev
 	$(VENV)/bin/coverage erase
@@ -106,7 +108,7 @@ test-newest-releases test-lowest-releases: test-%-releases: $(VENV)/.dev
 	$(VENV)/bin/python -m tools.check_wheel build/$*/texvent-*.whl --releases $* --python $(if $(filter newest,$*),$(NEWEST_PYTHON),$(OLDEST_PYTHON))
 
 fuzz: $(VENV)/.dev
-	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz
+	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz $(UNHURRIED)
 
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch

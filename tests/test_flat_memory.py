@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -29,28 +30,20 @@ class Long:
         for index in range(self.frame_count):
             yield Frame(pictures[index % 16].copy(), frame_time_us(index, self.fps))
 
-path, count, interpolate = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+interpolate, *runs = sys.argv[1:]
 settings = resolve("simulate", {"interpolate": interpolate, "fixed_count": 1})
-save(path, video_to_events(Long(count), settings).packets)
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+for path, count in zip(runs[::2], runs[1::2]):
+    save(path, video_to_events(Long(int(count)), settings).packets)
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
-
-
-def peak(path, count, interpolate):
-    """Highest resident memory of a process that simulates so many frames into a file."""
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, str(path), str(count), interpolate],
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=300,
-    )
-    return int(done.stdout)
 
 
 @pytest.mark.parametrize(("extension", "interpolate"), [(".h5", "none"), (".raw", "blend")])
 def test_twice_the_clip_takes_no_more_memory(tmp_path, extension, interpolate):
-    once = peak(tmp_path / f"once{extension}", FRAMES, interpolate)
-    twice = peak(tmp_path / f"twice{extension}", 2 * FRAMES, interpolate)
-    assert (tmp_path / f"twice{extension}").stat().st_size > 500_000
+    paths = [str(tmp_path / f"{name}{extension}") for name in ("once", "twice")]
+    runs = [paths[0], str(FRAMES), paths[1], str(2 * FRAMES)]
+    words = [sys.executable, "-c", SCRIPT, interpolate, *runs]
+    # The highest resident memory of the process until the end of each run.
+    once, twice = map(int, subprocess.check_output(words, text=True).split())
+    assert Path(paths[1]).stat().st_size > 500_000
     assert twice <= ALLOWED * once

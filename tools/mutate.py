@@ -1,36 +1,44 @@
 """Small wrong changes of the program, one at a time: does a test notice each?
 
-`mutations.toml` has the changes. They are made in a copy of the tree, never in the tree itself.
+`mutations.toml` has the changes; with `--draw` they are new ones at random places. They are made in
+a copy of the tree, never in the tree itself.
 
 Example:
     .venv-torch/bin/python -m tools.mutate
     .venv-torch/bin/python -m tools.mutate calibrate "the sign of"
+    .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --rooms pairs io --since v0.5.0
 """
 
 from __future__ import annotations
 
+import argparse
 import contextlib
+import json
+import math
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from tools.wrong_changes import SOURCES, Change, draw, near_tests
 
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "tools" / "mutations.toml"
-SOURCES = Path("src", "texvent")
 LAB = Path("lab")
 """Files and tests of the table that begin with it are those of the laboratory."""
 LEFT_OUT = shutil.ignore_patterns(".*", "dist", "_build", "demo-output")
 """What no test of the table needs. Kernels that were compiled before are taken along."""
-PATIENCE_S = 3600
-"""Tests that run for longer hang, which is noticed."""
+PATIENCE_S, TEST_PATIENCE_S = 3600, 1200
+"""Tests, or one test, that run for longer hang, which is noticed."""
 NOTICED, SURVIVED = "noticed", "SURVIVED"
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
@@ -84,14 +92,13 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
     return found
 
 
-def run_tests(tree: Path, tests: Sequence[str]) -> str:
-    """What becomes of the change that a copy of the tree holds."""
-    words = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider"]
-    words += [str(path_of_test(one)) for one in tests]
-    environment = {
-        **os.environ,
-        "PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree / LAB / 'src'}{os.pathsep}{tree}",
-    }
+def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
+    """Whether tests of a copy of the tree notice its change, and which one does."""
+    words = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider", "-rfE"]
+    words += ["--timeout", str(TEST_PATIENCE_S), *map(str, tests)]
+    words += ["-o", f"faulthandler_timeout={TEST_PATIENCE_S + 60}"]
+    paths = [str(tree / "src"), str(tree / LAB / "src"), str(tree), os.environ.get("PYTHONPATH")]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
             words, cwd=tree, env=environment, stdout=said, start_new_session=True
@@ -104,42 +111,144 @@ def run_tests(tree: Path, tests: Sequence[str]) -> str:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
-        if code in NOT_RUN:
-            said.seek(0)
-            raise RuntimeError(f"{' '.join(words)} did not run: {said.read().decode()}")
-    return SURVIVED if code == 0 else NOTICED
+        said.seek(0)
+        output = said.read().decode(errors="replace")
+    if code in NOT_RUN:
+        raise RuntimeError(f"{' '.join(words)} did not run: {output}")
+    failed = re.search(r"^(?:FAILED|ERROR) (\S.*?)(?: - |$)", output, re.MULTILINE)
+    return SURVIVED if code == 0 else NOTICED, failed[1] if failed else ""
+
+
+@contextlib.contextmanager
+def changed(path: Path, text: str) -> Iterator[None]:
+    """Another text of a file, for a while."""
+    # Renamed back, it keeps its time, by which compiled kernels are found again.
+    right = path.rename(path.with_suffix(".right"))
+    path.write_text(text, "utf-8")
+    try:
+        yield
+    finally:
+        right.replace(path)
 
 
 def judge(tree: Path, mutation: Mutation) -> str:
     """Change a copy of the tree, run the tests that should notice, change it back."""
     path = tree / source_path(mutation.file)
-    # Renamed back, it keeps its time, by which compiled kernels are found again.
-    right = path.rename(path.with_suffix(".right"))
-    path.write_text(right.read_text("utf-8").replace(mutation.old, mutation.new), "utf-8")
-    try:
-        return run_tests(tree, mutation.tests)
-    finally:
-        right.replace(path)
+    with changed(path, path.read_text("utf-8").replace(mutation.old, mutation.new)):
+        return run_tests(tree, [path_of_test(one) for one in mutation.tests])[0]
+
+
+def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str]:
+    """Whether the tests near a change notice it, and which one does.
+
+    A test that fails without the change too is added to `failing` and judges nothing.
+    """
+    path = tree / SOURCES / change.file
+    while True:
+        tests = [*near_tests(change.file, tree), *(f"--deselect={one}" for one in failing)]
+        with changed(path, change.applied(path.read_text("utf-8"))):
+            verdict, test = run_tests(tree, tests)
+        if verdict == SURVIVED or not test or run_tests(tree, [test])[0] == SURVIVED:
+            return verdict, test or "a hang, a crash or a module that cannot be imported"
+        failing.add(test)
+
+
+def wilson_interval(count: int, total: int) -> tuple[float, float]:
+    """Where a share lies with 95 %, by Wilson's score, DOI 10.1080/01621459.1927.10502953."""
+    if not total:
+        return 0.0, 1.0
+    z = 1.959964
+    centre = (count + z * z / 2) / (total + z * z)
+    half = z / (total + z * z) * math.sqrt(count * (total - count) / total + z * z / 4)
+    return max(0.0, centre - half), min(1.0, centre + half)
+
+
+def lines_changed_since(commit: str) -> dict[str, set[int]]:
+    """Numbers of the lines that were changed after a commit, by files below `SOURCES`."""
+    words = ["git", "diff", "-U0", "--no-prefix", f"--relative={SOURCES}", commit]
+    found: dict[str, set[int]] = {}
+    file = ""
+    for line in subprocess.check_output(words, cwd=ROOT, text=True).splitlines():
+        if line.startswith("+++ "):
+            file = line.removeprefix("+++ ")
+        elif match := re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line):
+            first, count = int(match[1]), int(match[2] or 1)
+            found.setdefault(file, set()).update(range(first, first + count))
+    return found
+
+
+def judge_draw(tree: Path, options: argparse.Namespace) -> int:
+    """Draw changes, judge and print each; returns 0 if all are noticed."""
+    lines = lines_changed_since(options.since) if options.since else None
+    failing: set[str] = set()
+    rows: list[dict[str, Any]] = []
+    for number, one in enumerate(draw(options.draw, options.seed, tree, options.rooms, lines), 1):
+        if options.only and number not in options.only:
+            continue
+        text = (tree / SOURCES / one.file).read_text("utf-8")
+        old, new = (each.splitlines()[one.line - 1].strip() for each in (text, one.applied(text)))
+        began = time.monotonic()
+        verdict, test = judge_drawn(tree, one, failing)
+        row = {"number": number, "file": one.file, "line": one.line, "kind": one.kind, "old": old}
+        row |= {"new": new, "verdict": verdict, "test": test, "s": round(time.monotonic() - began)}
+        rows.append(row)
+        by = f" by {test}" if verdict == NOTICED else ""
+        sys.stdout.write(
+            f"{number}  {one.file}:{one.line}  {verdict}{by}, {row['s']} s\n- {old}\n+ {new}\n"
+        )
+        sys.stdout.flush()
+        if options.json:
+            options.json.write_text(json.dumps({"failing": sorted(failing), "changes": rows}))
+    survivors = [row for row in rows if row["verdict"] == SURVIVED]
+    count = len(rows) - len(survivors)
+    low, high = wilson_interval(count, len(rows))
+    sys.stdout.write(f"{count} of {len(rows)} noticed, 95 % interval {low:.0%} to {high:.0%}\n")
+    for row in survivors:
+        sys.stdout.write(f"{row['number']}  {row['file']}:{row['line']}  {row['new']}\n")
+    return int(bool(survivors))
+
+
+def judge_table(tree: Path, words: Sequence[str]) -> int:
+    """Make the changes whose names hold one of the words, or all; returns 0 if all are noticed."""
+    chosen = [one for one in read_table() if not words or any(word in one.name for word in words)]
+    tests = sorted({test for one in chosen for test in one.tests})
+    if run_tests(tree, [path_of_test(one) for one in tests])[0] is not SURVIVED:
+        sys.exit(f"without any change, tests fail: pytest {' '.join(tests)}")
+    verdicts = []
+    for one in chosen:
+        verdicts.append(judge(tree, one))
+        sys.stdout.write(f"{verdicts[-1]}  {one.name}\n")
+        sys.stdout.flush()
+    sys.stdout.write(f"{verdicts.count(NOTICED)} of {len(chosen)} noticed\n")
+    return int(SURVIVED in verdicts)
+
+
+def _read_options(words: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="tools.mutate", description=__doc__.partition("\n")[0])
+    parser.add_argument("names", nargs="*", help="only changes of the table that are named so")
+    parser.add_argument("--draw", type=int, metavar="N", help="N new changes at random places")
+    parser.add_argument("--seed", type=int, default=0, help="of the draw")
+    parser.add_argument("--rooms", nargs="+", default=(), help="draw in these folders of texvent")
+    parser.add_argument("--since", metavar="COMMIT", help="draw in the lines changed since then")
+    parser.add_argument(
+        "--only", type=lambda text: {int(one) for one in text.split(",")}, metavar="3,17",
+        help="judge these numbers of the draw",
+    )  # fmt: skip
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts here")
+    return parser.parse_args(words)
 
 
 def main(words: Sequence[str]) -> int:
-    """Make the changes whose names hold one of the words, or all; returns 0 if all are noticed."""
-    chosen = [one for one in read_table() if not words or any(word in one.name for word in words)]
+    """Judge the changes of the table or of a draw; returns 0 if all are noticed."""
+    options = _read_options(words)
     if find_spec("torch") is None:
         sys.exit("some of the tests need torch: make .venv-torch/.torch, and use its Python")
     os.nice(10)
     with tempfile.TemporaryDirectory(prefix="texvent-mutate-") as folder:
         tree = Path(shutil.copytree(ROOT, Path(folder, "tree"), ignore=LEFT_OUT, symlinks=True))
-        tests = sorted({test for one in chosen for test in one.tests})
-        if run_tests(tree, tests) is not SURVIVED:
-            sys.exit(f"without any change, tests fail: pytest {' '.join(tests)}")
-        verdicts = []
-        for one in chosen:
-            verdicts.append(judge(tree, one))
-            sys.stdout.write(f"{verdicts[-1]}  {one.name}\n")
-            sys.stdout.flush()
-    sys.stdout.write(f"{verdicts.count(NOTICED)} of {len(chosen)} noticed\n")
-    return int(SURVIVED in verdicts)
+        if options.draw:
+            return judge_draw(tree, options)
+        return judge_table(tree, options.names)
 
 
 if __name__ == "__main__":

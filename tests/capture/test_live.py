@@ -4,7 +4,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import cv2
@@ -26,13 +25,12 @@ class Pipe:
         self.path = path
         os.mkfifo(path)
 
-    def fill(self, blocks, pause_s=0.0):
+    def fill(self, blocks):
         def write():
             with self.path.open("wb") as end:
                 for block in blocks:
                     end.write(block)
                     end.flush()
-                    time.sleep(pause_s)
 
         threading.Thread(target=write, daemon=True).start()
 
@@ -65,7 +63,7 @@ def test_a_named_pipe_is_live_and_keeps_the_streams_times(pipe, film):
 
 
 def test_frames_without_times_get_the_moment_of_arrival(pipe):
-    pipe.fill(jpegs(6), pause_s=0.03)
+    pipe.fill(jpegs(6))
     stream = LiveFrames(str(pipe.path))
     times = [frame.t_us for frame in stream]
     assert stream.metadata["clock"] == "arrival"

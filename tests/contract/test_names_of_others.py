@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -86,24 +87,28 @@ def use(folder: Path, out: Path) -> None:
         list(texvent.dataset.open(folder, representation="histogram"))
 
 
-RECORD, TEXTS = "paper/train-000000.json", ("{abs}", "a/../../x", "x\ny", "", "\ud800")
+TEXTS = ("{abs}", "a/../../x", "x\ny", "", "\ud800")
 
 
 @pytest.mark.parametrize(
-    ("document", "text"),
-    [("specification.json", "../../x"), (RECORD, "../../x"), *((RECORD, one) for one in TEXTS)],
+    ("document", "chosen"),
+    [
+        ("specification.json", ["../../x"]),
+        ("paper/train-000000.json", ["../../x"]),
+        ("paper/train-000000.json", TEXTS),
+    ],
 )
 def test_no_text_of_a_received_set_leaves_the_output(
-    received: Path, tmp_path: Path, document: str, text: str
+    received: Path, tmp_path: Path, document: str, chosen: Sequence[str]
 ) -> None:
-    text = text.replace("{abs}", str(tmp_path / "victim"))
+    turns = itertools.cycle(one.replace("{abs}", str(tmp_path / "victim")) for one in chosen)
     folder = shutil.copytree(received, tmp_path / "sent/deep/set")
     (folder / "items.jsonl").unlink()
     for name in ("victim", "victim.txt", "victim_list.txt", "x", "x.txt"):
         (tmp_path / name).write_text("mine")
     path, out = folder / document, tmp_path / "a" / "b" / "out"
     tables = json.loads(path.read_text())
-    for place in texts(tables):
+    for place, text in zip(texts(tables), turns, strict=False):
         path.write_text(json.dumps(changed(tables, place, text)))
         out.mkdir(parents=True)
         before = files_beside(tmp_path, out)

@@ -36,7 +36,7 @@ from .text_readers import text_readers
 
 PREPARE_SECONDS = 120.0
 """Loading libraries and compiling kernels for a reader's sound input."""
-MAX_SECONDS, KILL_SECONDS = 10.0, 20.0
+MAX_SECONDS, KILL_SECONDS = 10.0, 120.0
 MAX_GROWTH_BYTES = 10**9
 ADDRESS_SPACE_MARGIN = 3 * 2**30
 """What a reader may reserve beyond what the process holds; more is MemoryError."""
@@ -156,10 +156,10 @@ def _answer(
     pipe.send(damage)
     before = _memory("VmRSS")
     Path("/proc/self/clear_refs").write_text("5")
-    start = time.monotonic()
+    start = time.process_time()  # which other programs do not lengthen
     with _bounded_memory():
         result = outcome_of(reader, copy / relative, wanted)
-    seconds, growth = time.monotonic() - start, _memory("VmHWM") - before
+    seconds, growth = time.process_time() - start, _memory("VmHWM") - before
     if seconds > MAX_SECONDS:
         result = Outcome("hang", f"{seconds:.1f} s, then {result}")
     if growth > MAX_GROWTH_BYTES:

@@ -3,6 +3,7 @@
 import os
 import signal
 import stat
+import subprocess
 import sys
 import textwrap
 import threading
@@ -149,7 +150,8 @@ def test_stopping_ends_the_program_and_its_children(tmp_path):
     def interrupt():
         while not marker.exists() or not marker.read_text().strip():
             time.sleep(0.01)
-        time.sleep(0.3)  # the child runs; now its parent waits for it
+        while sys._current_frames()[main_thread].f_code is not subprocess.Popen._try_wait.__code__:
+            time.sleep(0.01)
         signal.pthread_kill(main_thread, signal.SIGINT)
 
     threading.Thread(target=interrupt).start()

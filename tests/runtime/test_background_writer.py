@@ -1,24 +1,21 @@
 """Writing from another thread: everything in order, errors raised, nothing written after one."""
 
 import threading
-import time
 
 import pytest
 
 from texvent.runtime.background_writer import DEPTH, BackgroundWriter
 
 
-class Slow:
-    """Takes numbers slowly; refuses one of them."""
+class Sink:
+    """Takes numbers; refuses one of them."""
 
-    def __init__(self, refused=None, wait_s=0.0):
+    def __init__(self, refused=None):
         self.taken = []
         self.threads = set()
         self.refused = refused
-        self.wait_s = wait_s
 
     def append(self, number):
-        time.sleep(self.wait_s)
         if number == self.refused:
             raise OSError(28, "disk full")
         self.taken.append(number)
@@ -32,7 +29,7 @@ def write(sink, numbers):
 
 
 def test_everything_arrives_in_order_from_one_other_thread():
-    sink = Slow()
+    sink = Sink()
     write(sink, range(500))
     assert sink.taken == list(range(500))
     assert len(sink.threads) == 1
@@ -41,24 +38,17 @@ def test_everything_arrives_in_order_from_one_other_thread():
 
 @pytest.mark.parametrize("refused", [0, 3, 99])
 def test_an_error_of_the_sink_is_raised_where_the_work_is(refused):
-    sink = Slow(refused)
+    sink = Sink(refused)
     with pytest.raises(OSError, match="disk full"):
         write(sink, range(100))
     assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
 
 
 def test_an_error_of_the_sink_stops_the_work_soon():
-    sink, given = Slow(refused=0), []
-
-    def numbers():
-        for number in range(10_000):
-            given.append(number)
-            time.sleep(0.001)
-            yield number
-
+    numbers = iter(range(10_000))
     with pytest.raises(OSError, match="disk full"):
-        write(sink, numbers())
-    assert len(given) <= DEPTH + 2
+        write(Sink(refused=0), numbers)
+    assert next(numbers) <= DEPTH + 2
 
 
 def test_an_error_in_the_block_drops_what_waits():
@@ -69,12 +59,15 @@ def test_an_error_in_the_block_drops_what_waits():
             released.wait()
             taken.append(number)
 
-    def interrupted():
-        yield from range(DEPTH)
-        threading.Timer(0.05, released.set).start()
-        raise KeyboardInterrupt
+    def work():
+        with BackgroundWriter(Stuck()) as behind:
+            for number in range(DEPTH):
+                behind.append(number)
+            # Called when it is dropped.
+            behind._queue[-1].add_done_callback(lambda _: released.set())
+            raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        write(Stuck(), interrupted())
+        work()
     # Only the one that was being written.
     assert taken == [0]

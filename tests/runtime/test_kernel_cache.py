@@ -1,12 +1,20 @@
 """Compiled functions whose files are damaged, or that no folder takes."""
 
+import itertools
 import os
+import runpy
 import stat
 import subprocess
 import sys
+import tempfile
+import warnings
+from functools import partial
 from pathlib import Path
 
+import numba
 import pytest
+
+from texvent.runtime import kernel_cache
 
 SOURCE = Path(__file__).parents[2] / "src"
 KERNELS = """
@@ -16,7 +24,7 @@ from texvent.runtime.jit import jit
 def double(x):
     return 2 * x
 
-print(double(4), sum(double.stats.cache_hits.values()))
+FOUND = double(4), sum(double.stats.cache_hits.values())
 """
 NOTICE = "environment variable NUMBA_CACHE_DIR"
 
@@ -30,15 +38,28 @@ def module(tmp_path):
 
 
 def run(module, **environment):
-    """What the kernel returns in a process of its own, how often it came from disk, and stderr."""
-    lent = {"PYTHONPATH": f"{module}{os.pathsep}{SOURCE}", "PYTHONDONTWRITEBYTECODE": "1"}
-    lent |= {"TMPDIR": str(module.parent / "temporary"), "HOME": str(module.parent)}
-    command = [sys.executable, "-c", "import kernels"]
-    kept = {name: os.environ[name] for name in os.environ if name != "XDG_CACHE_HOME"}
-    done = subprocess.run(
-        command, env=kept | lent | environment, capture_output=True, text=True, check=True
-    )
-    return *map(int, done.stdout.split()), done.stderr
+    """What the kernel returns, how often it came from disk, and what is said: as in a new process.
+
+    A module that is run anew has a function and a cache of its own.
+    """
+    lent = {"TMPDIR": str(module.parent / "temporary"), "HOME": str(module.parent)} | environment
+    with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        patch.delenv("XDG_CACHE_HOME", raising=False)
+        for name, value in lent.items():
+            patch.setenv(name, value)
+        patch.setattr(tempfile, "tempdir", None)
+        patch.setattr(numba.config, "CACHE_DIR", environment.get("NUMBA_CACHE_DIR", ""))
+        patch.setattr(kernel_cache, "_NOTICES", itertools.count())
+        found = runpy.run_path(str(module / "kernels.py"), run_name="kernels")
+    return *found["FOUND"], "".join(str(one.message) for one in said)
+
+
+def test_a_later_process_reads_what_an_earlier_one_compiled(module):
+    words = [sys.executable, "-c", "import kernels; print(*kernels.FOUND)"]
+    paths = {"PYTHONPATH": f"{module}{os.pathsep}{SOURCE}", "PYTHONDONTWRITEBYTECODE": "1"}
+    said = [subprocess.check_output(words, env=os.environ | paths, text=True) for _ in range(2)]
+    assert said == ["8 0\n", "8 1\n"]
 
 
 def without_folders(module):
@@ -53,16 +74,18 @@ def kept_in(folder):
     return file
 
 
-def flip(file):
+def flip(file, share):
     content = bytearray(file.read_bytes())
-    content[len(content) // 2] ^= 0x10
+    content[int(share * len(content))] ^= 0x10
     file.write_bytes(content)
 
 
 DAMAGE = {
     "empty": lambda file: file.write_bytes(b""),
     "half": lambda file: file.write_bytes(file.read_bytes()[: file.stat().st_size // 2]),
-    "a flipped bit": flip,
+    **{
+        f"a flipped bit at {share}": partial(flip, share=share) for share in (0, 0.2, 0.4, 0.6, 0.8)
+    },
     "another program's": lambda file: file.write_text("not a kernel"),
     "gone": lambda file: file.unlink(),
 }

@@ -94,7 +94,6 @@ def test_a_video_is_named_by_its_path_and_keeps_its_size(page):
     ("prompt", "options", "message"),
     [
         ("   ", {}, "PROMPT must not be empty"),
-        ("a ball", {"seed": "-1"}, "seed is -1"),
         ("a ball", {"simulator": "nosuch"}, "unknown simulator 'nosuch'"),
     ],
 )
@@ -202,7 +201,7 @@ def test_bodies_are_bounded_before_they_are_read(page):
     assert not list(page.folder.iterdir())
 
 
-@pytest.mark.parametrize("prompt", ["a\0b", "\ud800", "--help", "-h"])
+@pytest.mark.parametrize("prompt", ["a\0b\ud800", "--help"])
 def test_odd_prompts_are_prompts(page, prompt):
     assert "usage:" not in generate(page, prompt)[1]
 

@@ -10,7 +10,9 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import FileFormatError
 from texvent_lab.bench.document import read_document
+from texvent_lab.bench.oracle.run import FidelityPlan
 from texvent_lab.bench.page import page_files
+from texvent_lab.commands.bench import fidelity
 
 from .synthetic_report import synthetic_report
 
@@ -62,6 +64,8 @@ def test_another_document_is_refused(change):
 
 def test_a_result_is_written_and_becomes_a_page(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    few = FidelityPlan(score_seeds=(21,), fit_seeds=(21,))
+    monkeypatch.setattr(fidelity, "FidelityPlan", lambda: few)
     chosen = ["--scenes", "static", "--simulators", "esim", "--interpolations", "none"]
     assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0
     shown = capsys.readouterr()

@@ -153,7 +153,7 @@ def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn):
         time.sleep(0.02)
     process.kill()  # to the one that leads: its workers must end by themselves
     process.communicate(timeout=300)
-    assert run("make", "cars.toml", "-o", "killed", "--workers", 2, "-q") == 0
+    assert run("make", "cars.toml", "-o", "killed", "--workers", 1, "-q") == 0
     assert digests(folder / "killed") == whole
     hidden = [path for path in Path("killed").rglob(".texvent-*") if not is_locked(path)]
     assert hidden == []

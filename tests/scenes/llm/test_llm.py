@@ -3,7 +3,6 @@
 import importlib.util
 import json
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -41,7 +40,7 @@ def reply(content: object, reason: str = "stop") -> str:
 
 
 @contextmanager
-def served(text: str, status: int = 200, wait_s: float = 0.0) -> Iterator[tuple[str, list[Any]]]:
+def served(text: str, status: int = 200, held: Any = None) -> Iterator[tuple[str, list[Any]]]:
     """A server that gives one reply to everything; its address, and what it was asked."""
     asked: list[Any] = []
 
@@ -49,7 +48,7 @@ def served(text: str, status: int = 200, wait_s: float = 0.0) -> Iterator[tuple[
         def do_POST(self) -> None:
             body = self.rfile.read(int(self.headers["Content-Length"]))
             asked.append((self.path, dict(self.headers), json.loads(body)))
-            time.sleep(wait_s)
+            _ = held and held.wait()
             self.send_response(status)
             self.end_headers()
             with suppress(BrokenPipeError):  # nobody waits any more
@@ -140,9 +139,10 @@ def test_wrong_answers_are_one_line(text, status, message):
 def test_no_server_and_no_answer_in_time_are_one_line():
     with pytest.raises(TexventError, match=r"127\.0\.0\.1:9/v1 gave no answer .*; check llm_url"):
         write_scene(PROMPT, "http://127.0.0.1:9/v1")
-    slow = served(reply(ANSWER), wait_s=0.5)
-    with slow as (url, _), pytest.raises(TexventError, match=r"gave no answer .*timed out"):
-        write_scene(PROMPT, url, timeout_s=0.1)
+    with served(reply(ANSWER), held=(held := threading.Event())) as (url, _):
+        with pytest.raises(TexventError, match=r"gave no answer .*timed out"):
+            write_scene(PROMPT, url, timeout_s=0.1)
+        held.set()
 
 
 def test_the_command_line(tmp_path, capsys):

@@ -18,7 +18,7 @@ from texvent.view.page.writer import show
 from texvent.view.render import render_events
 
 SIZE = SensorSize(64, 48)
-WAIT_S = 20
+WAIT_S = 300
 
 
 def cube_of_events(count: int = 20_000) -> EventStream:
