@@ -1,0 +1,73 @@
+"""Every option of every command changes something, and figures change in the stated direction."""
+
+from __future__ import annotations
+
+import functools
+
+import pytest
+from tests.options.inputs_of_commands import make_inputs
+from tests.options.runs_of_commands import Outcome, listed_options, run_once
+from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, TRIES, Rise, Try
+
+from texvent.cli.app import COMMANDS
+from texvent.cli.dataset.dataset import STEPS
+
+
+@pytest.fixture(scope="module")
+def outcome(tmp_path_factory):
+    """Function of a command line, and of one that ran before: its outcome, kept."""
+    folder = tmp_path_factory.mktemp("inputs")
+    make_inputs(folder)
+    return functools.cache(functools.partial(run_once, folder))
+
+
+def tries_of(command: str, name: str) -> list[Try | Rise]:
+    """Ways to give an option another value, from the table or from its choices."""
+    kind = command.partition(" --")[0]
+    for key in (f"{command} --{name}", f"{kind} --{name}", f"--{name}"):
+        if key in TRIES:
+            given = TRIES[key]
+            return list(given) if isinstance(given, list) else [given]
+    words = listed_options(command)[name].other_values()
+    assert words, f"{command} --{name} has no value to try: add one to the table"
+    return [Try(one) for one in words]
+
+
+def fault_of(outcome, command: str, one: Try | Rise) -> str | None:
+    """Why a try shows no effect, or a wrong one; None if it is as the table says."""
+    base = (one.base or COMMANDS_TRIED[command].words).replace("BASE", command)
+    base = f"{base} {one.beside}"
+    if isinstance(one, Rise):
+        low, high = (outcome(f"{base} {words}") for words in (one.low, one.high))
+        if low.code or high.code:
+            return f"refused: {low.said}{high.said}"
+        first, second = low.measure(one.measure), high.measure(one.measure)
+        if first < second:
+            return None
+        return f"{one.measure} is {first} with {one.low}, {second} with {one.high}"
+    before = base if one.before else ""
+    without, changed = outcome(base, before=before), outcome(f"{base} {one.words}", before=before)
+    part = one.changes or COMMANDS_TRIED[command].changes
+    if part != "code" and (changed.code or without.code):
+        return f"refused ({changed.code}, {without.code}): {changed.said}{without.said}"
+    if getattr(changed, part) == getattr(without, part):
+        return f"{part} the same with {one.words}: {changed.said}"
+    return None
+
+
+@pytest.mark.parametrize("command", COMMANDS_TRIED)
+def test_every_option_changes_something_and_figures_in_the_direction_of_its_help(command, outcome):
+    wrong = {}
+    for name, listed in listed_options(command).items():
+        if listed.section in COMMANDS_TRIED[command].shared or (command, name) in ELSEWHERE:
+            continue
+        for one in tries_of(command, name):
+            if fault := fault_of(outcome, command, one):
+                wrong[f"--{name}"] = fault
+    assert not wrong, "\n".join(f"{one}: {why}" for one, why in wrong.items())
+
+
+def test_every_command_and_step_is_tried():
+    steps = {f"dataset {one}" for one in STEPS}
+    tried = {one.partition(" --")[0] for one in COMMANDS_TRIED}
+    assert {*COMMANDS} | steps == tried | {"dataset"}
