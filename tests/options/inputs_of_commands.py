@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import cv2
+import h5py
 import numpy as np
 from tests.calibrate.known_scenes import simulate_flicker, simulate_static
 from tests.capture.motion_vectors import moving_scene
@@ -18,12 +19,22 @@ from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import ThresholdMap, write_threshold_map
 from texvent.video import Video
 
+RIG = """
+cam0:
+  camera_model: pinhole
+  distortion_model: radtan
+  distortion_coeffs: [-0.1, 0.01, 0.0, 0.0]
+  intrinsics: [9.0, 9.0, 8.0, 6.0]
+  resolution: [16, 12]
+"""
 SPECIFICATION = """
 name = "cars"
 samples_per_shard = 1
 [options]
 duration = 0.1
-sensor = "24x18"
+sensor = "16x12"
+samples = 1
+interpolate = "none"
 [[sources]]
 prompts = ["a red car drives left", "a blue bus drives left"]
 """
@@ -40,10 +51,14 @@ def make_inputs(folder: Path) -> None:
         "seconds.txt": "0\n0.1\n0.2\n0.3\n0.5\n",
         "options.toml": "contrast_threshold = 0.5\n",
         "prompts.txt": "a red ball bounces\n",
+        "rig.yaml": RIG,
+        "wand.txt": "a magic wand\n",
+        "wug.txt": "a wug and a dog run\n",
         "mask.txt": "3 3\n4 4\n5 5\n",
         "lens.txt": "14 14 8 6 -0.3 0.1 0.01 0.02 0",
         "parts.txt": "0.1\n0.3\n0.5\n",
         "cars.toml": SPECIFICATION,
+        "wugs.toml": SPECIFICATION.replace("a blue bus drives left", "qwerty zxcv"),
     }
     for name, text in texts.items():
         (folder / name).write_text(text)
@@ -51,7 +66,7 @@ def make_inputs(folder: Path) -> None:
     write_bar(folder / "assets" / "magic_wand.glb")
     pixels = rng.uniform(0.5, 2.0, (2, HEIGHT, WIDTH))
     write_threshold_map(ThresholdMap(*pixels), folder / "map.npz")
-    make_set(folder / "cars")
+    make_set(folder / "cars", truth=["boxes"])
 
 
 def _make_clips(folder: Path, rng: np.random.Generator) -> None:
@@ -87,14 +102,24 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
     text = "".join(f"{t} {x} {y} {p}\n" for t, x, y, p in rows)
     (folder / "plain.csv").write_text(text)
     (folder / "plain.dat2").write_text(text)
-    first, rest = text.split("\n", 1)
-    (folder / "damaged.csv").write_text(f"{rest}{first}\n")
-    words = ["generate", "a red ball bounces", "--sensor", "48x36", "--duration", "0.2", "-q"]
+    lines = text.splitlines(keepends=True)
+    swapped = "".join([*lines[9:12], *lines[:9]]).replace(" ", ",")
+    (folder / "damaged.csv").write_text(f"t,x,y,p\n{swapped}")
+    (folder / "odd.csv").write_text("".join(
+        f"{x} {y} {t} {p}\n"
+        for t, x, y, p in zip(events.t.tolist(), events.x, events.y, events.p, strict=True)
+    ))
+    with h5py.File(folder / "several.h5", "w") as file:
+        for name in ("left", "right"):
+            for column in "xytp":
+                file[f"{name}/{column}"] = getattr(events, column)
+    words = ["generate", "a red ball bounces", "--sensor", "16x12", "--duration", "0.2", "-q"]
     assert main([*words, "--previews", "none", "-o", str(folder / "scene.h5")]) == 0
+    assert main([*words, "--video-only", "-o", str(folder / "scene.avi")]) == 0
     noise = {"noise_curve": "128:2", "noise_scale": 1.0}
     config = PhysicalConfig(gamma=1.0, contrast_threshold=0.3, **noise)
     size = texvent.SensorSize(32, 24)
-    rest_scene = simulate_static(config, size, 4.0)
+    rest_scene = simulate_static(config, size, 2.0)
     rest_scene.save(folder / "rest.npz")
     rest_scene.without_label().save(folder / "rest.csv")
     simulate_flicker(config, size, 5.0, ratio=6.0, number=6).save(folder / "flicker.npz")

@@ -16,6 +16,7 @@ import numpy as np
 
 import texvent
 from texvent.cli.app import main
+from texvent.errors import TexventError
 
 ROW = re.compile(r"^  (?=-)(?:-\S+(?: \S+)?, )*--(?P<name>[a-z][a-z0-9-]*)(?: (?P<value>\S+))?")
 TIMES = re.compile(r"[\d.,]+ (?:s|ms|kB|MB|GB|hours)\b|[\d.,]+ per second")
@@ -154,10 +155,11 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
         streams: dict[str, texvent.EventStream] = {}
         files: dict[str, bytes] = {}
         for path in sorted(one for one in Path().rglob("*") if one.is_file()):
-            if path.suffix in (".npz", ".h5") and ".truth" not in str(path):
-                streams[str(path)] = texvent.load(path)
-            else:
-                files[str(path)] = path.read_bytes()
+            files[str(path)] = path.read_bytes()
+            if path.suffix in (".npz", ".h5"):
+                with contextlib.suppress(TexventError):
+                    streams[str(path)] = texvent.load(path)
+                    del files[str(path)]
     return Outcome(code, printed, TIMES.sub("", said), streams, files)
 
 

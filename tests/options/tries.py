@@ -18,8 +18,8 @@ class Try(NamedTuple):
     """Part of `Outcome`; without it, that of the command."""
     base: str | None = None
     """Command line of both runs, in place of that of the table."""
-    before: bool = False
-    """Whether the run without the option has been made in the same folder."""
+    before: str = ""
+    """Command line of a run before both, in the same folder; "BASE": that without the option."""
 
 
 class Rise(NamedTuple):
@@ -39,22 +39,23 @@ class Command(NamedTuple):
     changes: str = "events"
     """Part of `Outcome` that its options change."""
     shared: tuple[str, ...] = ()
-    """Sections of its help whose options another command tries."""
+    """Options, or sections of its help, that another command tries."""
 
 
+READING = ("sensor", "time-unit", "columns", "stream", "repair", "format")
 SIMULATION = ("run", "interpolate", "simulate")
 CLIP = "simulate ../clip.npy --fps 5 --previews none -o o.npz"
 FRAMES = "simulate ../frames --previews none -o o.npz"
 FILM = "simulate ../film.npy --fps 25 --previews none --noise none -o o.npz"
 MOTION = "--motion ../forward.npy --interpolate motion"
 STILL = "simulate ../still.png --sensor 16x12 --previews none -o o.npz"
-SMALL = "--sensor 24x18 --duration 0.125 --samples 1 --previews none"
+SMALL = "--sensor 16x12 --duration 0.125 --samples 1 --previews none"
 SCENE = f"generate 'a red ball bounces' {SMALL}"
 BATCH = f"batch ../prompts.txt {SMALL} --format npz"
-RIG = "rig 'a red ball bounces' --sensor 24x18 --duration 0.125 --samples 1"
+RIG = "rig 'a red ball bounces' --sensor 16x12 --duration 0.125 --samples 1"
 REST = "calibrate --events ../rest.npz -o o.toml"
 FLICKER = "calibrate --events ../flicker.npz --flicker-hz 5 -o o.toml"
-MOVING = "calibrate --frames ../moving.npy --fps 50 --events ../moving.npz --seconds 0.3 -o o.toml"
+MOVING = "calibrate --frames ../moving.npy --fps 50 --events ../moving.npz --seconds 0.1 --interpolate none -o o.toml"
 CONVERT = "convert ../events.h5 o.npz"
 EVENTS = "../events.h5"
 COMMANDS_TRIED: dict[str, Command] = {
@@ -66,21 +67,21 @@ COMMANDS_TRIED: dict[str, Command] = {
         )
         for one in SIMULATORS.builtin
     },
-    "generate": Command(f"{SCENE} -o o.npz", shared=SIMULATION),
-    "batch": Command(BATCH, shared=SIMULATION),
-    "rig": Command(RIG, "files", shared=SIMULATION),
-    "check": Command("check ../clip.npy --fps 5 --json", "printed"),
-    "calibrate": Command(REST, "said", shared=("interpolate",)),
+    "generate": Command(f"{SCENE} -o o.npz", shared=("keep-partial", *SIMULATION)),
+    "batch": Command(BATCH, shared=("shadows", "hdr", "samples", *SIMULATION)),
+    "rig": Command(RIG, "files", shared=("shadows", "hdr", "samples", *SIMULATION)),
+    "check": Command("check ../clip.npy --fps 5 --json", "printed", shared=("quiet",)),
+    "calibrate": Command(REST, "said", shared=("capture", "interpolate")),
     "convert": Command(CONVERT),
-    "render": Command(f"render {EVENTS} -o o.png", "files"),
-    "view": Command(f"view {EVENTS} -o o.html", "files"),
-    "info": Command(f"info {EVENTS}", "printed"),
-    "validate": Command(f"validate {EVENTS}", "printed"),
-    "compare": Command(f"compare {EVENTS} ../others.h5 --metrics count_ratio", "printed"),
+    "render": Command(f"render {EVENTS} -o o.png", "files", shared=READING),
+    "view": Command(f"view {EVENTS} -o o.html", "files", shared=READING),
+    "info": Command(f"info {EVENTS}", "printed", shared=READING),
+    "validate": Command(f"validate {EVENTS}", "printed", shared=READING),
+    "compare": Command(f"compare {EVENTS} ../others.h5 --metrics count_ratio", "printed", shared=READING),
     "scenes": Command("scenes", "printed"),
     "generators": Command("generators", "printed"),
     "doctor": Command("doctor", "printed"),
-    "dataset plan": Command("dataset plan ../cars.toml --trial 0", "printed"),
+    "dataset plan": Command("dataset plan ../cars.toml --trial 0", "printed", shared=("workers",)),
     "dataset make": Command("dataset make ../cars.toml -o cars --workers 1", "names"),
     "dataset verify": Command("dataset verify ../cars", "printed"),
     "dataset stats": Command("dataset stats ../cars", "printed"),
@@ -94,9 +95,10 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "--prompt": Try("--prompt 'a ball'", changes="facts"),
     "--out": Try("--out other.npz", changes="names"),
     "--format": Try("--format npz", base=CLIP.partition(" -o")[0], changes="names"),
+    "generate --format": Try("--format npz", base=SCENE, changes="names"),
     "--previews": [Try(f"--previews {one}", changes="names") for one in ("png", "html,png")],
     "simulate --truth": Try("--truth flow", MOTION, changes="names", base=FILM),
-    "--overwrite": Try("--overwrite", changes="code", before=True),
+    "--overwrite": Try("--overwrite", changes="code", before="BASE"),
     "--config": Try("--config ../options.toml"),
     "--print-config": Try("--print-config", changes="printed"),
     "--dry-run": Try("--dry-run", changes="printed"),
@@ -176,15 +178,19 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "generate --fps": Rise("--fps 16", "--fps 80", r"(\d+) source"),
     "--duration": Rise("--duration 0.1", "--duration 0.2", "last"),
     "--samples": Try("--samples 3"),
-    "--assets": Try("--assets ../assets", base=f"generate 'a magic wand' {SMALL} -o o.npz", changes="code"),
-    "--shadows": Try("--no-shadows", base=f"generate 'a red cube jumps on a sunny day' {SMALL} -o o.npz"),
-    "--strict": Try("--strict", base=f"generate 'a wug and a dog run' {SMALL} -o o.npz", changes="code"),
+    "generate --assets": Try("--assets ../assets", base=f"generate 'a magic wand' {SMALL} -o o.npz", changes="code"),
+    "generate --shadows": Try("--no-shadows", base=f"generate 'a red cube jumps on a sunny day' {SMALL} -o o.npz"),
+    "generate --strict": Try("--strict", base=f"generate 'a wug and a dog run' {SMALL} -o o.npz", changes="code"),
     # Many of them.
     "batch --out": Try("--out other", changes="names"),
     "batch --format": Try("--format hdf5", changes="names"),
     "batch --generator": Try("--generator opensora", changes="code"),
-    "batch --overwrite": Try("--overwrite --seed 4", "--seed 3", changes="code", before=True),
-    "batch --fps": Rise("--fps 16", "--fps 80", "count"),
+    "batch --overwrite": Try("--overwrite", "--seed 4", changes="code", before=BATCH),
+    "batch --jobs": Try("--jobs 0", changes="code"),
+    "batch --keep-partial": Try("--keep-partial", changes="code"),
+    "batch --assets": Try("--assets ../assets", base=BATCH.replace("prompts", "wand"), changes="code"),
+    "batch --strict": Try("--strict", base=BATCH.replace("prompts", "wug"), changes="code"),
+    "batch --fps": Try("--fps 80"),
     # Rigs.
     "rig --rig": Try("--rig ../rig.yaml", base="rig 'a red ball bounces' --duration 0.125 --samples 1"),
     "rig --stereo": Try("--stereo 0.1"),
@@ -192,20 +198,19 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "rig --exposure": Try("--exposure 0.02", "--frames 24"),
     "rig --shutter": Try("--shutter rolling", "--frames 24"),
     "rig --readout": Try("--readout 0.03", "--frames 24 --shutter rolling"),
+    "rig --layout": [Try(f"--layout {one}", "--stereo 0.1", changes="names") for one in ("dsec", "rosbag1", "mcap")],
     "rig --imu": Rise("--imu 20", "--imu 900", "bytes"),
     "rig --imu-noise": Try("--imu-noise none", "--imu 100"),
     "rig --out": Try("--out other", changes="names"),
     "rig --truth": Try("--truth flow"),
     "rig --fps": Try("--fps 60"),
     "rig --duration": Rise("--duration 0.1", "--duration 0.2", "bytes"),
-    "rig --assets": Try("--assets ../assets", base="rig 'a magic wand' --sensor 24x18 --duration 0.125", changes="code"),
-    "rig --strict": Try("--strict", base="rig 'a wug and a dog run' --sensor 24x18 --duration 0.125", changes="code"),
-    "rig --shadows": Try("--no-shadows", base="rig 'a red cube jumps on a sunny day' --sensor 24x18 --duration 0.125"),
+    "rig --assets": Try("--assets ../assets", base="rig 'a magic wand' --sensor 16x12 --duration 0.125", changes="code"),
+    "rig --strict": Try("--strict", base="rig 'a wug and a dog run' --sensor 16x12 --duration 0.125", changes="code"),
     # Checks of videos.
     "check --all": Try("--all", base="check ../clip.npy --fps 5"),
     "check --json": Try("--json", base="check ../clip.npy --fps 5"),
     "check --strict": Try("--strict", base="check ../cut.npy --fps 5", changes="code"),
-    "check --quiet": Try("--quiet", changes="said"),
     "check --fps": Rise("--fps 5", "--fps 50", r'"fps": ([\d.]+)'),
     "check --start": Rise("--start 0.5", "--start 0", r'"frames": ([\d.]+)'),
     "check --stop": Rise("--stop 0.5", "--stop 0.7", r'"frames": ([\d.]+)'),
@@ -213,7 +218,7 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "check --timestamps": Try("--timestamps ../seconds.txt", base="check ../frames", changes="code"),
     "check --timestamps-unit": Rise("--timestamps-unit s", "--timestamps-unit ms", r'"fps": ([\d.]+)', "--timestamps ../times.txt", base="check ../frames --json"),
     # Calibration.
-    "calibrate --frames": Try("--frames ../moving.npy --fps 50", "--events ../moving.npz --seconds 0.3"),
+    "calibrate --frames": Try("--frames ../moving.npy --fps 50 --interpolate none", "--events ../moving.npz --seconds 0.1"),
     "calibrate --events": Try("--events ../flicker.npz"),
     "calibrate --flicker-hz": Try("--flicker-hz 5", "--events ../flicker.npz"),
     "calibrate --flicker-ratio": Try("--flicker-ratio 6", base=FLICKER),
@@ -223,21 +228,21 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "calibrate --start-preset": Try("--start-preset davis346", changes="files"),
     "calibrate --frames-gamma": Try("--frames-gamma 2.2", base=MOVING),
     "calibrate --keep": [Try(f"--keep {one}", base=MOVING) for one in ("balance", "cutoff_hz")],
-    "calibrate --seconds": Rise("--seconds 0.2", "--seconds 0.5", r"([\d.]+) s"),
-    "calibrate --fps": Try("--fps 40", base=MOVING),
-    "calibrate --overwrite": Try("--overwrite", changes="code", before=True),
+    "calibrate --seconds": Try("--seconds 0.2", base=MOVING),
+    "calibrate --out": Try("--out other.toml", changes="names"),
+    "calibrate --overwrite": Try("--overwrite", changes="code", before="BASE"),
     # Event files.
-    "--time-unit": [Try(f"--time-unit {one}", base="BASE ../plain.csv --sensor 16x12") for one in ("s", "ms", "ns")],
-    "--columns": Try("--columns x,y,t,p", base="BASE ../plain.csv --sensor 16x12"),
-    "--repair": Try("--repair", base="BASE ../damaged.csv --sensor 16x12", changes="code"),
-    "--stream": Try("--stream left", base="BASE ../several.h5", changes="code"),
+    "--time-unit": [Try(f"--time-unit {one}", base="convert ../plain.csv o.npz --sensor 16x12") for one in ("s", "ms", "ns")],
+    "--columns": Try("--columns y,x,t,p", base="convert ../odd.csv o.npz --sensor 16x16"),
+    "--repair": Try("--repair", base="convert ../damaged.csv o.npz --sensor 16x12", changes="code"),
+    "--stream": Try("--stream left", base="convert ../several.h5 o.npz --sensor 16x12", changes="code"),
     "convert --sensor": Try("--sensor 16x12", base="convert ../plain.csv o.npz", changes="code"),
     "convert --out": Try("--out o.npz", base=f"convert {EVENTS}", changes="code"),
-    "convert --format": Try("--format evt3", base=f"convert {EVENTS} o.raw", changes="files"),
-    "convert --from-format": Try("--from-format csv", base="convert ../plain.dat2 o.npz --sensor 16x12", changes="code"),
+    "convert --format": Try("--format hdf5", base=f"convert {EVENTS} o.npz", changes="code"),
+    "convert --from-format": Try("--from-format dat", base="convert ../plain.csv o.npz --sensor 16x12", changes="code"),
     "convert --merge": Rise("", "--merge ../others.h5"),
     "convert --mask": Rise("--mask ../mask.txt", ""),
-    "convert --filter": [Rise(f"--filter {one}", "") for one in ("refractory", "background-activity", "rate-limit:rate_hz=100")],
+    "convert --filter": [Rise(f"--filter {one}", "") for one in ("refractory:period_us=200000", "background-activity", "rate-limit:rate_hz=100,window_us=20000")],
     "convert --undistort": Try("--undistort ../lens.txt"),
     "convert --crop": Rise("--crop 2,2,8,8", "--crop 1,1,12,10"),
     "convert --resize": Rise("--resize 8x6", "--resize 16x12", "pixels"),
@@ -245,15 +250,19 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "convert --flip": [Try(f"--flip {one}") for one in ("x", "y", "xy")],
     "convert --from-zero": Try("--from-zero"),
     "--time": Try("--time 0.2,0.5"),
-    "convert --split": Try("--split ../parts.txt", changes="names"),
-    "convert --video": Try("--video ../clip.npy", "--format event-utils", base=f"convert {EVENTS} o.hdf5", changes="files"),
+    "convert --split": Try("--split ../parts.txt", changes="names", base=f"convert {EVENTS} o --format npz"),
+    "convert --video": Try("--video ../scene.avi", "--format event-utils", base=f"convert {EVENTS} o.hdf5", changes="files"),
+    "convert --quiet": Try("--quiet", changes="printed"),
+    "render --quiet": Try("--quiet", changes="printed"),
+    "view --quiet": Try("--quiet", changes="printed"),
+    "validate --quiet": Try("--quiet", changes="printed"),
     "render --out": Try("--out other.png", changes="names"),
     "render --video": Try("--video none", base="render ../scene.h5 -o o.png"),
     "render --render-fps": Rise("--render-fps 10", "--render-fps 60", "bytes", base=f"render {EVENTS} -o o.gif"),
     "render --window": Try("--window 200"),
     "render --events-per-image": Try("--events-per-image 20"),
     "render --speed": Rise("--speed 4", "--speed 0.5", "bytes", base=f"render {EVENTS} -o o.gif"),
-    "--palette": Try("--palette night"),
+    "--palette": Try("--palette redblue"),
     "render --overlay": [Try(f"--overlay {one}", base="render ../scene.h5 -o o.png") for one in ("boxes", "flow", "both")],
     "--points": Rise("--points 20", "--points 90", "bytes", base="BASE ../events.h5 -o o.html"),
     "view --out": Try("--out other.html", changes="names"),
@@ -261,6 +270,7 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "info --fps": Try("--fps 30", base="info ../frames", changes="code"),
     "compare --metrics": Try("--metrics stpp"),
     # Data sets.
+    "compare --rvt-weights": Try("--rvt-weights ../mask.txt", changes="code"),
     "dataset plan --trial": Try("--trial 1"),
     "dataset make --out": Try("--out other"),
     "dataset make --shards": [Try(f"--shards {one}/2") for one in (1, 2)],
@@ -270,15 +280,26 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "dataset sample --label": Try("--label bus"),
     "dataset sample --out": Try("--out other.html", changes="names"),
     "dataset sample --seed": Try("--seed 1", "--count 2"),
-    "dataset export --layout": Try("--layout coco"),
+    "dataset make --workers": Try("--workers 0", changes="code"),
+    "dataset make --ray": Try("--ray nowhere:1", changes="code"),
+    "dataset make --retry-failed": Try("--retry-failed", changes="said", base="dataset make ../wugs.toml -o cars --workers 1", before="BASE"),
+    "dataset make --allow-failed": Try("--allow-failed", changes="code", base="dataset make ../wugs.toml -o cars --workers 1"),
+    "dataset make --quiet": Try("--quiet", changes="said"),
+    "dataset verify --workers": Try("--workers 0", changes="code"),
+    "dataset verify --no-contents": Try("--no-contents"),
+    "dataset sample --overwrite": Try("--overwrite", changes="code", before="BASE"),
+    "dataset export --layout": Try("--layout n-caltech101"),
     "dataset export --out": Try("--out other"),
     "dataset export --variant": Try("--variant esim", changes="files"),
-    "dataset export --classes": Try("--classes car", "--layout coco", changes="files"),
+    "dataset export --classes": Try("--classes car", "--layout coco", changes="files", base="dataset export ../cars -o o --variant paper"),
     "scenes --assets": Try("--assets ../assets"),
 }
 ELSEWHERE: dict[tuple[str, str], str] = {
     ("simulate", "keep-partial"): "tests/cli/test_nothing_lost.py",
     ("simulate", "interpolator-weights"): "tests/interpolate/rife",
+    ("convert", "frames"): "tests/capture/test_aedat4_frames.py",
+    ("convert", "triggers"): "tests/io/test_side_data.py",
+    ("convert", "imu"): "tests/io/test_side_data.py",
     ("generate", "llm-url"): "tests/scenes/llm/test_llm.py",
     ("generate", "llm-model"): "tests/scenes/llm/test_llm.py",
 }
