@@ -105,10 +105,12 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
     lines = text.splitlines(keepends=True)
     swapped = "".join([*lines[9:12], *lines[:9]]).replace(" ", ",")
     (folder / "damaged.csv").write_text(f"t,x,y,p\n{swapped}")
-    (folder / "odd.csv").write_text("".join(
-        f"{x} {y} {t} {p}\n"
-        for t, x, y, p in zip(events.t.tolist(), events.x, events.y, events.p, strict=True)
-    ))
+    (folder / "odd.csv").write_text(
+        "".join(
+            f"{x} {y} {t} {p}\n"
+            for t, x, y, p in zip(events.t.tolist(), events.x, events.y, events.p, strict=True)
+        )
+    )
     with h5py.File(folder / "several.h5", "w") as file:
         for name in ("left", "right"):
             for column in "xytp":
