@@ -101,7 +101,6 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
     rows = zip(events.t.tolist(), events.x, events.y, events.p, strict=True)
     text = "".join(f"{t} {x} {y} {p}\n" for t, x, y, p in rows)
     (folder / "plain.csv").write_text(text)
-    (folder / "plain.dat2").write_text(text)
     lines = text.splitlines(keepends=True)
     swapped = "".join([*lines[9:12], *lines[:9]]).replace(" ", ",")
     (folder / "damaged.csv").write_text(f"t,x,y,p\n{swapped}")
@@ -120,10 +119,11 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
     assert main([*words, "--video-only", "-o", str(folder / "scene.avi")]) == 0
     noise = {"noise_curve": "128:2", "noise_scale": 1.0}
     config = PhysicalConfig(gamma=1.0, contrast_threshold=0.3, **noise)
-    size = texvent.SensorSize(32, 24)
+    size = texvent.SensorSize(16, 12)
     rest_scene = simulate_static(config, size, 2.0)
     rest_scene.save(folder / "rest.npz")
     rest_scene.without_label().save(folder / "rest.csv")
+    simulate_static(config, size, 2.0, seed=1).save(folder / "calm.npz")
     simulate_flicker(config, size, 5.0, ratio=6.0, number=6).save(folder / "flicker.npz")
     y, x = np.mgrid[:16, :20]
     waves = [np.sin(0.6 * (x - i)) + np.sin(0.5 * (y + 0.6 * i)) for i in range(50)]

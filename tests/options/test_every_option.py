@@ -6,7 +6,7 @@ import functools
 
 import pytest
 from tests.options.inputs_of_commands import make_inputs
-from tests.options.runs_of_commands import Outcome, listed_options, run_once
+from tests.options.runs_of_commands import listed_options, run_once
 from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, TRIES, Rise, Try
 
 from texvent.cli.app import COMMANDS

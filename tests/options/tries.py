@@ -50,9 +50,9 @@ FILM = "simulate ../film.npy --fps 25 --previews none --noise none -o o.npz"
 MOTION = "--motion ../forward.npy --interpolate motion"
 STILL = "simulate ../still.png --sensor 16x12 --previews none -o o.npz"
 SMALL = "--sensor 16x12 --duration 0.125 --samples 1 --previews none"
-SCENE = f"generate 'a red ball bounces' {SMALL}"
+SCENE = f"generate 'a red ball bounces in a room' {SMALL}"
 BATCH = f"batch ../prompts.txt {SMALL} --format npz"
-RIG = "rig 'a red ball bounces' --sensor 16x12 --duration 0.125 --samples 1"
+RIG = "rig 'a red ball bounces in a room' --sensor 16x12 --duration 0.125 --samples 1"
 REST = "calibrate --events ../rest.npz -o o.toml"
 FLICKER = "calibrate --events ../flicker.npz --flicker-hz 5 -o o.toml"
 MOVING = "calibrate --frames ../moving.npy --fps 50 --events ../moving.npz --seconds 0.1 --interpolate none -o o.toml"
@@ -250,7 +250,7 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "batch --fps": Try("--fps 80"),
     # Rigs.
     "rig --rig": Try(
-        "--rig ../rig.yaml", base="rig 'a red ball bounces' --duration 0.125 --samples 1"
+        "--rig ../rig.yaml", base="rig 'a red ball bounces in a room' --duration 0.125 --samples 1"
     ),
     "rig --stereo": Try("--stereo 0.1"),
     "rig --frames": Rise("--frames 8", "--frames 40", "files"),
@@ -297,16 +297,12 @@ TRIES: dict[str, Try | Rise | list[Try | Rise]] = {
     "calibrate --frames": Try(
         "--frames ../moving.npy --fps 50 --interpolate none", "--events ../moving.npz --seconds 0.1"
     ),
-    "calibrate --events": Try("--events ../flicker.npz"),
-    "calibrate --flicker-hz": Try("--flicker-hz 5", "--events ../flicker.npz"),
+    "calibrate --events": Try("--events ../calm.npz"),
+    "calibrate --flicker-hz": Try("--flicker-hz 5", "--events ../flicker.npz", changes="code"),
     "calibrate --flicker-ratio": Try("--flicker-ratio 6", base=FLICKER),
     "calibrate --threshold-map": Try("--threshold-map m.npz", base=FLICKER, changes="files"),
-    "calibrate --sensor": Try(
-        "--sensor 32x24", base="calibrate --events ../rest.csv -o o.toml", changes="code"
-    ),
-    "calibrate --format": Try(
-        "--format csv", "--events ../rest.dat2 --sensor 32x24", changes="code"
-    ),
+    "calibrate --sensor": Try("--sensor 20x20", "--events ../rest.csv", changes="code"),
+    "calibrate --format": Try("--format dat", "--events ../rest.csv", changes="code"),
     "calibrate --start-preset": Try("--start-preset davis346", changes="files"),
     "calibrate --frames-gamma": Try("--frames-gamma 2.2", base=MOVING),
     "calibrate --keep": [Try(f"--keep {one}", base=MOVING) for one in ("balance", "cutoff_hz")],
