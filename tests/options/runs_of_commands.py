@@ -28,6 +28,7 @@ class Listed(NamedTuple):
     name: str
     section: str
     """Of the page; empty where there are none."""
+    text: str
     placeholder: str
     """Empty: a flag; "{a,b}": choices."""
     default: str
@@ -54,19 +55,18 @@ def listed_options(command: str) -> dict[str, Listed]:
     with contextlib.redirect_stdout(page), contextlib.suppress(SystemExit):
         main([*shlex.split(command), "--help", "all"])
     found: dict[str, Listed] = {}
-    texts: dict[str, str] = {}
     name = section = ""
     for line in page.getvalue().splitlines():
         if heading := re.fullmatch(r"(\w+):", line):
             section, name = heading[1], ""
         if row := ROW.match(line):
             name, placeholder = row["name"], row["value"] or ""
-            found[name] = Listed(name, section, placeholder, "")
+            found[name] = Listed(name, section, "", placeholder, "")
+            line = line[row.end() :]
         if name:
-            texts[name] = f"{texts.get(name, '')} {line.strip()}"
-    for name, text in texts.items():
-        default = re.search(r"\(default: (\S*?)\)", text)
-        found[name] = found[name]._replace(default=default[1] if default else "")
+            text = f"{found[name].text} {line.strip()}"
+            default = re.search(r"\(default: (\S*?)\)", text)
+            found[name] = found[name]._replace(text=text, default=default[1] if default else "")
     return {one.name.removeprefix("no-"): one for one in found.values()}
 
 

@@ -6,11 +6,13 @@ import functools
 
 import pytest
 from tests.options.inputs_of_commands import make_inputs
-from tests.options.runs_of_commands import listed_options, run_once
-from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, TRIES, Rise, Try
+from tests.options.runs_of_commands import Listed, listed_options, run_once
+from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, Try, read_tries
 
 from texvent.cli.app import COMMANDS
 from texvent.cli.dataset.dataset import STEPS
+
+TRIES = read_tries()
 
 
 @pytest.fixture(scope="module")
@@ -21,31 +23,28 @@ def outcome(tmp_path_factory):
     return functools.cache(functools.partial(run_once, folder))
 
 
-def tries_of(command: str, name: str) -> list[Try | Rise]:
+def tries_of(command: str, listed: Listed) -> list[Try]:
     """Ways to give an option another value, from the table or from its choices."""
-    kind = command.partition(" --")[0]
-    for key in (f"{command} --{name}", f"{kind} --{name}", f"--{name}"):
+    kind, name = command.partition(" --")[0], listed.name.removeprefix("no-")
+    for key in (f"{kind} --{name}", f"--{name}"):
         if key in TRIES:
-            given = TRIES[key]
-            return list(given) if isinstance(given, list) else [given]
-    words = listed_options(command)[name].other_values()
-    assert words, f"{command} --{name} has no value to try: add one to the table"
+            return TRIES[key]
+    words = listed.other_values()
+    assert words, f"{command} --{name} has no value to try: add one to tries.txt"
     return [Try(one) for one in words]
 
 
-def fault_of(outcome, command: str, one: Try | Rise) -> str | None:
+def fault_of(outcome, command: str, one: Try) -> str | None:
     """Why a try shows no effect, or a wrong one; None if it is as the table says."""
     base = (one.base or COMMANDS_TRIED[command].words).replace("BASE", command)
     assert base.startswith(command.partition(" --")[0]), base
     base = f"{base} {one.beside}"
-    if isinstance(one, Rise):
-        low, high = (outcome(f"{base} {words}") for words in (one.low, one.high))
+    if "<" in one.words:
+        low, high = (outcome(f"{base} {words}") for words in one.words.split("<"))
         if low.code or high.code:
             return f"refused: {low.said}{high.said}"
-        first, second = low.measure(one.measure), high.measure(one.measure)
-        if first < second:
-            return None
-        return f"{one.measure} is {first} with {one.low}, {second} with {one.high}"
+        first, second = low.measure(one.changes), high.measure(one.changes)
+        return None if first < second else f"{one.changes} is {first}, then {second}: {one.words}"
     before = one.before.replace("BASE", base)
     without, changed = outcome(base, before=before), outcome(f"{base} {one.words}", before=before)
     part = one.changes or COMMANDS_TRIED[command].changes
@@ -60,10 +59,11 @@ def fault_of(outcome, command: str, one: Try | Rise) -> str | None:
 def test_every_option_changes_something_and_figures_in_the_direction_of_its_help(command, outcome):
     wrong = {}
     for name, listed in listed_options(command).items():
+        assert listed.text.strip(), name
         shared = COMMANDS_TRIED[command].shared
         if {listed.section, name} & {*shared} or (command, name) in ELSEWHERE:
             continue
-        for one in tries_of(command, name):
+        for one in tries_of(command, listed):
             if fault := fault_of(outcome, command, one):
                 wrong[f"--{name}"] = fault
     assert not wrong, "\n".join(f"{one}: {why}" for one, why in wrong.items())
