@@ -117,3 +117,10 @@ ELSEWHERE: dict[tuple[str, str], str] = {
     ("generate", "llm-model"): "tests/scenes/llm/test_llm.py",
 }
 """(command, option) → the tests that show its effect, which needs more than a small run."""
+SERVED = {
+    "app": "tests/web/test_page.py",
+    "live": "tests/web/test_live.py",
+    "data": "tests/data/test_pull.py",
+    "weights": "tests/weights",
+}
+"""Commands that serve a page or ask an index → the tests that show the effects of their options."""
