@@ -122,7 +122,7 @@ class RunConfig:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CaptureConfig:
+class ReadingConfig:
     """How frames are read from a video, a folder, an array or a camera."""
 
     fps: Fraction | None = None
@@ -144,6 +144,20 @@ class CaptureConfig:
     transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] = "auto"
     """How pixels are coded. All but gamma become linear light, also above white; gamma is ordinary
     video. auto: .exr and .hdr are linear, video is what its file says, all else is gamma."""
+
+    def __post_init__(self) -> None:
+        check_range("start", self.start, 0.0)
+        check_range("stop", self.stop, 0.0)
+        check_range("white_level", self.white_level, 1e-9, 1e9)
+        check_range("fps", self.fps, *FPS_RANGE)
+        if self.stop is not None and not self.stop > self.start:
+            raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaptureConfig(ReadingConfig):
+    """How frames are read, fitted to the sensor, and moved."""
+
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
     motion: Path | None = None
@@ -176,15 +190,10 @@ class CaptureConfig:
     pan)."""
 
     def __post_init__(self) -> None:
-        check_range("start", self.start, 0.0)
-        check_range("stop", self.stop, 0.0)
-        check_range("white_level", self.white_level, 1e-9, 1e9)
-        check_range("fps", self.fps, *FPS_RANGE)
+        super().__post_init__()
         check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
         check_range("camera_amplitude", self.camera_amplitude, 1e-6, 1e6)
         check_range("duration", self.duration, 1e-6, 86_400.0)
-        if self.stop is not None and not self.stop > self.start:
-            raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
 
 
 @dataclass(frozen=True, kw_only=True)

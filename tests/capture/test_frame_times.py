@@ -1,7 +1,15 @@
+import contextlib
+
+import numpy as np
 import pytest
+from tests.video_check.made_clips import encode
 
 from texvent.capture.frame_times import listed_times, read_timestamps
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.video import Video
+from texvent.view.video.writer import write_images
 
 
 @pytest.mark.parametrize(
@@ -18,6 +26,28 @@ def test_times_are_rounded_from_the_exact_decimal(tmp_path, unit, lines, expecte
     path = tmp_path / "t.txt"
     path.write_text(lines)
     assert tuple(read_timestamps(path, unit).times.listed_us) == expected
+
+
+@pytest.mark.parametrize("count", [3, 5, 6])
+@pytest.mark.parametrize("kind", ["array", "stored array", "images", "video"])
+def test_a_list_has_as_many_times_as_there_are_frames(tmp_path, kind, count):
+    images = np.random.default_rng(1).integers(0, 256, (5, 16, 16), dtype=np.uint8)
+    times = [20_000 * number**2 for number in range(count)]
+    (tmp_path / "t.txt").write_text("".join(f"{one}\n" for one in times))
+    config = CaptureConfig(timestamps=tmp_path / "t.txt", timestamps_unit="us")
+    source, given = images, {"t_us": times}
+    if kind != "array":
+        given = {}
+        source = tmp_path / {"stored array": "a.npy", "images": "images", "video": "a.avi"}[kind]
+        if kind == "stored array":
+            np.save(source, images)
+        elif kind == "video":
+            encode(images, source, codec="ffv1")
+        else:
+            write_images(Video(images, list(range(5))), source, overwrite=False)
+    with contextlib.nullcontext() if count == 5 else pytest.raises(InputError, match="one time"):
+        frames = list(open_frames(source, CaptureConfig() if given else config, **given))
+        assert [frame.t_us for frame in frames] == times
 
 
 ROWS = {"": "0{0}a.png{1}0.04{0}b.png{1}", "first": "a.png{0}0{1}b.png{0}0.04{1}"}

@@ -1,5 +1,6 @@
 import errno
 import os
+import re
 from contextlib import nullcontext
 from fractions import Fraction
 from pathlib import Path
@@ -163,15 +164,25 @@ def test_time_that_goes_back_is_refused():
         clock.read(frame)
 
 
+@pytest.mark.parametrize("start_ms", [0, 8_000])
 @pytest.mark.parametrize("name", ["a.mp4", "a.mkv"])
-def test_a_truncated_video_says_where_it_ends_and_that_stop_helps(clips, noisy_frames, name):
+def test_a_truncated_video_says_where_it_ends_and_that_stop_helps(
+    clips, noisy_frames, name, start_ms
+):
     path = clips.write(
-        name, noisy_frames, container={"movflags": "faststart"} if name == "a.mp4" else None
+        name,
+        noisy_frames,
+        container={"movflags": "faststart"} if name == "a.mp4" else None,
+        times_ms=[start_ms + 40 * number for number in range(len(noisy_frames))],
     )
+    whole = list(open_frames(path, CaptureConfig()))
+    assert [whole[0].t_us, whole[-1].t_us] == [0, 40_000 * (len(noisy_frames) - 1)]
     data = path.read_bytes()
     path.write_bytes(data[: len(data) * 2 // 3])
     with pytest.raises(FileFormatError, match=r"its frames end at .* stop=") as caught:
         list(open_frames(path, CaptureConfig()))
+    promised = re.search(r"header promises ([\d.]+) s", str(caught.value))
+    assert promised is None or float(promised[1]) == pytest.approx(len(whole) / 25, abs=0.05)
     stop = float(str(caught.value).split("stop=")[1].split(",")[0])
     kept = list(open_frames(path, CaptureConfig(stop=stop)))
     assert kept[-1].t_us == round(stop * 1e6) - 40_000

@@ -121,30 +121,28 @@ def test_only_the_named_files_are_unpacked(tmp_path, register, kind):
     assert "For toys only." in said[0]
 
 
-def test_a_single_clip_is_returned_as_a_file(tmp_path, register):
-    data_set, index = toy(folders=())
-    register(data_set)
-    path = pull("toy", folder=tmp_path, client=index)
-    assert path.read_bytes() == CLIP
-    path.write_bytes(CLIP[::-1])
-    assert find_pulled("toy", folder=tmp_path) is None
-    assert pull("toy", folder=tmp_path, client=index).read_bytes() == CLIP
-
-
-def test_a_second_pull_does_nothing_and_damage_is_repaired_without_a_download(tmp_path, register):
-    data_set, index = toy()
+@pytest.mark.parametrize("changes", [{}, {"folders": ()}, {"files": ()}], ids=str)
+def test_a_second_pull_does_nothing_and_damage_is_repaired_without_a_download(
+    tmp_path, register, changes
+):
+    data_set, index = toy(**changes)
     register(data_set)
     assert find_pulled("toy", folder=tmp_path) is None
     path = pull("toy", folder=tmp_path, client=index)
+    assert path.is_dir() is (changes != {"folders": ()})
     said = []
     assert pull("toy", folder=tmp_path, client=index, announce=said.append) == path
     assert (index.downloads, said) == (1, [])
-    (path / "pictures" / "a.png").write_bytes(b"damaged")
-    assert find_pulled("toy", folder=tmp_path) is None
-    pull("toy", folder=tmp_path, client=index)
+    for file in (
+        [path] if path.is_file() else sorted(one for one in path.rglob("*.*") if one.is_file())
+    ):
+        whole = file.read_bytes()
+        for damage in (b"damaged", whole[:-1], bytes(len(whole)), None):
+            file.unlink() if damage is None else file.write_bytes(damage)
+            assert find_pulled("toy", folder=tmp_path) is None, (file, damage)
+            assert pull("toy", folder=tmp_path, client=index) == path
+            assert file.read_bytes() == whole
     assert index.downloads == 1
-    assert find_pulled("toy", folder=tmp_path) == path
-    assert (path / "pictures" / "a.png").read_bytes() == b"first"
 
 
 def test_an_archive_with_another_digest_is_refused_and_not_unpacked(tmp_path, register):

@@ -24,14 +24,12 @@ def video_of(images, fps=25):
     return texvent.Video(images, times)
 
 
-@pytest.fixture(scope="module")
-def found(images):
-    return check_source(video_of(images), progress=False)
-
-
-def test_motion_is_that_of_the_pan(found):
-    assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
-    assert found.report.measurements["motion_share"] == pytest.approx(3.0 / 320, abs=0.001)
+@pytest.mark.parametrize("times", [1, 3, 4])
+def test_a_clip_of_twice_the_size_moves_by_twice_the_px(images, times):
+    larger = images[:4].repeat(times, axis=1).repeat(times, axis=2)
+    found = check_source(video_of(larger), progress=False).report.measurements
+    assert found["motion_px"] == pytest.approx(3.0 * times, rel=0.04)
+    assert found["motion_share"] == pytest.approx(3.0 * times / max(320, 128 * times), rel=0.04)
 
 
 def test_motion_does_not_depend_on_linear_light(images):

@@ -80,6 +80,16 @@ def test_a_prompt_a_source_and_a_video_make_the_same_run():
     assert simulate_video(video, settings, None).equals(first)
 
 
+@pytest.mark.parametrize("prompt", [None, PROMPT])
+def test_a_stored_video_keeps_its_rate_unless_a_rate_is_given(tmp_path, prompt):
+    path = tmp_path / "v.avi"
+    levels = np.random.default_rng(1).random((4, 12, 16, 3), dtype=np.float32)
+    write_video(levels, path, Fraction(25), {"prompt": PROMPT}, overwrite=False)
+    for options, step_us in (({}, 40_000), ({"fps": 10}, 100_000), ({"fps": "50"}, 20_000)):
+        run = prepare_source(path, resolve("simulate", options), prompt=prompt)
+        assert [frame.t_us for frame in run.video] == [step_us * number for number in range(4)]
+
+
 @pytest.mark.parametrize("options", [{}, {"white_level": 4.0}, {"transfer": "linear"}])
 def test_a_prompt_changes_no_level_of_a_stored_video(tmp_path, options):
     light = np.random.default_rng(1).uniform(0, 8, (4, 12, 16, 3)).astype(np.float32)

@@ -3,7 +3,6 @@
 import subprocess
 import sys
 import threading
-import time
 
 import pytest
 
@@ -21,12 +20,20 @@ class Counted:
         self.made = []
         self.threads = set()
         self.is_closed = False
+        self.has_made = threading.Condition()
         self._stop = stop
 
     def __iter__(self):
+        # Refers to itself, so that only `close` ends it before the collector of cycles.
+        self._numbers = self._make()
+        return self._numbers
+
+    def _make(self):
         try:
             for number in range(self._stop):
-                self.made.append(number)
+                with self.has_made:
+                    self.made.append(number)
+                    self.has_made.notify_all()
                 self.threads.add(threading.current_thread())
                 yield number
         finally:
@@ -46,9 +53,8 @@ def test_no_more_is_made_than_was_asked_for_and_the_depth():
     items = Counted(100)
     ahead = prefetch(items, depth=3)
     assert next(ahead) == 0
-    time.sleep(0.05)
-    # One was given, three are ready.
-    assert items.made == [0, 1, 2, 3]
+    with items.has_made:  # one was given, three are ready
+        assert items.has_made.wait_for(lambda: len(items.made) == 4, 60)
     ahead.close()
     assert items.made == [0, 1, 2, 3]
     assert items.is_closed

@@ -8,32 +8,11 @@ from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
 from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
 
-SENSOR_FILE = """
-[run]
-simulator = "physical"
-sensor = "64x48"
-
-[simulate]
-contrast_threshold = 0.31
-balance = 12.5
-"""
-
 
 def test_a_video_keeps_its_size_and_a_scene_is_davis346():
     assert resolve("simulate", {}).size is None
     assert resolve("generate", {}).size == (346, 260)
     assert resolve("generate", {}).interpolate.interpolate == "motion"
-
-
-def test_precedence_is_preset_then_file_then_option(tmp_path):
-    config = tmp_path / "run.toml"
-    config.write_text("simulator = 'v2e'\npreset = 'noisy'\nleak_rate_hz = 0.7\n", encoding="utf-8")
-    settings = resolve("simulate", {"seed": 5}, config=config)
-    assert settings.run.simulator == "v2e"
-    assert settings.simulate.shot_noise_rate_hz == 5.0  # from the preset
-    assert settings.simulate.leak_rate_hz == 0.7  # from the file
-    assert settings.run.seed == 5
-    assert resolve("simulate", {"leak_rate_hz": 0.2}, config=config).simulate.leak_rate_hz == 0.2
 
 
 def test_a_sensor_with_measured_constants_chooses_its_preset():
@@ -83,16 +62,6 @@ def test_a_camera_chooses_size_and_preset_by_any_of_its_names(sensor, size, pres
     settings = resolve("simulate", {"simulator": "physical", "sensor": sensor})
     assert settings.size == size
     assert settings.run.preset == preset
-
-
-def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
-    path = tmp_path / "my.toml"
-    path.write_text(SENSOR_FILE, encoding="utf-8")
-    settings = resolve("simulate", {"sensor": str(path), "balance": 15.0})
-    assert settings.run.simulator == "physical"
-    assert settings.size == (64, 48)
-    assert settings.simulate.contrast_threshold == 0.31
-    assert settings.simulate.balance == 15.0
 
 
 def test_settings_written_and_read_back_are_the_same(tmp_path):

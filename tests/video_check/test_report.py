@@ -65,6 +65,15 @@ def test_brightness_that_jumps_up_and_down_is_flicker(clip, gain):
 GAINS = np.random.default_rng(1).normal(size=24)
 
 
+@pytest.mark.parametrize(("up", "down"), [(10, 2), (2, 10), (6, 6), (0, 0)])
+def test_flicker_is_the_smaller_of_two_steps_so_a_ramp_has_none(up, down):
+    levels = 60 + np.cumsum(np.resize([up, -down], 12))
+    images = [np.full((8, 8), level, np.float32) for level in levels]
+    assert check_video(frames(images)).measurements["flicker"] == min(up, down)
+    ramp = [np.full((8, 8), 60 + up * number, np.float32) for number in range(12)]
+    assert check_video(frames(ramp)).measurements["flicker"] == 0
+
+
 def test_one_white_frame_is_a_flash(clip):
     flashed = clip.copy()
     flashed[12] = 255

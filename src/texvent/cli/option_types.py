@@ -53,8 +53,9 @@ def flag_of(name: str) -> str:
 
 def declared_options(config: Any) -> Iterator[Option]:
     """The options of a config instance, whose values are the defaults."""
-    hints, texts = typing.get_type_hints(type(config)), option_help(type(config))
-    for name in option_names(type(config)):
+    owner: type = type(config)
+    hints, texts = typing.get_type_hints(owner), option_help(owner)
+    for name in option_names(owner):
         hint, is_optional = hints[name], type(None) in typing.get_args(hints[name])
         if typing.get_origin(hint) in (typing.Union, types.UnionType):
             hint = next(one for one in typing.get_args(hint) if one is not type(None))

@@ -87,8 +87,8 @@ class SimulatorOptions(TypedDict, total=False):
     constants: str | None
 
 
-class CaptureOptions(TypedDict, total=False):
-    """Options of recorded frames."""
+class ReadingOptions(TypedDict, total=False):
+    """Options of how frames are read."""
 
     fps: Rate | None
     timestamps: str | Path | None
@@ -97,6 +97,11 @@ class CaptureOptions(TypedDict, total=False):
     stop: float | None
     white_level: float | None
     transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] | None
+
+
+class CaptureOptions(ReadingOptions, total=False):
+    """Options of recorded frames."""
+
     fit: Literal["cover", "contain", "stretch"] | None
     motion: Field | None
     motion_back: Field | None

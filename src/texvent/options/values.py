@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import functools
 import inspect
 import itertools
 import re
@@ -163,7 +164,8 @@ def option_names(config_type: type) -> tuple[str, ...]:
     return tuple(field.name for field in dataclasses.fields(config_type))
 
 
-def option_help(config_type: type) -> dict[str, str]:
+@functools.cache
+def option_help(config_type: type) -> Mapping[str, str]:
     """Option name → the text under its field, on one line; also what `--help` shows."""
     texts: dict[str, str] = {}
     for owner in reversed(config_type.__mro__):

@@ -12,15 +12,14 @@ from numpy.typing import NDArray
 from texvent.brightness import balanced_log
 from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.capture.open import open_frames
-from texvent.config import CaptureConfig
-from texvent.errors import ConfigError
+from texvent.config import CaptureConfig, ReadingConfig
 from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.options.keywords import CaptureOptions
+from texvent.options.keywords import ReadingOptions
+from texvent.options.values import with_options
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
-from texvent.settings.resolution import resolve
 from texvent.video import Frame, FrameStream
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
@@ -48,34 +47,32 @@ class VideoCheckResult:
 
 
 def check_source(
-    source: Any, *, progress: ProgressOption = None, **options: Unpack[CaptureOptions]
+    source: Any, *, progress: ProgressOption = None, **options: Unpack[ReadingOptions]
 ) -> VideoCheckResult:
     """Look through a video once.
 
     Args:
         source: as `texvent.simulate` takes it.
         progress: as there.
-        **options: those of recorded frames, such as `fps=25`.
+        **options: how frames are read, such as `fps=25`.
 
     Raises:
         InputError: the frames cannot be read.
         ConfigError: an unknown option, or one that does not fit.
     """
-    capture = resolve("simulate", options).source
+    given = {name: value for name, value in options.items() if value is not None}
+    reading = with_options(ReadingConfig(), given, where="options")
     with open_progress(progress) as shown:
-        return check_frames(open_source(source, capture), shown)
+        return check_frames(open_source(source, reading), shown)
 
 
-def open_source(source: Any, capture: CaptureConfig) -> FrameStream:
+def open_source(source: Any, reading: ReadingConfig) -> FrameStream:
     """The frames as they are stored, not fitted to a sensor.
 
     Raises:
         InputError: they cannot be read.
-        ConfigError: `camera` is given.
     """
-    if capture.camera is not None:
-        raise ConfigError("camera makes frames of an image, which need no check; leave it out")
-    return open_frames(source, capture)
+    return open_frames(source, CaptureConfig(**vars(reading)))
 
 
 def check_frames(video: FrameStream, progress: Progress) -> VideoCheckResult:

@@ -63,12 +63,6 @@ def test_a_part_of_the_time_is_shown_alone(recording) -> None:
     assert Path("part.png").read_bytes() != Path("whole.png").read_bytes()
 
 
-def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None:
-    assert run("render", generated, "-o", "plain.png") == 0
-    assert run("render", generated, "-o", "marked.png", "--overlay", "both") == 0
-    assert Path("plain.png").read_bytes() != Path("marked.png").read_bytes()
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -18,7 +18,7 @@ from texvent.generate.videos.stored_video import (
 )
 from texvent.generate.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.transfer import Transfer
-from texvent.video import transfer_of
+from texvent.video import Video, frame_time_us, transfer_of
 
 FPS = Fraction(30_000, 1001)
 
@@ -40,6 +40,14 @@ def test_frames_come_back_to_within_half_a_16_bit_step(tmp_path):
     assert back.dtype == np.uint16
     assert np.abs(back / 65_535 - frames).max() <= 0.5 / 65_535 + 1e-7
     assert (video.frame_count, video.size) == (5, (22, 18))
+
+
+def test_a_stored_8_bit_clip_is_the_same_in_16_bits(tmp_path):
+    levels = np.arange(256, dtype=np.uint8).reshape(1, 16, 16).repeat(3, axis=0)
+    times = [frame_time_us(number, FPS) for number in range(3)]
+    stored = write_stream(Video(levels, times, fps=FPS), tmp_path / "v.avi", overwrite=False)
+    for frame in stored:
+        assert np.array_equal(frame.pixels, levels[0, ..., None].repeat(3, axis=2) * np.uint16(257))
 
 
 def test_a_stored_video_read_as_any_other_video_gives_the_same_frames(tmp_path):

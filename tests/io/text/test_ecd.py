@@ -115,6 +115,20 @@ def test_times_that_cannot_be_meant_name_the_likely_unit(
     assert len(load(path, size=(240, 180), time_unit=meant or unit)) == 9_000
 
 
+@pytest.mark.parametrize("clock_us", [0, 1_700_000_000_123_456])
+@pytest.mark.parametrize(("unit", "more"), [("s", 6), ("ms", 3), ("us", 0), ("ns", -3)])
+def test_text_of_any_unit_and_clock_is_the_nearest_us_and_ns_are_cut(
+    tmp_path: Path, unit: str, more: int, clock_us: int
+) -> None:
+    # Of a Unix time, a float64 holds no tenths of a µs: only ns, which are read as whole numbers.
+    tenths = [10, 14, 26, 38, 51] if unit == "ns" or not clock_us else [10, 10, 30, 40, 50]
+    exact = [(clock_us + Decimal(one) / 10).scaleb(-more) for one in tenths]
+    path = write(tmp_path, "".join(f"{one:f} 3 4 1\n" for one in exact))
+    cut = [1, 1, 2, 3, 5] if unit == "ns" else [1, 1, 3, 4, 5]
+    found = load(path, size=(240, 180), time_unit=unit)
+    assert found.t.tolist() == [clock_us + one for one in cut]
+
+
 def test_a_quiet_sensor_is_no_wrong_unit(tmp_path: Path) -> None:
     path = write(tmp_path, "".join(f"{k * Decimal('0.19')} 3 4 1\n" for k in range(500)))
     assert len(load(path, size=(240, 180))) == 500

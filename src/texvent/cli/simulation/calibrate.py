@@ -18,7 +18,13 @@ from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.config import CaptureConfig, InterpolateConfig, check_choices, check_range
+from texvent.config import (
+    CaptureConfig,
+    InterpolateConfig,
+    ReadingConfig,
+    check_choices,
+    check_range,
+)
 from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
@@ -130,10 +136,10 @@ def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     groups = {
         "input": CalibrateOptions(),
-        "capture": CaptureConfig(),
+        "capture": ReadingConfig(),
         "interpolate": InterpolateConfig(max_intermediate=16, frames_per_pixel=2.0),
     }
-    options, capture, interpolate = parse_configs(
+    options, reading, interpolate = parse_configs(
         arguments, groups, prog="texvent calibrate", description=DESCRIPTION
     )
     outputs = options.out, options.threshold_map
@@ -145,7 +151,7 @@ def run(arguments: Sequence[str]) -> int:
     events = load(options.events, format=options.format, size=size)
     progress = ConsoleProgress(is_quiet=options.quiet)
     if options.frames is not None:
-        frames = open_frames(options.frames, capture)
+        frames = open_frames(options.frames, CaptureConfig(**vars(reading)))
         recording = Recording(frames, events, interpolate)
         config, lines = _fit(recording, start, options, progress)
     else:

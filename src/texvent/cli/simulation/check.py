@@ -12,7 +12,7 @@ from rich.table import Table
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.config import CaptureConfig
+from texvent.config import ReadingConfig
 from texvent.run.check import VideoCheckResult, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
@@ -55,14 +55,14 @@ class CheckOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    options, capture = parse_configs(
+    options, reading = parse_configs(
         arguments,
-        {"input": CheckOptions(), "capture": CaptureConfig()},
+        {"input": CheckOptions(), "capture": ReadingConfig()},
         prog="texvent check",
         description=DESCRIPTION,
     )
     with ConsoleProgress(is_quiet=options.quiet) as progress:
-        found = check_frames(open_source(options.source, capture), progress)
+        found = check_frames(open_source(options.source, reading), progress)
     if options.json:
         write_out(json.dumps(describe_check(found), indent=2) + "\n")
     else:

@@ -256,9 +256,16 @@ def read_recipe(folder: Path) -> Recipe:
     return recipe
 
 
-@functools.lru_cache(maxsize=2)
 def load_recipe_once(folder: Path) -> Recipe:
-    """As `load_recipe`, read once per process: a folder's recipe never changes."""
+    """As `load_recipe`, read once per process, until another data set is begun in the folder."""
+    facts = folder / SPECIFICATION_FILE
+    state = facts.stat() if facts.is_file() else None
+    return _recipe_in(folder, state and (state.st_ino, state.st_mtime_ns))
+
+
+@functools.lru_cache(maxsize=2)
+def _recipe_in(folder: Path, state: object) -> Recipe:
+    del state  # part of the key
     return load_recipe(folder)
 
 

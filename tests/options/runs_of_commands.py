@@ -1,0 +1,170 @@
+"""Commands as `--help` lists their options, and all that a run of one leaves to be seen."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import io
+import re
+import shlex
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import texvent
+from texvent.cli.app import main
+from texvent.errors import TexventError
+
+ROW = re.compile(r"^  (?=-)(?:-\S+(?: \S+)?, )*--(?P<name>[a-z][a-z0-9-]*)(?: (?P<value>\S+))?")
+TIMES = re.compile(r"[\d.,]+ (?:s|ms|kB|MB|GB|hours)\b|[\d.,]+ per second")
+
+
+class Listed(NamedTuple):
+    """An option as a page of help lists it."""
+
+    name: str
+    section: str
+    """Of the page; empty where there are none."""
+    text: str
+    placeholder: str
+    """Empty: a flag; "{a,b}": choices."""
+    default: str
+
+    @property
+    def flag(self) -> str:
+        """As it is typed."""
+        return f"--{self.name}"
+
+    def other_values(self) -> list[str]:
+        """Words that give a flag, or an option of listed values, each other value."""
+        if not self.placeholder:
+            return [self.flag]
+        if self.placeholder.startswith("{"):
+            values = self.placeholder.strip("{}").split(",")
+            return [f"{self.flag} {one}" for one in values if one != self.default]
+        return []
+
+
+@functools.cache
+def listed_options(command: str) -> dict[str, Listed]:
+    """Option → as the whole help of a command lists it."""
+    page = io.StringIO()
+    with contextlib.redirect_stdout(page), contextlib.suppress(SystemExit):
+        main([*shlex.split(command), "--help", "all"])
+    found: dict[str, Listed] = {}
+    name = section = ""
+    for line in page.getvalue().splitlines():
+        if heading := re.fullmatch(r"(\w+):", line):
+            section, name = heading[1], ""
+        if row := ROW.match(line):
+            name, placeholder = row["name"], row["value"] or ""
+            found[name] = Listed(name, section, "", placeholder, "")
+            line = line[row.end() :]
+        if name:
+            text = f"{found[name].text} {line.strip()}"
+            default = re.search(r"\(default: (\S*?)\)", text)
+            found[name] = found[name]._replace(text=text, default=default[1] if default else "")
+    return {one.name.removeprefix("no-"): one for one in found.values()}
+
+
+class Outcome(NamedTuple):
+    """All that a run leaves."""
+
+    code: int
+    printed: str
+    """Standard output."""
+    said: str
+    """Standard error, without times and sizes."""
+    streams: dict[str, texvent.EventStream]
+    """By the name of the file."""
+    files: dict[str, bytes]
+    """All others: name → contents."""
+
+    @property
+    def events(self) -> list[Any]:
+        """Contents of all event files."""
+        return [
+            (one.size, *(part.tobytes() for part in (one.x, one.y, one.t, one.p)),
+             None if one.label is None else one.label.tobytes())
+            for one in self.streams.values()
+        ]  # fmt: skip
+
+    @property
+    def facts(self) -> list[str]:
+        """Metadata of event files, without the options."""
+        return [str({**one.metadata, "settings": None}) for one in self.streams.values()]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all files."""
+        return sorted([*self.streams, *self.files])
+
+    def measure(self, name: str) -> float:
+        """A figure of all events, of the files, or of what was said.
+
+        Args:
+            name: one of those below, or a pattern with a group that is a number.
+        """
+        streams = list(self.streams.values())
+        count, on = sum(map(len, streams)), sum(int(one.p.sum()) for one in streams)
+        figures: dict[str, Callable[[], float]] = {
+            "count": lambda: count,
+            "on": lambda: on,
+            "off": lambda: count - on,
+            "share of ON": lambda: on / count,
+            "pixels": lambda: streams[0].size.width * streams[0].size.height,
+            "duration": lambda: max(int(one.t[-1] - one.t[0]) for one in streams),
+            "first": lambda: min(int(one.t[0]) for one in streams),
+            "last": lambda: max(int(one.t[-1]) for one in streams),
+            "spread": lambda: _spread(*streams),
+            "bytes": lambda: sum(map(len, self.files.values())),
+            "files": lambda: len(self.names),
+        }
+        if name in figures:
+            return figures[name]()
+        found = re.search(name, self.printed + self.said)
+        assert found is not None, (name, self)
+        return float(found[1].replace(",", ""))
+
+
+def _spread(events: texvent.EventStream) -> float:
+    """Variance of the number of events of a pixel, over their mean."""
+    counts = np.zeros((events.size.height, events.size.width))
+    np.add.at(counts, (events.y, events.x), 1)
+    return float(counts.var() / counts.mean())
+
+
+def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
+    """The outcome of a command in an empty folder beside its inputs.
+
+    Args:
+        folder: holds the inputs; the command runs in `run/` below it.
+        words: of the command line.
+        before: words of a command that ran there before, if any.
+    """
+    place = folder / "run"
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir()
+    with contextlib.chdir(place):
+        if before:
+            _call(before)
+        code, printed, said = _call(words)
+        streams: dict[str, texvent.EventStream] = {}
+        files: dict[str, bytes] = {}
+        for path in sorted(one for one in Path().rglob("*") if one.is_file()):
+            files[str(path)] = path.read_bytes()
+            if path.suffix in (".npz", ".h5"):
+                with contextlib.suppress(TexventError):
+                    streams[str(path)] = texvent.load(path)
+                    del files[str(path)]
+    return Outcome(code, printed, TIMES.sub("", said), streams, files)
+
+
+def _call(words: str) -> tuple[int, str, str]:
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main(shlex.split(words))
+    return code, out.getvalue(), err.getvalue()

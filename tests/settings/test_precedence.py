@@ -1,0 +1,141 @@
+"""Of two places that set an option, the one that the documentation names later wins."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli_w
+
+from texvent._registry import GENERATORS, SIMULATORS
+from texvent.cli.command import resolve_command
+from texvent.cli.option_types import Option, declared_options, flag_of
+from texvent.cli.simulation.simulate import VideoOptions
+from texvent.config import CaptureConfig, InterpolateConfig
+from texvent.errors import ConfigError, TexventWarning
+from texvent.options.values import option_names, plain, with_options
+from texvent.settings.resolution import Settings, resolve
+
+PLACES = ("sensor", "config", "given", "flags")
+"""Weakest first, after defaults and preset; the last two are keywords and a command line."""
+LEFT_OUT = ("simulator", "preset", "sensor")
+TRIED: Mapping[str, tuple[Any, ...]] = {
+    "noise_curve": ("0:1 9:2", "0:2 9:3"),
+    "constants": ("5 20 1e-4 1e-7 5e-9 1e-5", "6 20 1e-4 1e-7 5e-9 1e-5"),
+    "interpolate": ("none", "blend"),
+}
+NUMBERS = (1, 2, 0, 0.25, 0.5, 16, 33, 720, 768)
+
+
+def configs_of(part: str) -> list[Any]:
+    """Configs whose options a simulator or generator has; the first simulator's, all of a run."""
+    if part in GENERATORS.builtin:
+        return [resolve("generate", {"generator": part}).source]
+    settings = resolve("simulate", {"simulator": part})
+    is_first = part == next(iter(SIMULATORS.builtin))
+    return [
+        settings.simulate,
+        *((settings.run, InterpolateConfig(), CaptureConfig()) if is_first else ()),
+    ]
+
+
+def values_of(config: Any, option: Option) -> list[Any]:
+    """Two values that a config takes for an option, of its default and others."""
+    kinds = {bool: (False, True), str: ("a", "b"), Path: ("a", "b")}
+    tried = (
+        option.default,
+        *(option.choices or TRIED.get(option.name) or kinds.get(option.hint, NUMBERS)),
+    )
+    found: list[Any] = []
+    for value in tried:
+        try:
+            changed = with_options(config, {option.name: value}, where="")
+        except ConfigError:
+            continue
+        plain_value = plain(getattr(changed, option.name))
+        if plain_value is not None and plain_value not in found:
+            found.append(plain_value)
+    return found[:2]
+
+
+def cases_of(part: str) -> Iterator[tuple[str, Any, Any]]:
+    """Option, and two values of it, in both orders."""
+    for config in configs_of(part):
+        for option in declared_options(config):
+            if option.name not in LEFT_OUT:
+                one, other = values_of(config, option)
+                yield from ((option.name, one, other), (option.name, other, one))
+
+
+def settle(
+    folder: Path, part: str, preset: str | None = None, **places: Mapping[str, Any]
+) -> Settings:
+    """Settings where places hold options."""
+    is_prompt = part in GENERATORS.builtin
+    command = "generate" if is_prompt else "simulate"
+    options: dict[str, Any] = {"generator" if is_prompt else "simulator": part}
+    options |= {} if preset is None else {"preset": preset}
+    config = None
+    for place in ("sensor", "config"):
+        if place in places:
+            path = folder / f"{place}.toml"
+            path.write_text(tomli_w.dumps(dict(places[place])), encoding="utf-8")
+            if place == "sensor":
+                options["sensor"] = str(path)
+            else:
+                config = path
+    if "flags" not in places:
+        return resolve(command, options | dict(places.get("given", {})), config=config)
+    words = [word for name, value in options.items() for word in (flag_of(name), str(value))]
+    for name, value in places["flags"].items():
+        flag = flag_of(name)
+        if isinstance(value, bool):
+            words.append(flag if value else f"--no-{flag[2:]}")
+        else:
+            words += [flag, *(map(str, value) if isinstance(value, list) else [str(value)])]
+    words += [] if config is None else ["--config", str(config)]
+    subject = VideoOptions(source="clip.mp4")
+    return resolve_command(command, [*words, "--", "clip.mp4"], subject, description="")[0]
+
+
+def value_in(settings: Settings, name: str) -> Any:
+    owner = next(one for one in settings.groups().values() if name in option_names(type(one)))
+    return plain(getattr(owner, name))
+
+
+@pytest.fixture(autouse=True)
+def _quiet():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TexventWarning)  # of options that others switch off
+        yield
+
+
+@pytest.mark.parametrize("part", [*SIMULATORS.builtin, *GENERATORS.builtin])
+def test_of_two_places_the_stronger_wins_and_the_weaker_beats_defaults(tmp_path, part):
+    for name, weaker, stronger in cases_of(part):
+        for weak, strong in itertools.combinations(PLACES, 2):
+            if (weak, strong) != ("given", "flags"):
+                found = settle(tmp_path, part, **{weak: {name: weaker}, strong: {name: stronger}})
+                assert value_in(found, name) == stronger, (name, weak, strong)
+        for place in PLACES:
+            found = settle(tmp_path, part, **{place: {name: weaker}})
+            assert value_in(found, name) == weaker, (name, place)
+
+
+@pytest.mark.parametrize(
+    ("simulator", "preset"),
+    [(one, name) for one in SIMULATORS.builtin for name in SIMULATORS.load(one).presets],
+)
+def test_every_place_beats_the_preset_and_leaves_its_other_options(tmp_path, simulator, preset):
+    chosen = SIMULATORS.load(simulator).presets[preset]
+    assert settle(tmp_path, simulator, preset).simulate == chosen
+    for option in declared_options(chosen):
+        others = [one for one in values_of(chosen, option) if one != plain(option.default)]
+        for value, place in itertools.product(others[:1], PLACES):
+            found = settle(tmp_path, simulator, preset, **{place: {option.name: value}}).simulate
+            expected = with_options(chosen, {option.name: value}, where="")
+            assert found == expected, (option.name, place)

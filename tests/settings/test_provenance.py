@@ -1,0 +1,62 @@
+"""A source that was changed is told from one that was only touched."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from texvent.settings import provenance
+from texvent.settings.provenance import describe_state, fingerprint, is_replaced
+
+NAMES = ("0.png", "1.png", "2.png")
+
+
+def grow(path: Path) -> None:
+    path.write_bytes(path.read_bytes() + b"more")
+
+
+def replace(path: Path) -> None:
+    path.write_bytes(b"\xff" * path.stat().st_size)
+    os.utime(path, ns=(1, path.stat().st_mtime_ns + 1))
+
+
+def rename(path: Path) -> None:
+    path.rename(path.with_name("other.png"))
+
+
+def touch(path: Path) -> None:
+    os.utime(path, (1, 1))
+
+
+def read(path: Path) -> None:
+    path.read_bytes()
+
+
+CHANGES = {grow: True, replace: True, rename: True, Path.unlink: True, touch: False, read: False}
+"""Change of one file → whether the source holds something else afterwards."""
+UNSEEN = {"folder": {replace}, "pattern": {replace}, "file": {rename, Path.unlink}}
+"""Changes that a fingerprint does not show: of several files, names and sizes count."""
+
+
+@pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.parametrize("kind", UNSEEN)
+def test_what_counts_as_a_change_does(tmp_path, monkeypatch, kind: str, change: Callable):
+    monkeypatch.setattr(provenance, "END_BYTES", 16)
+    folder = tmp_path / "frames"
+    folder.mkdir()
+    for number, name in enumerate(NAMES):
+        (folder / name).write_bytes(bytes(range(number, number + 64)))
+    changed = folder / NAMES[1]
+    source = {"folder": folder, "pattern": folder / "*.png", "file": changed}[kind]
+    before, state = fingerprint(str(source)), describe_state(source)
+    assert before is not None
+    change(changed)
+    is_gone = kind == "file" and not changed.exists()
+    assert is_gone or (fingerprint(str(source)) != before) is (
+        CHANGES[change] and change not in UNSEEN[kind]
+    )
+    if kind != "pattern":
+        assert is_replaced(source, state) is (CHANGES[change] and not is_gone)
