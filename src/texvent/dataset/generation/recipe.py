@@ -20,7 +20,14 @@ from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Specification, Variant, is_range
 from texvent.dataset.specification.truth import check_truth
-from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
+from texvent.errors import (
+    ConfigError,
+    FileFormatError,
+    InputError,
+    OutputError,
+    TexventError,
+    one_line,
+)
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.settings.config_files import Command
@@ -213,7 +220,7 @@ def read_recipe(folder: Path) -> Recipe:
         InputError: the folder holds no data set, or a copy to load from.
         FileFormatError: its specification is damaged.
     """
-    facts, path = read_facts(folder), folder / ITEMS_FILE
+    facts, path, note = read_facts(folder), folder / ITEMS_FILE, folder / SPECIFICATION_FILE
     if not path.exists():
         raise InputError(
             f"{folder} has no {path.name}, so it is a copy to load from and cannot be made further"
@@ -221,12 +228,15 @@ def read_recipe(folder: Path) -> Recipe:
     try:
         lines = StringIO(path.read_text(encoding="utf-8"))
         items = tuple(Item(**read_json(line)) for line in lines)
-        specification = specification_from(facts["specification"], folder=Path())
     except (OSError, ValueError, TypeError, KeyError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
-    recipe = Recipe(specification, Items(items, int(facts.get("duplicates", 0))))
+    try:
+        specification = specification_from(facts["specification"], folder=Path())
+        recipe = Recipe(specification, Items(items, int(facts.get("duplicates", 0))))
+    except (TexventError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise FileFormatError(f"{note} is damaged ({one_line(error)})") from error
     if recipe.identity != facts.get("identity"):
-        raise FileFormatError(f"{folder / SPECIFICATION_FILE} or {path.name} was changed by hand")
+        raise FileFormatError(f"{note} or {path.name} was changed by hand")
     return recipe
 
 
