@@ -336,8 +336,9 @@ def _check_decimals(path: Path, times: list[str]) -> None:
     """Warn of seconds such as 1700.01 that were cut: most times come twice, each after the last."""
     plain = [word for word in times if _is_number(word) and "e" not in word.lower()]
     after = max((len(word.partition(".")[2]) for word in plain), default=0)
-    found, step_us = np.unique(np.array(plain, dtype=np.float64)), 10 ** (6 - after)
-    if not 0 < after < 6 or len(found) < 2 or 2 * len(found) >= len(plain):
+    found, counts = np.unique(np.array(plain, dtype=np.float64), return_counts=True)
+    step_us = 10 ** (6 - after)
+    if not 0 < after < 6 or len(found) < 2 or np.median(counts) < 2:
         return
     if np.median(np.diff(found)) * MICROSECONDS < 1.5 * step_us:
         warn(
