@@ -333,12 +333,12 @@ def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
 
 
 def _check_decimals(path: Path, times: list[str]) -> None:
-    """Warn of seconds such as 1700.01 that were cut: most times come twice, each after the last."""
+    """Warn of seconds such as 1700.01 that were cut: most times are those of three events or more."""
     plain = [word for word in times if _is_number(word) and "e" not in word.lower()]
     after = max((len(word.partition(".")[2]) for word in plain), default=0)
     found, counts = np.unique(np.array(plain, dtype=np.float64), return_counts=True)
     step_us = 10 ** (6 - after)
-    if not 0 < after < 6 or len(found) < 2 or np.median(counts) < 2:
+    if not 0 < after < 6 or len(found) < 2 or np.median(counts) < 3:
         return
     if np.median(np.diff(found)) * MICROSECONDS < 1.5 * step_us:
         warn(
