@@ -333,7 +333,7 @@ def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
 
 
 def _check_decimals(path: Path, times: list[str]) -> None:
-    """Warn of seconds such as 1700.01 that were cut: most times are those of three events or more."""
+    """Warn of seconds such as 1700.01 that were cut: most are those of three events or more."""
     plain = [word for word in times if _is_number(word) and "e" not in word.lower()]
     after = max((len(word.partition(".")[2]) for word in plain), default=0)
     found, counts = np.unique(np.array(plain, dtype=np.float64), return_counts=True)
