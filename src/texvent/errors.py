@@ -47,7 +47,8 @@ def shown(value: object) -> str:
     """
     try:
         # NumPy's numbers as they print.
-        value = value.item() if getattr(value, "ndim", None) == 0 else value  # type: ignore[attr-defined]
+        is_number = getattr(value, "ndim", None) == 0 and hasattr(value, "item")
+        value = value.item() if is_number else value  # type: ignore[attr-defined]
         value = _without_passwords(value) if isinstance(value, str) else value
         # Never the whole: a few aliases in a YAML file print as gigabytes.
         text = " ".join(_SHORT.repr(value).split())

@@ -257,12 +257,56 @@ def load_error(path: Path, **options: Any) -> FileFormatError:
     return caught.value
 
 
-def test_an_offset_is_in_the_unit_of_the_times() -> None:
-    for times, offset in ((T, 5_000_000), (T / 1e6, 5)):
+@pytest.mark.parametrize("holder", ["array", "attribute", "npz"])
+@pytest.mark.parametrize(("unit", "offset"), [(1, 5_000_000), (1e6, 5), (1e6, 5.0)])
+def test_an_offset_is_in_the_unit_of_the_times(holder: str, unit: float, offset: float) -> None:
+    times = T if unit == 1 else T / unit
+    if holder == "npz":
+        path = written("npz", t=times, t_offset=np.array(offset))
+    else:
         path = written("h5", t=times)
         with h5py.File(path, "r+") as file:
-            file["events/t_offset"] = offset
-        assert is_true(found(path)[0], T + 5_000_000)
+            (file if holder == "array" else file["events"].attrs)["t_offset"] = offset
+    assert is_true(found(path)[0], T + 5_000_000)
+
+
+@pytest.mark.parametrize("kind", ["npz", "h5"])
+def test_a_column_that_is_one_row_is_read(kind: str) -> None:
+    assert is_true(found(written(kind, t=T[None], x=X[None], y=Y[None], p=P[None]))[0])
+
+
+@pytest.mark.parametrize("mark", [",", ";", " "])
+@pytest.mark.parametrize("end", ["", ",", ";"])
+@pytest.mark.parametrize("comment", ["", "# ", "% "])
+def test_a_line_of_names_decides_in_a_comment_too(mark: str, end: str, comment: str) -> None:
+    if end not in ("", mark):
+        return
+    rows = [comment + mark.join("pytx") + end]
+    rows += [mark.join(map(str, row)) + end for row in zip(P, Y, T, X, strict=True)]
+    Path("e.txt").write_text("\n".join(rows) + "\n")
+    assert is_true(found(Path("e.txt"))[0])
+
+
+@pytest.mark.parametrize("unit", ["us", "ms"])
+def test_six_decimals_of_other_units_are_no_seconds(unit: str) -> None:
+    times = T * 3 / {"us": 1, "ms": 1000}[unit]
+    np.savetxt("e.txt", np.stack([times, X, Y, P], axis=1)[::8], fmt="%f")
+    assert f"give time_unit (--time-unit {unit})" in str(found(Path("e.txt"))[0])
+
+
+def test_arrays_behind_one_another_are_refused() -> None:
+    with Path("e.npy").open("wb") as file:
+        for rows in np.split(np.stack([T, X, Y, P], axis=1), 2):
+            np.save(file, rows)
+    assert "holds several arrays" in str(found(Path("e.npy"))[0])
+
+
+@pytest.mark.parametrize("kind", ["npz", "records.npy", "h5"])
+def test_space_that_nobody_wrote_is_left_out_by_repair(kind: str) -> None:
+    path = written(
+        kind, **{n: np.pad(c, (0, 300)) for n, c in zip("txyp", (T, X, Y, P), strict=True)}
+    )
+    assert is_true(found(path, repair=True)[0])
 
 
 TEXTS = [
@@ -318,13 +362,16 @@ def test_an_attribute_states_the_unit(holder: str, name: str, unit: str | bytes)
 
 
 @pytest.mark.parametrize("order", ["tyxp", "ptxy", "xypt"])
-@pytest.mark.parametrize("form", ["list", "bytes", "text", "commas"])
+@pytest.mark.parametrize("form", ["list", "bytes", "text", "commas", "pandas"])
 def test_an_attribute_states_the_order_of_columns(order: str, form: str) -> None:
     values = {"t": T, "x": X, "y": Y, "p": P}
     with h5py.File("e.h5", "w") as file:
-        file["events"] = np.stack([values[name] for name in order], axis=1)
+        name = "block0_values" if form == "pandas" else "events"
+        file[name] = np.stack([values[name] for name in order], axis=1)
+        file["block0_items"] = [*order] if form == "pandas" else [0]
         forms: dict[str, Any] = {"list": [*order], "bytes": order.encode(), "text": order}
-        file["events"].attrs["columns"] = forms.get(form, ", ".join(order))
+        if form != "pandas":
+            file[name].attrs["columns"] = forms.get(form, ", ".join(order))
     events = load("e.h5", size=SIZE)
     assert (events.x.tolist(), events.t.tolist()) == (X.tolist(), T.tolist())
 

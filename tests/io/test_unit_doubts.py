@@ -140,8 +140,9 @@ def test_classes_beside_the_events_of_a_text_are_left_out(tmp_path: Path) -> Non
     assert load(tmp_path / "e.csv", size=SIZE).label is None
 
 
-def test_seconds_cut_to_six_digits_are_noticed(tmp_path: Path) -> None:
-    rows = (f"{1700 + at * 0.0007:.6g} 1 1 {at % 2}\n" for at in range(COUNT))
+@pytest.mark.parametrize("form", ["{:.6g}", "{:.2f}"])
+def test_seconds_cut_to_some_digits_are_noticed(tmp_path: Path, form: str) -> None:
+    rows = (f"{form.format(1700 + at * 0.0007)} 1 1 {at % 2}\n" for at in range(COUNT))
     (tmp_path / "e.txt").write_text("".join(rows))
     with pytest.warns(TexventWarning, match="steps of 10,000 µs"):
         load(tmp_path / "e.txt", size=SIZE)

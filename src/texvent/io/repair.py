@@ -126,7 +126,10 @@ def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[C
 
 def _on_sensor(block: Columns, size: SensorSize, counts: RepairCounts) -> _Columns:
     x, y = (np.asarray(block[name]).astype(np.int64, copy=False) for name in "xy")
-    is_read = np.asarray(block["t"]) != UNREADABLE_US
+    t = np.asarray(block["t"])
+    # Rows of zeros, several together, are space that nobody wrote.
+    is_blank = np.pad((x | y | t | np.asarray(block["p"])) == 0, 1)
+    is_read = (t != UNREADABLE_US) & ~(is_blank[1:-1] & (is_blank[:-2] | is_blank[2:]))
     inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height) & is_read
     counts.unreadable_rows += int(is_read.size - np.count_nonzero(is_read))
     counts.outside_sensor += int(np.count_nonzero(is_read) - np.count_nonzero(inside))

@@ -120,7 +120,7 @@ class Column(NamedTuple):
         shape, dtype = array.shape, array.dtype
         if isinstance(self.part, int):
             return len(shape) == 2 and self.part < shape[1] and dtype.kind in "biuf"
-        if len(shape) != 1 and shape[1:] != (1,):
+        if len(shape) != 1 and (len(shape) != 2 or 1 not in shape):
             return False
         kind = dtype if self.part is None else (dtype.fields or {}).get(self.part, (None,))[0]
         return kind is not None and kind.kind in "biuf" + more
@@ -130,6 +130,29 @@ class Column(NamedTuple):
         if isinstance(self.part, int):
             return rows[:, self.part]
         return (rows if self.part is None else rows[self.part]).reshape(-1)
+
+
+class RowVector:
+    """An array [1, n] as [n]."""
+
+    def __init__(self, array: Array) -> None:
+        self._array, self.shape, self.dtype = array, array.shape[1:], array.dtype
+
+    def __getitem__(self, rows: slice) -> NDArray[Any]:
+        """The values of a slice."""
+        return np.asarray(self._array[0, rows])
+
+
+def time_offset(path: Path, stored: Any) -> NDArray[Any]:
+    """`t_offset` of a file, which is added to its times, in their unit, [1].
+
+    Raises:
+        FileFormatError: it is not one number.
+    """
+    if stored.size != 1 or stored.dtype.kind not in "iuf":
+        raise FileFormatError(f"{path}: t_offset must be one number; it is {shown(stored[()])}")
+    value = np.asarray(stored[()]).reshape(-1)
+    return value if value.dtype.kind == "f" else value.astype(np.int64)
 
 
 @dataclass(frozen=True)
@@ -166,9 +189,15 @@ class EventTable:
                     f"{path}: {column.array} is {shown(array.dtype)} of shape "
                     f"{shown(array.shape)}; it must hold numbers, one row per event"
                 )
-        lengths = {name: arrays[name].shape[0] for name in self.arrays}
+        lengths = {name: self._column(arrays, name).shape[0] for name in self.arrays}
         if len(set(lengths.values())) != 1:
             raise FileFormatError(f"{path}: the columns of events differ in length: {lengths}")
+
+    def _column(self, arrays: Mapping[str, Array], name: str) -> Array:
+        """An array with one row per event, also if it is one row, as MATLAB's columns are."""
+        array, is_alone = arrays[name], Column(name) in self.columns.values()
+        is_row = is_alone and len(array.shape) == 2 and array.shape[0] == 1
+        return RowVector(array) if is_row else array
 
     def rows(
         self,
@@ -192,6 +221,7 @@ class EventTable:
             FileFormatError: the times cannot be meant in the unit that they seem to have, or the
                 polarities are of no code.
         """
+        arrays = {name: self._column(arrays, name) for name in self.arrays}
         in_time = arrays[self.columns["t"].array]
         count, of_time = in_time.shape[0], self.columns["t"].of
         is_known = self.unit is not None or options.time_unit is not None
@@ -379,7 +409,8 @@ def _rows_of_four(
             unit: TimeUnit | None = "us" if default else None
             order: Sequence[str] | None = options.order
             if order is None:
-                order, stated = _stated_order(flat[name])
+                items = arrays.get(f"{name.removesuffix('values')}items")  # pandas'
+                order, stated = _stated_order(flat[name], [] if items is None else [items[:]])
                 unit = stated or unit
             order = order or certain_order(path, rows, options.size, default)
             columns = {column: Column(name, order.index(column)) for column in "xytp"}
@@ -387,9 +418,11 @@ def _rows_of_four(
     return tables
 
 
-def _stated_order(array: Array) -> tuple[tuple[str, ...] | None, TimeUnit | None]:
-    """Order of the columns that an attribute of a data set lists, and unit of the times."""
-    for value in getattr(array, "attrs", {}).values():
+def _stated_order(
+    array: Array, lists: Sequence[Any]
+) -> tuple[tuple[str, ...] | None, TimeUnit | None]:
+    """Order of the columns that an attribute or another list has, and unit of the times."""
+    for value in (*lists, *getattr(array, "attrs", {}).values()):
         words = [
             one.decode(errors="replace") if isinstance(one, bytes) else str(one)
             for one in np.ravel(value).tolist()

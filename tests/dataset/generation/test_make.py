@@ -155,6 +155,10 @@ def test_a_folder_of_other_things_and_a_changed_list_are_refused(
     items.write_text(items.read_text().replace("red", "black"))
     with pytest.raises(FileFormatError, match="changed by hand"):
         load_recipe(folder)
+    note = folder / "specification.json"
+    note.write_text(note.read_text().replace('"seed"', '"sead"'))
+    with pytest.raises(FileFormatError, match=r"specification\.json is damaged"):
+        load_recipe(folder)
 
 
 def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:

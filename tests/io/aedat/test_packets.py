@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, TexventWarning
 from texvent.io.aedat.aedat4_tables import Table
 from texvent.io.files import load
 
@@ -29,6 +29,22 @@ def test_aedat3_of_two_cameras_or_packed_is_refused(
     path.write_bytes(header + b"".join(head + struct.pack("<II", 1, 5) for head in heads))
     with pytest.raises(FileFormatError, match=message):
         load(path)
+
+
+@pytest.mark.parametrize("turns", [(0, 0, 1, 1), (1, 0, 0, 0), (0, 3, 0, 0)])
+def test_aedat3_counts_of_turns_where_the_time_goes_on_are_damage(
+    tmp_path: Path, turns: tuple[int, ...]
+) -> None:
+    path = tmp_path / "e.aedat"
+    packets = [
+        struct.pack("<hhiiiiiiII", 1, 1, 8, 4, turn, 1, 1, 1, 1, 1000 * at)
+        for at, turn in enumerate(turns)
+    ]
+    path.write_bytes(b"#!AER-DAT3.1\r\n#Size: 9x9\r\n#!END-HEADER\r\n" + b"".join(packets))
+    with pytest.raises(FileFormatError, match="count of turns goes from"):
+        load(path)
+    with pytest.warns(TexventWarning, match="the times alone say the turns"):
+        assert np.diff(load(path, repair=True).t).tolist() == [1000] * 3
 
 
 def packet(count: int, *, is_same: bool = False) -> bytes:

@@ -30,6 +30,7 @@ from texvent.errors import (
     FileFormatError,
     InputError,
     OutputError,
+    TexventError,
     one_line,
     warnings_to,
 )
@@ -239,7 +240,7 @@ def read_recipe(folder: Path) -> Recipe:
         InputError: the folder holds no data set, or a copy to load from.
         FileFormatError: its specification is damaged.
     """
-    facts, path = read_facts(folder), folder / ITEMS_FILE
+    facts, path, note = read_facts(folder), folder / ITEMS_FILE, folder / SPECIFICATION_FILE
     if not path.exists():
         raise InputError(
             f"{folder} has no {path.name}, so it is a copy to load from and cannot be made further"
@@ -247,12 +248,15 @@ def read_recipe(folder: Path) -> Recipe:
     try:
         lines = StringIO(path.read_text(encoding="utf-8"))
         items = tuple(Item(**read_json(line)) for line in lines)
-        specification = specification_from(facts["specification"], folder=Path())
     except (OSError, ValueError, TypeError, KeyError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
-    recipe = Recipe(specification, Items(items, int(facts.get("duplicates", 0))))
+    try:
+        specification = specification_from(facts["specification"], folder=Path())
+        recipe = Recipe(specification, Items(items, int(facts.get("duplicates", 0))))
+    except (TexventError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise FileFormatError(f"{note} is damaged ({one_line(error)})") from error
     if recipe.identity != facts.get("identity"):
-        raise FileFormatError(f"{folder / SPECIFICATION_FILE} or {path.name} was changed by hand")
+        raise FileFormatError(f"{note} or {path.name} was changed by hand")
     return recipe
 
 

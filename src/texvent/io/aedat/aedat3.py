@@ -28,7 +28,7 @@ from typing import BinaryIO, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError, shown, warn
 from texvent.io.aedat.header import AedatHeader, read_aedat_header
 from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns, SideData
@@ -81,7 +81,8 @@ class Aedat3Codec(BlockReader):
         if stored != PLAIN:
             raise FileFormatError(f"{path} is AEDAT3.1 of the format {shown(stored)}, not {PLAIN}")
         size, metadata = _stored_size(path, header), header.metadata(path)
-        return FileContents(size, metadata, partial(_read_events, path, header.length))
+        blocks = partial(_read_events, path, header.length, repairs=options.repair)
+        return FileContents(size, metadata, blocks)
 
     def side_data(self, path: Path) -> SideData:
         """External signals and IMU samples."""
@@ -107,10 +108,10 @@ def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
 
 
 def _read_packets(
-    path: Path, start: int, kind: int
+    path: Path, start: int, kind: int, *, repairs: bool = True
 ) -> Iterator[tuple[NDArray[np.void], NDArray[np.int64]]]:
     """The events of each packet of a type, and their times."""
-    dtype, clock = PACKETS[kind], TurningClock(TIME_BITS)
+    dtype, clock = PACKETS[kind], _PacketClock(path, repairs=repairs)
     sources: set[int] = set()
     with path.open("rb") as file:
         left = os.fstat(file.fileno()).st_size - start
@@ -136,13 +137,47 @@ def _read_packets(
             events = np.frombuffer(read_whole(path, file, event_bytes * count), dtype=dtype)
             events = events[(events["place"] & 1) == 1]
             stored = events["t"].astype(np.int64) & TIME_MASK
-            # Not every program counts the turns.
-            counted = np.maximum(clock.unroll(stored) - stored, turns << TIME_BITS)
-            yield events, stored + counted
+            yield events, clock.unroll(stored, turns)
 
 
-def _read_events(path: Path, start: int) -> Iterator[Columns]:
-    for events, times in _read_packets(path, start, POLARITY_TYPE):
+class _PacketClock:
+    """Times of consecutive packets: 31 bits, and the turns that heads of packets count.
+
+    Args:
+        path: the file, for messages.
+        repairs: the turns that heads count are left out where they cannot be.
+    """
+
+    def __init__(self, path: Path, *, repairs: bool) -> None:
+        self._path, self._repairs = path, repairs
+        self._clock = TurningClock(TIME_BITS)
+        self._last: tuple[int, int] | None = None
+        self._counted_us, self._is_wrong = 0, False
+
+    def unroll(self, stored: NDArray[np.int64], turns: int) -> NDArray[np.int64]:
+        """Times of the events of the next packet, µs.
+
+        Raises:
+            FileFormatError: the count of turns changes where the time only goes on.
+        """
+        times = self._clock.unroll(stored)
+        if not len(stored):
+            return times
+        before, self._last = self._last, (turns, int(stored[-1]))
+        if before is not None and turns != before[0] and stored[0] >= before[1]:
+            change = f"count of turns goes from {before[0]} to {turns} where the time goes on"
+            if not self._repairs:
+                raise FileFormatError(f"{self._path}: its {change}, {before[1]} to {stored[0]} µs")
+            if not self._is_wrong:
+                warn(f"{self._path}: its {change}; from there on the times alone say the turns")
+            self._is_wrong = True
+        if not self._is_wrong:  # not every program counts the turns
+            self._counted_us = max(0, int(stored[-1] - times[-1]) + (turns << TIME_BITS))
+        return times + self._counted_us
+
+
+def _read_events(path: Path, start: int, *, repairs: bool) -> Iterator[Columns]:
+    for events, times in _read_packets(path, start, POLARITY_TYPE, repairs=repairs):
         place = events["place"]
         yield {
             "x": (place >> 17).astype(np.uint16),

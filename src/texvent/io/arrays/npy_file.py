@@ -83,10 +83,18 @@ class StoredArray:
             shape, self._is_fortran, self.dtype = read_header(file)
             self._start = file.tell()
             stored = os.fstat(file.fileno()).st_size - self._start
+            held = math.prod(shape) * self.dtype.itemsize
+            file.seek(min(max(held, 0), stored), os.SEEK_CUR)
+            has_more = file.read(len(_MAGIC)).startswith(_MAGIC[:6])
         self.shape: tuple[int, ...] = shape
         if self.dtype.hasobject or self.dtype.itemsize == 0:
             raise FileFormatError(f"{path} holds {self.dtype}, not numbers")
-        if min(shape, default=0) < 0 or math.prod(shape) * self.dtype.itemsize > stored:
+        if has_more:
+            raise FileFormatError(
+                f"{path} holds several arrays, one after the other; np.load reads them one by one "
+                "from an open file: write them to one array"
+            )
+        if min(shape, default=0) < 0 or held > stored:
             raise FileFormatError(
                 f"{path} states the shape {shown(shape)}, and has {stored} bytes for it; the file "
                 "was cut off"

@@ -47,7 +47,7 @@ from texvent.io.input_checks import (
 )
 from texvent.io.metadata import metadata_from_json, metadata_to_json, read_sidecar
 from texvent.io.reading import ReadOptions, TimeUnit, choose
-from texvent.io.tables import TABLE_OPTIONS, find_tables
+from texvent.io.tables import TABLE_OPTIONS, find_tables, time_offset
 from texvent.runtime.memory import check_claim
 from texvent.sensor import SensorSize
 
@@ -217,7 +217,9 @@ def stored_contents(
     table = replace(table, unit=table.unit or unit)
     table.check(path, arrays)
     used = {name: np.asarray(arrays[name]) for name in table.arrays}
-    rows = table.rows(path, used, options, block=BLOCK_EVENTS)
+    stored = arrays.get("t_offset")
+    offset = None if stored is None else time_offset(path, np.asarray(stored))
+    rows = table.rows(path, used, options, offset=offset, block=BLOCK_EVENTS)
     return FileContents(size, metadata, partial(_one_block, path, rows, options.size))
 
 

@@ -58,7 +58,7 @@ from texvent.io.hdf5.storage import (
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.reading import ReadOptions, choose, unit_in_words
-from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables
+from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables, time_offset
 
 CHUNK_EVENTS = 65_536
 INDEX_CHUNK = 4096
@@ -296,18 +296,17 @@ def _open_rows(path: Path, options: ReadOptions) -> Iterator[TimedRows]:
     """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
         table, arrays = _find_table(file, path, options)
-        groups = (one for one in _groups_of(file, table) if OFFSET in one)
+        groups = (one for one in _groups_of(file, table) if OFFSET in one or OFFSET in one.attrs)
         offset = next((_time_offset(one, path) for one in groups), None)
         yield table.rows(path, arrays, options, offset=offset, block=PACKET_EVENTS)
 
 
-def _time_offset(group: Any, path: Path) -> NDArray[np.int64]:
+def _time_offset(group: Any, path: Path) -> NDArray[Any]:
     """Time that is added to those of a group, in their unit, [1]."""
-    value = group[OFFSET]
-    if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: {OFFSET} must be one whole number; it is {shown(value)}")
-    check_claims(value, path)
-    offset = np.asarray(value[()]).reshape(-1).astype(np.int64)
+    if OFFSET not in group:
+        return time_offset(path, np.asarray(group.attrs[OFFSET]))
+    check_claims(group[OFFSET], path)
+    offset = time_offset(path, group[OFFSET])
     if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset[0]:
         raise FileFormatError(
             f"{path} is damaged: {OFFSET} is {offset[0]}, written as {shown(group.attrs[OFFSET])}"

@@ -27,7 +27,7 @@ from texvent.io.reading import (
     stated_or_given,
     unit_in_name,
 )
-from texvent.io.tables import are_whole, certain_order, find_columns, whole_numbers
+from texvent.io.tables import are_whole, certain_order, find_columns, spelled, whole_numbers
 from texvent.sensor import SensorSize
 
 STOP_US = 1 << 63
@@ -39,8 +39,6 @@ WORD = re.compile(rb"(?<![^\s,;])([a-z]+|[+-])(?![^\s,;])", re.IGNORECASE)
 SIZE_LINE = rb"\s*(\d{1,9})\s+(\d{1,9})\s*"
 WHOLE_US = re.compile(r"[-+]?\d+\.\d{6}")
 """A time in seconds as the Event Camera Dataset and E2VID write it: whole µs."""
-CUT_DIGITS = (6, 7)
-"""Digits that "%g" and single precision keep."""
 SAMPLE_ROWS = 2000
 COMMENTS = ("#", "%", "//")
 
@@ -196,6 +194,8 @@ def find_dialect(
     names = None if any(map(_is_number, words)) or not line.strip() else words
     if names is not None:
         start, at = start + len(lines[at]) + 1, at + 1
+    else:
+        names = _names_in_comments(lines[:at], len(words))
     text = b"\n".join([*lines[at : at + SAMPLE_ROWS], *(one[one.find(b"\n") :] for one in later)])
     rows = _sound_rows(path, text, delimiter, None if names is None else len(names))
     places = _places(path, rows, names, options, size, default)
@@ -215,12 +215,28 @@ def find_dialect(
         len(names or (rows[0] if rows else words)),
         places,
         stated or ("us" if times and all(map(_is_whole, times)) else "s"),
-        stated is not None or (bool(times) and all(map(WHOLE_US.fullmatch, times))),
+        stated is not None or _are_seconds(times),
         start,
         size,
         any(word.lower() in WORDS for word in polarities),
         PolarityCode(path, np.array(polarities, dtype=str), is_repaired=options.repair),
     )
+
+
+def _names_in_comments(lines: Sequence[bytes], width: int) -> list[str] | None:
+    """Names of as many columns in the last comment that has nothing else, as `# t x y p`."""
+    for line in reversed(lines):
+        text = line.decode("utf-8", errors="replace").strip().lstrip("".join(COMMENTS)).strip()
+        for mark in (",", ";", None):
+            names = _words(text, mark)
+            if len(names) == width and {*"txyp"} <= {spelled(name)[0] for name in names}:
+                return names
+    return None
+
+
+def _are_seconds(times: Sequence[str]) -> bool:
+    """Whether times are written as only seconds are; "%f" gives µs and ms zeros at the end."""
+    return all(map(WHOLE_US.fullmatch, times)) and not all(one.endswith("000") for one in times)
 
 
 def _without_comments(block: bytes) -> bytes:
@@ -253,11 +269,14 @@ def _is_whole(word: str) -> bool:
 
 
 def _words(line: str, delimiter: str | None) -> list[str]:
+    line = line.strip().removesuffix(delimiter) if delimiter else line
     return [word.strip().strip("\"'").strip() for word in line.split(delimiter)]
 
 
 def _plain_values(text: bytes, *, has_words: bool) -> bytes:
-    """Rows of numbers without quotes, with words of polarity as numbers."""
+    """Rows of numbers without quotes or marks at their ends, words of polarity as numbers."""
+    for end in (b",\n", b";\n", b",\r\n", b";\r\n"):
+        text = text.replace(end, b"\n")
     text = text.replace(b'"', b"").replace(b"'", b"") if b'"' in text or b"'" in text else text
     if not has_words:
         return text
@@ -314,12 +333,14 @@ def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
 
 
 def _check_decimals(path: Path, times: list[str]) -> None:
-    """Warn of seconds such as 1700.01 that were cut to 6 or 7 digits, most before the point."""
-    parts = [word.lstrip("+-").partition(".") for word in times if "e" not in word.lower()]
-    before, after = (max((len(part[at]) for part in parts), default=0) for at in (0, 2))
-    is_coarse = 2 * len(set(times)) < len(times)
-    if is_coarse and 0 < after < before and before + after in CUT_DIGITS:
-        step_us = 10 ** (6 - after)
+    """Warn of seconds such as 1700.01 that were cut: most are those of three events or more."""
+    plain = [word for word in times if _is_number(word) and "e" not in word.lower()]
+    after = max((len(word.partition(".")[2]) for word in plain), default=0)
+    found, counts = np.unique(np.array(plain, dtype=np.float64), return_counts=True)
+    step_us = 10 ** (6 - after)
+    if not 0 < after < 6 or len(found) < 2 or np.median(counts) < 3:
+        return
+    if np.median(np.diff(found)) * MICROSECONDS < 1.5 * step_us:
         warn(
             f"{path}: its times, such as {shown(times[-1])}, have steps of {step_us:,} µs; "
             "write all their digits"
