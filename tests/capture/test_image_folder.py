@@ -101,6 +101,27 @@ def test_every_image_of_a_tiff_stack_is_a_frame(tmp_path):
         open_frames(tmp_path / "run_0.tif", CaptureConfig(camera="pan"))
 
 
+@pytest.mark.parametrize(
+    ("text", "is_video"),
+    [
+        ("ImageJ=1.53\nimages=6\nchannels=1\nslices=6\nframes=1\n", True),
+        ("ImageJ=1.53\nimages=6\nchannels=2\nframes=3\n", False),
+        ("ImageJ=1.53\nimages=6\nslices=2\nframes=3\n", False),
+        ('<OME><Pixels SizeC="1" SizeT="6" SizeZ="1"/></OME>', True),
+        ('<OME><Pixels SizeC="2" SizeT="3" SizeZ="1"/></OME>', False),
+    ],
+)
+def test_a_stack_of_channels_or_of_depths_and_times_is_no_video(tmp_path, text, is_video):
+    first, *others = [Image.fromarray(np.full((4, 6), 10 * i, np.uint8)) for i in range(6)]
+    path = tmp_path / "stack.tif"
+    first.save(path, save_all=True, append_images=others, tiffinfo={270: text})
+    if is_video:
+        assert levels(path) == [0, 10, 20, 30, 40, 50]
+    else:
+        with pytest.raises(FileFormatError, match="are not one video"):
+            levels(path)
+
+
 DURATIONS_MS = [40, 80, 120, 40]
 
 
@@ -153,7 +174,7 @@ COLOUR = Image.merge("RGB", (GREY, Image.new("L", (16, 4), 90), Image.fromarray(
 )
 def test_images_of_every_mode_are_read_by_its_meaning(tmp_path, image, name, expected):
     image.save(tmp_path / name)
-    image.save(tmp_path / f"b{name}")
+    image.save((tmp_path / name).with_stem("b"))
     frame = next(iter(open_frames(tmp_path, CaptureConfig(fps=Fraction(10)))))
     right = np.asarray(Frame(np.asarray(expected), 0).luma, np.float32)
     assert np.allclose(frame.luma, right, atol=0.01)

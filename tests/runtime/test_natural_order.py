@@ -39,6 +39,7 @@ PLAIN = [
 DOUBTFUL = [
     (["left_1", "left_2", "right_1", "right_2"], r"2 patterns of names: left_# \(2\), right_#"),
     (["0b12e", "3f9", "a7c4"], "3 patterns"),
+    (["Apr", "Feb", "Jan"], "3 patterns"),
     (["01-02-2024", "31-01-2024"], "days stand before years"),
     (["clip 02.11.2023", "clip 11.02.2022"], "days stand before years"),
     (["1-00-00 pm", "12-59-58 pm"], "am and pm"),

@@ -47,6 +47,12 @@ MAX_BYTE = 255
 LIGHT_EXTENSIONS = (EXR, ".hdr")
 """Images of linear light: OpenEXR, Radiance."""
 
+# Lengths of channels, depths and times in the descriptions of ImageJ and of OME.
+_AXES = re.compile(
+    rb"\nchannels=(\d+)|\nslices=(\d+)|\nframes=(\d+)"
+    rb"|\bSizeC=\"(\d+)\"|\bSizeZ=\"(\d+)\"|\bSizeT=\"(\d+)\""
+)
+
 
 class ImageFolder(FrameSource):
     """Images of a folder in natural order (2 before 10), or in the timestamp file's order.
@@ -145,13 +151,15 @@ def read_stack(path: Path, count: int, white_level: float | None) -> Iterator[Pi
     """The images of a file, a few at a time; see `read_image`.
 
     Raises:
-        FileFormatError: one cannot be decoded, or has another size than the first.
+        FileFormatError: one cannot be decoded, or has another size than the first, or not all
+            are of other times.
     """
     import cv2
 
     if count == 1:
         yield read_image(path, white_level)
         return
+    _check_axes(path, count)
     shape: tuple[int, ...] | None = None
     start, step = 0, 1
     while start < count:
@@ -171,6 +179,24 @@ def read_stack(path: Path, count: int, white_level: float | None) -> Iterator[Pi
             yield _checked(image, path, white_level)
         start += wanted
         step = max(1, STACK_BYTES // images[0].nbytes)
+
+
+def _check_axes(path: Path, count: int) -> None:
+    """Refuse a stack of colours, or of depths and times, as ImageJ and OME describe it.
+
+    Depths alone pass: ImageJ calls the images of a video slices.
+    """
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        found = _AXES.findall(data[:HEAD_BYTES] + data[HEAD_BYTES:][-HEAD_BYTES:])
+    axes = {"c": 1, "z": 1, "t": 1}
+    for axis, lengths in zip(("c", "z", "t") * 2, zip(*found, strict=True), strict=False):
+        axes[axis] = max(axes[axis], *(int(one or 1) for one in lengths))
+    colours, depths, times = axes.values()
+    if colours * depths * times == count and (colours > 1 or min(depths, times) > 1):
+        raise FileFormatError(
+            f"{path} states {colours} channels, {depths} depths and {times} times, so its {count} "
+            "images are not one video; save one channel and depth of it (ImageJ: Image > Duplicate)"
+        )
 
 
 def read_image(path: Path, white_level: float | None = None) -> PixelArray:

@@ -194,7 +194,9 @@ def _warn_of_patterns(ordered: Sequence[Path]) -> None:
         re.sub(r"-?#", "#", _NUMBER.sub("#", _text(path))) + path.suffix.lower() * is_twice
         for path in ordered
     )
-    if len(patterns) > 1 and any("#" in one for one in patterns):
+    # Single letters, a.png and b.png, tell the order; words, Jan.png and Feb.png, do not.
+    differing = sum(len(set(letters)) > 1 for letters in itertools.zip_longest(*patterns))
+    if differing > 1 or (differing and any("#" in one for one in patterns)):
         shown_ones = few([f"{name} ({count})" for name, count in patterns.most_common()], 3)
         warn(
             f"{ordered[0].parent} holds files of {len(patterns)} patterns of names: {shown_ones}; "
