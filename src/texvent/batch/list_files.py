@@ -102,8 +102,8 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         raise InputError(f"{path} holds no prompt")
     if unread:
         warn(
-            f"{path}: its {', '.join(sorted(unread))} is not read, for a list sets no options; give "
-            "them for the whole list, and make a list for each value"
+            f"{path}: its {', '.join(sorted(unread))} is not read, for a list sets no options; "
+            "give options for the whole list, and make a list for each value"
         )
     return tuple(entries)
 
