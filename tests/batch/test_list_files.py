@@ -1,9 +1,11 @@
 """Lists of prompts and videos: every format, and every mistake by its line."""
 
+import json
+
 import pytest
 
-from texvent.batch.list_files import ListEntry, read_list
-from texvent.errors import FileFormatError
+from texvent.batch.list_files import NOT_READ, ListEntry, read_list
+from texvent.errors import FileFormatError, TexventWarning
 
 
 def written(tmp_path, name, text):
@@ -72,7 +74,7 @@ def test_json_lines_hold_texts_or_objects(tmp_path):
         (
             "p.csv",
             "words,seed\na car,1\n",
-            "no column prompt, .* or video; it has: words",
+            "no column prompt, .* or video, separated by commas; it has: 'words | seed'",
         ),
         ("p.csv", "prompt,seed\na car,x\n", "line 2: seed is 'x'"),
         ("p.csv", "prompt,seed\n,3\n", "line 2 has no prompt"),
@@ -101,3 +103,10 @@ def test_a_wrong_line_is_named(tmp_path, name, text, why):
     with pytest.raises(FileFormatError, match=why) as caught:
         read_list(written(tmp_path, name, text))
     assert len(str(caught.value).replace(str(tmp_path), "")) < 300
+
+
+@pytest.mark.parametrize("name", sorted(NOT_READ))
+def test_a_column_that_would_set_an_option_is_warned_of(tmp_path, name):
+    path = written(tmp_path, "p.jsonl", json.dumps({"prompt": "a dog", "tag": 1, name: 9}))
+    with pytest.warns(TexventWarning, match=f"its {name} is not read"):
+        read_list(path)

@@ -11,7 +11,7 @@ import pytest
 from texvent.dataset.generation.shards import FAILED, read_record, write_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.reading.stored_events import read_events
-from texvent.dataset.statistics import DatasetStatistics, quantiles
+from texvent.dataset.statistics import DatasetStatistics, quantiles, summary_lines
 
 
 def test_counts_are_those_of_the_samples(cars: Path) -> None:
@@ -39,18 +39,22 @@ def test_counts_are_those_of_the_samples(cars: Path) -> None:
     assert any("not understood" in warning for warning in total.warnings)
 
 
-def test_reasons_of_failures_count_together(copied: Path) -> None:
+def test_reasons_and_warnings_count_together_and_are_said(copied: Path) -> None:
     shard = copied / "paper" / "train-000000.tar"
     record = read_record(shard)
     assert record is not None
     failed = [
-        replace(sample, status=FAILED, reason=f"frame {n} of 12 is damaged", members={})
+        replace(sample, status=FAILED, reason=f"frame {n} fails", warnings=(f"{n} Hz",), members={})
         for n, sample in enumerate(record.samples)
     ]
     write_record(shard, replace(record, samples=tuple(failed)))
     total = DatasetStatistics.of(StoredDataset.open(copied)).total
     assert total.failed == len(failed)
-    assert dict(total.reasons) == {"failed: frame N of N is damaged": len(failed)}
+    assert dict(total.reasons) == {"failed: frame 0 fails": len(failed)}
+    assert summary_lines(total)[1:3] == [
+        f"failed   {len(failed)}: frame 0 fails",
+        f"warning  {len(failed)}: 0 Hz",
+    ]
 
 
 def test_quantiles_by_hand() -> None:

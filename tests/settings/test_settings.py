@@ -112,3 +112,17 @@ def test_an_option_that_another_one_switches_off_is_said(tmp_path, options, said
     path = tmp_path / "run.toml"
     path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
     assert resolve("simulate", {}, config=path) == settings  # files hold all options
+
+
+@pytest.mark.parametrize(("name", "text"), [("c.toml", "seed = 3"), ("c.yaml", "seed: 3")])
+def test_a_mark_of_the_byte_order_is_no_part_of_a_config_file(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8-sig")
+    assert read_config(path) == {"seed": 3}
+
+
+@pytest.mark.parametrize("part", ["simulator", "preset", "generator"])
+@pytest.mark.parametrize("value", [False, "", 0])
+def test_a_name_that_is_none_is_no_default(part, value):
+    with pytest.raises(ConfigError):
+        resolve("generate", {part: value})

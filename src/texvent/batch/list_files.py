@@ -10,14 +10,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import (
     FileFormatError,
     InputError,
     is_address,
     one_line,
     shown,
+    warn,
     without_password,
 )
+from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.scenes.spec.scene import Scene
@@ -30,6 +33,11 @@ NAME_COLUMNS = ("name", "id")
 """Names of the column or key with the name of a sample."""
 LABEL_COLUMNS = ("label", "class")
 """Names of the column or key with the class of a sample."""
+NOT_READ = {
+    "split",
+    *(name for one in (RunConfig, CaptureConfig, InterpolateConfig) for name in option_names(one)),
+} - {"seed"}
+"""Columns that somebody may take for settings of a line; a list does not set them."""
 _COLUMNS = f"{', '.join((*PROMPT_COLUMNS, SCENE_COLUMN))} or {VIDEO_COLUMN}"
 Row = tuple[int, Mapping[Any, Any]]
 """Number of a line, and its values by column."""
@@ -72,6 +80,9 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         InputError: there is no such file, or it holds no entry.
         FileFormatError: a line cannot be read; the message names it.
         ConfigError: a field of a scene file is wrong.
+
+    Warns:
+        TexventWarning: a column has the name of an option, which a list does not set.
     """
     usable_path(path)
     rows_of = {".txt": _text_rows, ".csv": _csv_rows, ".jsonl": _json_rows}.get(path.suffix.lower())
@@ -83,10 +94,18 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         raise InputError(f"cannot read the list {path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise FileFormatError(f"{path} is not UTF-8 text: {error.reason}") from error
-    entries = tuple(_entry(path, number, row) for number, row in rows_of(path, text))
+    entries, unread = [], set[str]()
+    for number, row in rows_of(path, text):
+        entries.append(_entry(path, number, row))
+        unread.update(name for name in NOT_READ.intersection(row) if row[name] not in ("", None))
     if not entries:
         raise InputError(f"{path} holds no prompt")
-    return entries
+    if unread:
+        warn(
+            f"{path}: its {', '.join(sorted(unread))} is not read, for a list sets no options; "
+            "give options for the whole list, and make a list for each value"
+        )
+    return tuple(entries)
 
 
 def scene_entry(where: str, path: Path, **known: Any) -> ListEntry:
@@ -108,7 +127,8 @@ def _csv_rows(path: Path, text: str) -> Iterator[Row]:
         columns = tuple(reader.fieldnames or ())
         if not set(columns) & {*PROMPT_COLUMNS, SCENE_COLUMN, VIDEO_COLUMN}:
             raise FileFormatError(
-                f"{path} has no column {_COLUMNS}; it has: {', '.join(columns)[:100]}"
+                f"{path} has no column {_COLUMNS}, separated by commas; it has: "
+                f"{shown(' | '.join(columns))}"
             )
         for row in reader:
             # A comma too many cuts a prompt.

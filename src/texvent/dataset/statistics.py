@@ -48,8 +48,11 @@ class Statistics:
     classes: Counter[str] = field(default_factory=Counter)
     sensors: Counter[str] = field(default_factory=Counter)
     reasons: Counter[str] = field(default_factory=Counter)
-    """Reasons of filtering and failure, numbers left out."""
+    """Reasons of filtering and failure. Those that differ in numbers alone are counted as the first
+    of them, as are warnings."""
     warnings: Counter[str] = field(default_factory=Counter)
+    firsts: dict[str, str] = field(default_factory=dict)
+    """Reason or warning without its numbers → the first of these."""
     boxes: Counter[str] = field(default_factory=Counter)
     """Class → boxes."""
     box_sizes: Counter[str] = field(default_factory=Counter)
@@ -86,12 +89,12 @@ class Statistics:
         self.left_out += record.count(FILTERED)
         self.versions[record.versions.get("texvent", "unknown")] += 1
         for sample in record.samples:
-            self.warnings.update(map(without_numbers, sample.warnings))
+            self.warnings.update(map(self._first_like, sample.warnings))
             self._add_report(sample)
             if sample.status == FILTERED:
                 self.reasons[f"left out: {sample.reason}"] += 1
             if sample.status == FAILED:
-                self.reasons[f"failed: {without_numbers(sample.reason or '')}"] += 1
+                self.reasons[f"failed: {self._first_like(sample.reason or '')}"] += 1
             if sample.status != MADE:
                 continue
             self.events.append(sample.events)
@@ -102,6 +105,9 @@ class Statistics:
                 self.classes[sample.label] += 1
             if sample.boxes is not None:
                 self._add_boxes(sample.boxes, sample.tracks)
+
+    def _first_like(self, text: str) -> str:
+        return self.firsts.setdefault(without_numbers(text), text)
 
     def _add_boxes(self, boxes: Mapping[str, Sequence[int]], tracks: int) -> None:
         self.with_truth += 1
@@ -288,6 +294,8 @@ def summary_lines(statistics: Statistics, classes: Iterable[str] = ()) -> list[s
     for reason, count in ranked(statistics.reasons)[:MOST_REASONS]:
         kind, _, why = reason.partition(": ")
         lines.append(f"{kind:8} {count:,}: {why}")
+    for warning, count in ranked(statistics.warnings)[:MOST_REASONS]:
+        lines.append(f"warning  {count:,}: {warning}")
     if statistics.with_truth:
         lines += _box_lines(statistics)
         missing = [name for name in classes if not statistics.boxes[name]]

@@ -54,7 +54,10 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
 
     if not prompt.strip() or re.fullmatch(r"\S+\.[A-Za-z]\w{0,4}", prompt.strip()):
         what = shown(prompt) if prompt.strip() else "empty"
-        raise InputError(f"the prompt is {what}; describe a scene, or name its .toml or .json file")
+        raise InputError(
+            f"the prompt is {what}; describe a scene, or name its .toml or .json file (videos: "
+            "texvent simulate, or the column `video` of a list)"
+        )
     reading = reader.read(prompt, nouns)
     if reading.scene == Scene(prompt=prompt):
         raise InputError(

@@ -51,7 +51,7 @@ def read_document(path: Path) -> Mapping[str, Any]:
     """
     usable_path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"cannot read config file {path}: {reason}; check its name") from error

@@ -47,7 +47,7 @@ def find_preset(simulator: str | None, preset: str | None) -> tuple[str, str]:
         >>> find_preset(None, "evk4"), find_preset("esim", None)
         (('physical', 'evk4'), ('esim', 'default'))
     """
-    chosen = simulator or RunConfig.simulator
+    chosen = RunConfig.simulator if simulator is None else simulator
     own = tuple(SIMULATORS.load(chosen).presets)
     if preset is None:
         return chosen, own[0]

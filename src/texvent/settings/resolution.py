@@ -139,7 +139,7 @@ def _default_settings(
     run = RunConfig(simulator=simulator_name, preset=preset_name)
     generator_name, source, parts = None, CaptureConfig(), [simulator_class]
     if command == "generate":
-        generator_name = generator or next(iter(GENERATORS.builtin))
+        generator_name = next(iter(GENERATORS.builtin)) if generator is None else generator
         generator_class = GENERATORS.load(generator_name)
         size = getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
         run = dataclasses.replace(run, sensor=size)

@@ -241,6 +241,8 @@ def test_a_written_scene_is_read_again(tmp_path):
     for name in ("car.toml", "car.json"):
         save_scene(tmp_path / name, scene)
         assert load_scene(tmp_path / name) == scene
+        (tmp_path / f"marked-{name}").write_text((tmp_path / name).read_text(), "utf-8-sig")
+        assert load_scene(tmp_path / f"marked-{name}") == scene
     assert (tmp_path / "car.toml").read_text() == (
         '[[objects]]\nnoun = "car"\nmotions = [{ kind = "drive" }]\n'
     )

@@ -153,7 +153,7 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
         table.add_row(*map(escape, row))
     console.print(table)
     total = statistics.total
-    for title in ("classes", "sensors", "warnings"):
+    for title in ("classes", "sensors"):
         ranked = sorted(getattr(total, title).items(), key=lambda pair: (-pair[1], pair[0]))
         if ranked:
             shown = "; ".join(f"{name} {count:,}" for name, count in ranked[:MOST_CLASSES])

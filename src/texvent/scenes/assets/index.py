@@ -90,7 +90,7 @@ def name_of(path: Path) -> str:
 
 def _read_index(index: Path, known: Mapping[Path, Asset]) -> dict[Path, Asset]:
     try:
-        tables = tomllib.loads(index.read_text(encoding="utf-8"))
+        tables = tomllib.loads(index.read_text(encoding="utf-8-sig"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise FileFormatError(f"{index} cannot be read: {error}") from error
     described = {}

@@ -155,7 +155,7 @@ def is_scene_file(text: str) -> bool:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"cannot read scene file {path}: {reason}; check its name") from error
