@@ -131,6 +131,7 @@ def test_the_range_of_intensities_is_said_and_its_ends_are_allowed():
         texvent.simulate(frames, fps=10, simulator="esim", interpolate="none")
 
 
+@pytest.mark.filterwarnings("ignore:t_us. frames are 3,000,000,000 ")
 def test_noise_of_a_gap_that_memory_cannot_hold_is_refused_before_it_is_drawn(monkeypatch):
     monkeypatch.setattr(packets, "usable_bytes", lambda: 10**9)
     frames = np.full((2, 64, 64), 10, np.uint8)

@@ -19,7 +19,7 @@ from typing import Any
 import pytest
 from tests.cli.running import run
 
-from texvent.dataset.generation.recipe import load_recipe_once
+from texvent.dataset.generation.recipe import _recipe_in
 from texvent.io import atomic
 
 STEPS = ("replace", "rename", "unlink", "remove", "rmdir", "mkdir", "fsync")
@@ -120,7 +120,7 @@ def restore(state: Path) -> None:
         shutil.rmtree(one) if one.is_dir() else one.unlink()
     shutil.copytree(state, Path(), dirs_exist_ok=True)
     atomic._swept.clear()
-    load_recipe_once.cache_clear()
+    _recipe_in.cache_clear()
 
 
 @contextmanager

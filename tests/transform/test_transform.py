@@ -245,7 +245,7 @@ GRID = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1).astype(np.
         (lambda file: file.update(rectify_map=GRID.astype("i4")), "no rectify_map"),
         (lambda file: file.update(rectify_map=GRID[..., ::-1]), "x, then y, in pixels"),
         (lambda file: file.update(rectify_map=GRID / 200), "x, then y, in pixels"),
-        (lambda file: file.update(rectify_map=GRID * np.nan), "rectify_map holds no number"),
+        (lambda file: file.update(rectify_map=GRID * np.nan), "leaves 0% .*check its rectify_map"),
         (lambda file: file.update(rectify_map=GRID + 100), "leaves 0% of the pixels on a 8x6"),
         (lambda file: file.update(rectify_map=GRID.transpose(1, 0, 2)), "x, then y, in pixels"),
         (
