@@ -37,7 +37,7 @@ NOT_READ = {
     "split",
     *(name for one in (RunConfig, CaptureConfig, InterpolateConfig) for name in option_names(one)),
 } - {"seed"}
-"""Columns that somebody may take for settings of a line; a list does not set them."""
+"""Names of options; a list has no columns for them, and one would change nothing."""
 _COLUMNS = f"{', '.join((*PROMPT_COLUMNS, SCENE_COLUMN))} or {VIDEO_COLUMN}"
 Row = tuple[int, Mapping[Any, Any]]
 """Number of a line, and its values by column."""

@@ -127,7 +127,7 @@ def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[C
 def _on_sensor(block: Columns, size: SensorSize, counts: RepairCounts) -> _Columns:
     x, y = (np.asarray(block[name]).astype(np.int64, copy=False) for name in "xy")
     t = np.asarray(block["t"])
-    # Rows of zeros, several together, are space that nobody wrote.
+    # Rows of zeros, several together, are space that was allocated and never written.
     is_blank = np.pad((x | y | t | np.asarray(block["p"])) == 0, 1)
     is_read = (t != UNREADABLE_US) & ~(is_blank[1:-1] & (is_blank[:-2] | is_blank[2:]))
     inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height) & is_read
