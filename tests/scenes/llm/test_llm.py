@@ -147,9 +147,10 @@ def test_no_server_and_no_answer_in_time_are_one_line():
 
 def test_the_command_line(tmp_path, capsys):
     path = tmp_path / "car.toml"
-    with served(reply(ANSWER)) as (url, _):
-        flags = ["--llm-url", url]
+    with served(reply(ANSWER)) as (url, asked):
+        flags = ["--llm-url", url, "--llm-model", "small"]
         assert main(["generate", PROMPT, *flags, "--write-scene", str(path)]) == 0
+    assert [body["model"] for _, _, body in asked] == ["small"]
     assert load_scene(path).prompt == PROMPT
     assert "noun 'sun'" in capsys.readouterr().err
     with served(reply({**ANSWER, "objects": [TREE]})) as (url, _):
