@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from texvent.capture.open import open_frames
+from texvent.cli.app import main
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
@@ -132,17 +133,25 @@ def test_a_damaged_file_is_refused_wherever_it_was_cut(tmp_path):
 def test_frames_that_dv_processing_writes_are_read(tmp_path):
     dv = pytest.importorskip("dv_processing", reason="dv-processing has no wheel for this machine")
     path = tmp_path / "dv.aedat4"
-    config = dv.io.MonoCameraWriter.FrameOnlyConfig("camera", tuple(SIZE))
+    config = dv.io.MonoCameraWriter.DAVISConfig("camera", tuple(SIZE))
     writer = dv.io.MonoCameraWriter(str(path), config)
     images = [np.arange(24, dtype=np.uint8).reshape(4, 6) + i for i in range(3)]
     for i, image in enumerate(images):
         frame = dv.Frame(1_000_000 + 40_000 * i, image)
         frame.exposure = datetime.timedelta(microseconds=10_000)
         writer.writeFrame(frame)
+    events = dv.EventStore()
+    events.push_back(1_020_000, 3, 2, True)
+    writer.writeEvents(events)
     del writer
     frames = list(open_frames(path, CaptureConfig()))
     assert [frame.t_us for frame in frames] == [1_005_000, 1_045_000, 1_085_000]
     np.testing.assert_array_equal([frame.pixels for frame in frames], images)
+    out = tmp_path / "images"
+    assert main(["convert", str(path), str(tmp_path / "e.npz"), "--frames", str(out)]) == 0
+    written = list(open_frames(out, CaptureConfig()))
+    assert [frame.t_us for frame in written] == [1_005_000, 1_045_000, 1_085_000]
+    np.testing.assert_array_equal([frame.pixels for frame in written], images)
 
 
 def test_frames_of_sixteen_bits_are_kept(tmp_path):
