@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.transform.recordings import CUTS, crowded, packets, streams
+from tests.transform.recordings import CUTS, packets, streams
 
-from texvent._registry import REPRESENTATIONS
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
@@ -67,16 +66,6 @@ def test_what_comes_after_a_part_is_not_read(whole, hundreds):
     start, stop = int(whole.t[120]), int(whole.t[250])
     assert hundreds.between(start, stop).collect() == whole.between(start, stop)
     assert hundreds.packets.reads == 3
-
-
-@pytest.mark.parametrize("name", REPRESENTATIONS.builtin)
-def test_arrays_of_packets_are_those_of_one_packet(name):
-    events = crowded()
-    for options in ({"duration_us": 6}, {"count": 25}):
-        expected = list(packets(events).represent(name, **options))
-        for cuts in (range(60), range(0, 60, 7), [1], [2, 2, 31], [59]):
-            got = list(packets(events, cuts).represent(name, **options))
-            np.testing.assert_array_equal(got, expected)
 
 
 def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, hundreds):

@@ -7,6 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
+from texvent.represent.named import WINDOW_OPTIONS
 from texvent.sensor import SensorSize
 
 SMALL = SensorSize(4, 3)
@@ -212,3 +213,9 @@ def random_events(seed, count, size, duration_us=50_000):
         rng.integers(0, 2, count),
         size,
     )
+
+
+def from_first(options, events):
+    """Drawn options, whose windows count from the first event."""
+    first = int(events.t[0]) if len(events) else 0
+    return {key: one + first if key in WINDOW_OPTIONS else one for key, one in options.items()}

@@ -12,7 +12,6 @@ from texvent._registry import REPRESENTATIONS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.named import (
-    WINDOW_OPTIONS,
     load_representation,
     option_names_of,
     represent,
@@ -34,8 +33,7 @@ def test_every_representation_equals_its_definition_with_any_options(name, event
     drawn = data.draw(st.fixed_dictionaries({}, optional=values))
     if "rectify_map" in drawn:
         drawn["normalise"] = False  # a share that only rounding leaves would count as a voxel
-    first = int(events.t[0]) if len(events) else 0
-    options = {key: one + first if key in WINDOW_OPTIONS else one for key, one in drawn.items()}
+    options = definitions.from_first(drawn, events)
     found, expected = represent(name, events, **options), define(events, **options)
     assert found.dtype == expected.dtype
     rounded = expected.dtype.kind == "f"

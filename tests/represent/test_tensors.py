@@ -12,7 +12,7 @@ from texvent.represent.named import represent
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize
 
-from .definitions import DEFINITIONS, SMALL, random_events
+from .definitions import DEFINITIONS, SMALL, from_first, random_events
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -26,7 +26,8 @@ DEVICES = ["cpu", "cuda"] if torch.cuda.is_available() else ["cpu"]
 @settings(max_examples=15)
 def test_torch_equals_numpy_with_any_options(name, device, data):
     events = random_events(7, data.draw(st.sampled_from([0, 1, 3000])), SMALL)
-    options = data.draw(st.fixed_dictionaries({}, optional=DEFINITIONS[name][1]))
+    drawn = data.draw(st.fixed_dictionaries({}, optional=DEFINITIONS[name][1]))
+    options = from_first(drawn, events)
     if "rectify_map" in options:
         options["normalise"] = False
     expected = represent(name, events, **options)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable
 
-import numpy as np
 from hypothesis import strategies as st
 
 from texvent.event_packets import EventPackets
@@ -31,14 +30,6 @@ def stream(rows: Rows, size: SensorSize = SIZE) -> EventStream:
 def streams(draw: st.DrawFn) -> EventStream:
     """Events in time order on a sensor of 8x6."""
     return stream(draw(ROWS))
-
-
-def crowded(count: int = 60) -> EventStream:
-    """Several events at most times of 20 µs, some of a pixel more often than others."""
-    random = np.random.default_rng(count)
-    columns = random.integers(0, (8, 6, 20, 2), (count, 4))
-    columns[: count // 6, :2] = 3, 2
-    return stream([tuple(row) for row in columns.tolist()])
 
 
 CUTS = st.lists(st.integers(0, 40), max_size=5)
