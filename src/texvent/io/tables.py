@@ -30,6 +30,7 @@ from texvent.io.reading import (
     guess_unit,
     sample_of,
     stated_or_given,
+    texts_of,
     to_microseconds,
     unit_in_name,
     warn_of_strays,
@@ -423,10 +424,7 @@ def _stated_order(
 ) -> tuple[tuple[str, ...] | None, TimeUnit | None]:
     """Order of the columns that an attribute or another list has, and unit of the times."""
     for value in (*lists, *getattr(array, "attrs", {}).values()):
-        words = [
-            one.decode(errors="replace") if isinstance(one, bytes) else str(one)
-            for one in np.ravel(value).tolist()
-        ]
+        words = texts_of(value)
         if len(words) == 1:
             words = re.split(r"[\s,;]+", words[0].strip()) if len(words[0]) != 4 else [*words[0]]
         found = [spelled(word) for word in words]
