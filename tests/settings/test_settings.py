@@ -84,6 +84,7 @@ def test_a_generator_is_refused_where_frames_are_given():
         ("a.json", "{}", "must end in .toml"),
         ("a.yaml", "- 3", "options by name"),
         ("a.toml", "seed = 1\n[run]\nseed = 2", "sets 'seed' twice"),
+        ("a.yaml", "fixed-count: 1\nfixed_count: 2", "sets 'fixed_count' twice"),
         ("a.toml", "[simulat]\nnoise = 'none'", "unknown table 'simulat'.*did you mean 'simulate'"),
     ],
 )
