@@ -200,6 +200,10 @@ class Hdf5Codec(BlockCodec):
         rows = partial(_open_rows, path, options)
         return contents_of_rows(size, metadata, rows)
 
+    def beside(self, path: Path) -> Iterator[str]:
+        """Data sets of images, triggers and an IMU, by their names."""
+        return data_sets_beside(path)
+
     def layout(self, file: Any, target: FileTarget) -> StoredColumns:
         """The empty data sets of a new file, h5py's and open."""
         return Hdf5Columns(file, target, self.limits, self.time_type)
@@ -269,6 +273,14 @@ def _arrays_of(file: Any) -> dict[str, Any]:
             if isinstance(array, h5py.Dataset) and array.shape is not None:
                 arrays[one] = known.setdefault(array, array)
     return arrays
+
+
+def data_sets_beside(path: Path) -> Iterator[str]:
+    """Names of data sets of images, triggers or an IMU that hold something."""
+    with open_hdf5(path) as file:
+        for name, array in _arrays_of(file).items():
+            if re.search("image|frame|trigger|imu", name.lower()) and array.size:
+                yield name
 
 
 def _target(group: Any, name: str) -> Any:
