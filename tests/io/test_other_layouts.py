@@ -197,6 +197,13 @@ def test_attributes_that_scale_or_turn_columns_are_obeyed(
     assert load(path).equals(EVENTS)
 
 
+def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path: Path) -> None:
+    path = write_h5(tmp_path / "e.h5", {"x": np.half(X), "y": np.half(Y), "t_ms": T, "p": P})
+    assert load(path, size=SIZE).x.tolist() == X.tolist()
+    path = write_h5(tmp_path / "f.h5", {"x": X, "y": Y, "t_us": np.half([1, 2, 900]), "p": P})
+    assert load(path, size=SIZE).t.tolist() == [1, 2, 900]
+
+
 @pytest.mark.parametrize("value", ["a", [1, 2], np.nan])
 def test_attributes_that_cannot_be_obeyed_are_named(tmp_path: Path, value: Any) -> None:
     path = write_h5(tmp_path / "e.h5", {"x": X, "y": Y, "t": T, "p": P, "records": RECORDS})

@@ -194,7 +194,8 @@ def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
     if values.dtype.kind in "mM":
         return np.asarray(~np.isnat(values))
     if values.dtype.kind == "f":
-        return np.asarray(np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
+        largest = np.abs(values, dtype=np.float64)  # beyond float16
+        return np.asarray(largest < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
     if values.dtype.kind == "u":
         return np.asarray(values < np.uint64(1 << 63))
     return np.full(len(values), values.dtype.kind in "bi")

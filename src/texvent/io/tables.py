@@ -477,7 +477,7 @@ def are_whole(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Which values are whole numbers that pixels may have."""
     if values.dtype.kind != "f":
         return np.ones(len(values), bool)
-    return np.asarray((np.abs(values) < 2**31) & (values == np.rint(values)))
+    return np.asarray((np.abs(values, dtype=np.float64) < 2**31) & (values == np.rint(values)))
 
 
 def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
