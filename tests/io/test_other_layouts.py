@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarn
 from texvent.events import EventStream
 from texvent.io.files import load, open_events
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
+from texvent.io.tables import whole_numbers
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(9, 7)
@@ -202,6 +204,14 @@ def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path: Path) -> None:
     assert load(path, size=SIZE).x.tolist() == X.tolist()
     path = write_h5(tmp_path / "f.h5", {"x": X, "y": Y, "t_us": np.half([1, 2, 900]), "p": P})
     assert load(path, size=SIZE).t.tolist() == [1, 2, 900]
+
+
+@pytest.mark.parametrize("values", [[[1], [2]], [Decimal("1.5")], [None], [1.5]])
+def test_columns_of_tables_that_are_no_whole_numbers_are_refused(values: list[Any]) -> None:
+    column = np.empty(len(values), object)
+    column[:] = values
+    with pytest.raises(FileFormatError, match="not whole numbers"):
+        whole_numbers(Path("e.parquet"), column)
 
 
 @pytest.mark.parametrize("value", ["a", [1, 2], np.nan])

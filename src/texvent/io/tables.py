@@ -486,8 +486,8 @@ def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
     Raises:
         FileFormatError: they are no whole numbers.
     """
-    if values.dtype.kind != "f":
+    if values.dtype.kind in "biu":
         return values
-    if not are_whole(values).all():
+    if values.dtype.kind != "f" or not are_whole(values).all():
         raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
     return values.astype(np.int64)
