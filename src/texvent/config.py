@@ -12,17 +12,18 @@ from __future__ import annotations
 import math
 import numbers
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, shown, warn
 
-IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | None, ...]]]
-"""Option → another one, and those of its values with which the first one has no effect."""
+IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | float | None, ...]]]
+"""Option → another one, of this or another config, and those of its values (of paths: endings) with
+which the first one has no effect; a config has them as `idle_with`."""
 UNITS = {
     "duration": " s",
     "start": " s",
@@ -85,6 +86,28 @@ def check_choices(config: object) -> None:
         value, allowed = getattr(config, name), typing.get_args(hint)
         if typing.get_origin(hint) is Literal and value not in allowed:
             raise ConfigError(f"{name} is {shown(value)}; {suggest(value, allowed)}")
+
+
+def warn_of_idle(configs: Iterable[Any], given: Iterable[str]) -> None:
+    """Warn of options that another one switches off.
+
+    Args:
+        configs: with the values of all options.
+        given: names of those that were given.
+
+    Warns:
+        TexventWarning: one has no effect.
+    """
+    configs = list(configs)
+    for name in sorted(given):
+        for rules in (getattr(config, "idle_with", {}) for config in configs):
+            decider, values = rules.get(name, ("", ()))
+            owner = next((config for config in configs if hasattr(config, decider)), None)
+            value = getattr(owner, decider, "")
+            value = value.suffix.lower() if isinstance(value, Path) else value
+            if value in values:
+                said = "is not given" if value is None else f"is {value}"
+                warn(f"{name} has no effect: {decider} {said}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,6 +180,8 @@ class ReadingConfig:
 @dataclass(frozen=True, kw_only=True)
 class CaptureConfig(ReadingConfig):
     """How frames are read, fitted to the sensor, and moved."""
+
+    idle_with: ClassVar[IdleOptions] = {"fit": ("sensor", (None,))}
 
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""

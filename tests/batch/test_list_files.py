@@ -86,6 +86,8 @@ def test_json_lines_hold_texts_or_objects(tmp_path):
         ),
         ("p.csv", "name,prompt,seed\na,a car,1\nb,a dog\n", "line 3 has 2 values for 3 columns"),
         ("p.jsonl", '"a car"\n{"prompt": \n', "line 2 is not JSON"),
+        ("p.jsonl", '{"prompt": "a car", "seed": 1, "seed": 2}', "'seed' is named twice"),
+        ("p.csv", "prompt,seed,seed\na car,1,2\n", "'seed' is named twice"),
         ("p.jsonl", "[1]\n", "line 1 is neither a text nor an object"),
         ("p.jsonl", '{"prompt": "a", "seed": -1}\n', "line 1: seed is -1"),
         ("p.jsonl", '{"prompt": "a", "seed": 1.5}\n', "seed is 1.5"),

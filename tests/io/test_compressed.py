@@ -73,6 +73,7 @@ def test_of_a_cut_text_the_rows_before_the_end_are_repaired(name: str, extension
         ("e.txt.lz4", b"\x04\x22\x4d\x18" + bytes(99), "unlz4"),
         ("e.7z", b"7z\xbc\xaf\x27\x1c" + bytes(99), "7z x"),
         ("e.pkl", b"\x80\x04" + bytes(99), "save its arrays as .npz"),
+        ("e.feather", b"ARROW1\0\0" + bytes(99), "as .parquet"),
         ("e.mat", b"MATLAB 5.0" + bytes(99), "save it with -v7.3"),
     ],
 )

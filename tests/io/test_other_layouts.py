@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarn
 from texvent.events import EventStream
 from texvent.io.files import load, open_events
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
+from texvent.io.tables import whole_numbers
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(9, 7)
@@ -165,3 +167,58 @@ def test_times_of_another_age_are_refused_with_the_likely_unit(tmp_path: Path) -
     path.write_text("t,x,y,p\n" + "".join(f"{16 * 10**17 + at},1,1,1\n" for at in range(40)))
     with pytest.raises(FileFormatError, match="--time-unit ns"):
         load(path, size=SIZE)
+
+
+@pytest.mark.parametrize(
+    ("stored", "attributes"),
+    [
+        ({"t": T - 50}, {"t.add_offset": 50}),
+        (
+            {"x": np.uint8(X * 2), "p": np.array(P) * 4},
+            {"x.scale_factor": 0.5, "p.scale_factor": 1 / 4},
+        ),
+        ({"p": 1 - np.array(P)}, {"p.scale_factor": -1, "p.add_offset": [1.0]}),
+        ({"t": T * 1000}, {"t.scale_factor": 1e-9, "t.units": "seconds since 2020-01-01"}),
+        ({"t": T * 1000 + 9}, {"t.units": b"ns since 1970-01-01"}),
+        ({"y": np.uint16(6 - Y)}, {".origin": "lower left"}),
+        ({"x": np.int8(8 - X), "y": 6 - Y}, {"events.origin": b"BOTTOM_RIGHT"}),
+        ({"y": 12 - 2 * Y}, {"y.y_up": True, "y.scale_factor": 0.5}),
+        ({}, {".origin": "Zürich", ".y_up": False, "t.scale_factor": 1}),
+    ],
+)
+def test_attributes_that_scale_or_turn_columns_are_obeyed(
+    tmp_path: Path, stored: dict[str, Any], attributes: dict[str, Any]
+) -> None:
+    columns = {"x": X, "y": Y, "t": T, "p": P, **stored}
+    arrays = {f"events/{name}": one for name, one in columns.items()}
+    path = write_h5(tmp_path / "e.h5", arrays, width=9, height=7)
+    with h5py.File(path, "r+") as file:
+        for key, value in attributes.items():
+            node, _, name = key.rpartition(".")
+            file[f"events/{node}" if node in columns else node or "/"].attrs[name] = value
+    assert load(path).equals(EVENTS)
+
+
+def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path: Path) -> None:
+    path = write_h5(tmp_path / "e.h5", {"x": np.half(X), "y": np.half(Y), "t_ms": T, "p": P})
+    assert load(path, size=SIZE).x.tolist() == X.tolist()
+    path = write_h5(tmp_path / "f.h5", {"x": X, "y": Y, "t_us": np.half([1, 2, 900]), "p": P})
+    assert load(path, size=SIZE).t.tolist() == [1, 2, 900]
+
+
+@pytest.mark.parametrize("values", [[[1], [2]], [Decimal("1.5")], [None], [1.5]])
+def test_columns_of_tables_that_are_no_whole_numbers_are_refused(values: list[Any]) -> None:
+    column = np.empty(len(values), object)
+    column[:] = values
+    with pytest.raises(FileFormatError, match="not whole numbers"):
+        whole_numbers(Path("e.parquet"), column)
+
+
+@pytest.mark.parametrize("value", ["a", [1, 2], np.nan])
+def test_attributes_that_cannot_be_obeyed_are_named(tmp_path: Path, value: Any) -> None:
+    path = write_h5(tmp_path / "e.h5", {"x": X, "y": Y, "t": T, "p": P, "records": RECORDS})
+    for name, said in (("t", "scale_factor of /t is"), ("records", "several columns")):
+        with h5py.File(path, "r+") as file:
+            file[name].attrs["scale_factor"] = value if name == "t" else 2
+        with pytest.raises(FileFormatError, match=said):
+            load(path, size=SIZE, stream="events" if name == "t" else name)

@@ -14,7 +14,7 @@ from texvent.events import EventStream
 from texvent.io import repair
 from texvent.io.block_writer import Columns
 from texvent.io.files import load, open_events, save
-from texvent.io.repair import RepairCounts, repair_blocks
+from texvent.io.repair import TURNS_US, RepairCounts, repair_blocks
 from texvent.sensor import SensorSize
 
 from .format_cases import random_events
@@ -121,7 +121,8 @@ def test_a_clock_that_was_reset_goes_on(
 
 
 @pytest.mark.parametrize(
-    ("first_us", "range_us"), [(0, 1 << 31), (0, 1 << 32), (-(1 << 31), 1 << 32)]
+    ("first_us", "range_us"),
+    [*((0, one) for one in TURNS_US), (-(1 << 31), 1 << 32), (-2_147_483, 4_294_967)],
 )
 def test_a_clock_that_turns_over_counts_on(first_us: int, range_us: int) -> None:
     times = np.arange(3000) * 1000 + first_us + range_us - 1_500_000

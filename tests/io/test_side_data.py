@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.io.ros.test_bags import EVENTS, array_message, types_of, write_bag
 
 from texvent.cli.app import main
-from texvent.io.files import codec_that_reads
+from texvent.io.files import codec_that_reads, save
 from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
+from texvent.io.ros.messages import EVENT_ARRAY
 
 
 def rows(blocks: list[bytes], coding: TriggerCoding) -> list[tuple[int, int, int]]:
@@ -65,6 +69,63 @@ def test_triggers_of_any_words_in_any_blocks_are_those_of_the_slow_decoder(
     assert rows(blocks, EVT3) == slow_evt3(words)
 
 
+def bag_with_imu(path: Path) -> None:
+    sent = [array_message(types_of(1), EVENT_ARRAY, 1, 3)]
+    write_bag(path, 1, {"/e": (EVENT_ARRAY, sent), "/imu": ("sensor_msgs/msg/Imu", [b""])})
+
+
+def raw_with_trigger(path: Path) -> None:
+    save(path, EVENTS)
+    path.write_bytes(path.read_bytes() + struct.pack("<H", 0xA201))
+
+
+def davis_with(path: Path) -> None:
+    records = [(259 << 22 | 345 << 12, 5), (1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7)]
+    chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
+    path.write_bytes(chip + b"".join(struct.pack(">II", *one) for one in records))
+
+
+def hdf5_with(name: str) -> Callable[[Path], None]:
+    def write(path: Path) -> None:
+        columns = zip("xytp", (EVENTS.x, EVENTS.y, EVENTS.t, EVENTS.p), strict=True)
+        with h5py.File(path, "w") as file:
+            if name.startswith("EXT"):
+                kinds = [("x", "u2"), ("y", "u2"), ("p", "i2"), ("t", "i8")]
+                file["CD/events"] = np.array([(1, 2, 1, 3)], kinds)
+            else:
+                file.update({f"events/{one}": values for one, values in columns})
+            file[name] = np.zeros((2, 3))
+            file["empty_images"] = np.zeros((0, 3))
+
+    return write
+
+
+HOLDERS: dict[str, tuple[Callable[[Path], None], str]] = {
+    "evt3.raw": (raw_with_trigger, "triggers"),
+    "davis.aedat": (davis_with, "triggers"),
+    "utils.h5": (hdf5_with("images/image0"), "images/image0"),
+    "metavision.hdf5": (hdf5_with("EXT_TRIGGER/events"), "EXT_TRIGGER/events"),
+    "both.bag": (bag_with_imu, "/imu"),
+}
+
+
+@pytest.mark.parametrize("name", HOLDERS)
+def test_convert_says_which_data_beside_the_events_it_leaves_out(
+    tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    make, held = HOLDERS[name]
+    make(tmp_path / name)
+    for more in ([], ["--triggers", str(tmp_path / "t.csv")])[: 1 + (held == "triggers")]:
+        sensor = [] if name.endswith(("raw", "aedat", "bag")) else ["--sensor", "9x7"]
+        words = ["convert", str(tmp_path / name), str(tmp_path / "o.npz"), "--overwrite", *sensor]
+        assert main([*words, *more]) == 0
+        said = capfd.readouterr().err
+        assert (f"holds {held}, which" in said) == (not more), said
+        assert ("--triggers PATH" in said) == (held == "triggers" and not more)
+    assert main(["convert", str(tmp_path / "o.npz"), str(tmp_path / "o.raw")]) == 0
+    assert "holds" not in capfd.readouterr().err
+
+
 def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
     dv = pytest.importorskip("dv_processing", reason="dv-processing is not installed")
     path = tmp_path / "e.aedat4"
@@ -92,9 +153,7 @@ def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
 
 def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None:
     path = tmp_path / "e.aedat"
-    records = [(259 << 22 | 345 << 12, 5), (1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7)]
-    chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
-    path.write_bytes(chip + b"".join(struct.pack(">II", *one) for one in records))
+    davis_with(path)
     side = codec_that_reads(path).side_data(path)
     assert [one["t"].tolist() for one in side["triggers"]()] == [[6]]
     path.write_bytes(path.read_bytes() + b"cut")

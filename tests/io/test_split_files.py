@@ -101,6 +101,9 @@ def test_labels_make_a_folder_each(tmp_path: Path) -> None:
         packets(), [Interval(0, 11, "wave"), Interval(39, 50, "clap")], folder, format="hdf5"
     )
     assert load(folder / "clap" / "000001.h5").t.tolist() == [39, 40, 41]
+    with pytest.raises(InputError, match=r"no event lies in the intervals, 900\.\.990 µs"):
+        write_split(packets(), [Interval(900, 990)], tmp_path / "none")
+    assert not (tmp_path / "none").exists()
     assert (folder / "labels.csv").read_text().splitlines() == [
         "file,label,start_us,stop_us",
         "wave/000000.h5,wave,0,11",

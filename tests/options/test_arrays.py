@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.options.arrays import as_array, whole_numbers, whole_us
+from texvent.options.arrays import as_array, usable_pixels, whole_numbers, whole_us
 from texvent.options.values import convert
 
 LEVELS = np.arange(12).reshape(3, 4)
@@ -81,8 +81,20 @@ def test_a_whole_number_of_any_type_is_a_time(kind):
     ids=repr,
 )
 def test_what_is_no_whole_time_is_refused_by_its_name(given):
-    with pytest.raises(InputError, match=r"t_us .*whole microseconds|t_us has 1 masked"):
+    with pytest.raises(InputError, match=r"t_us .*(whole microseconds|1 masked|dates)"):
         whole_us(given, "t_us")
+
+
+@pytest.mark.parametrize("kind", ["M8[us]", "m8[ns]", "m8[s]"])
+def test_dates_and_spans_are_named_as_such(kind):
+    with pytest.raises(InputError, match=r"holds dates or spans \(.*timedelta64\[us\]"):
+        whole_numbers(np.arange(3).astype(kind), "t_us")
+
+
+@pytest.mark.parametrize("kind", [np.int8, np.int16, np.int64])
+def test_negative_pixels_are_named_as_such(kind):
+    with pytest.raises(InputError, match=r"pixels from -3 to 2 .*not negative"):
+        usable_pixels(np.arange(-3, 3, dtype=kind), "frame 0")
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,7 @@ def doubling(form: str, levels: int = 40) -> str:
         ("[" * 5000, "nested too deeply"),
         ("fps: 3\nfps: 4", "'fps' is named twice"),
         ("a: [", "expected the node content"),
-        ("a: 2001-99-99", "month must be"),
+        ("a: !!timestamp 2001-99-99", "month must be"),
     ],
 )
 def test_yaml_of_any_origin_is_read_or_refused_at_once(tmp_path: Path, text: str, why: str) -> None:
@@ -46,3 +47,16 @@ def test_aliases_and_merge_keys_are_read() -> None:
     assert found["own"] == {"seed": 3, "fps": 30}
     assert found["list"] == [{"seed": 3, "fps": 24}] * 2
     assert load_yaml("") is None
+
+
+@pytest.mark.parametrize(
+    ("word", "value"),
+    [
+        *((one, one) for one in ("1:30", "on", "No", "y", "2020-01-01", "0b1", "=", "1.5.2")),
+        *(("010", 10), ("0o10", 8), ("0x1F", 31), ("-1_000", -1000), ("1e-3", 1e-3), (".5", 0.5)),
+        *(("true", True), ("False", False), ("~", None), ("", None), ("-.inf", -math.inf)),
+    ],
+)
+def test_plain_words_mean_the_values_of_yaml_1_2(word: str, value: object) -> None:
+    (found,) = load_yaml(f"a: {word}").values()
+    assert (found, type(found)) == (value, type(value))

@@ -1,12 +1,23 @@
 """From names and single options to the settings of a run."""
 
+from argparse import Namespace
+from pathlib import Path
+
+import numpy as np
 import pytest
 import tomli_w
 
+import texvent
+from texvent._registry import SIMULATORS
+from texvent.cli.simulation.calibrate import CalibrateOptions
+from texvent.cli.simulation.generate import PromptOptions
+from texvent.config import CaptureConfig, InterpolateConfig, warn_of_idle
 from texvent.errors import ConfigError, TexventWarning
+from texvent.rig.config import RigConfig
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
 from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
+from texvent.view.render import RenderConfig
 
 
 def test_a_video_keeps_its_size_and_a_scene_is_davis346():
@@ -84,6 +95,7 @@ def test_a_generator_is_refused_where_frames_are_given():
         ("a.json", "{}", "must end in .toml"),
         ("a.yaml", "- 3", "options by name"),
         ("a.toml", "seed = 1\n[run]\nseed = 2", "sets 'seed' twice"),
+        ("a.yaml", "fixed-count: 1\nfixed_count: 2", "sets 'fixed_count' twice"),
         ("a.toml", "[simulat]\nnoise = 'none'", "unknown table 'simulat'.*did you mean 'simulate'"),
     ],
 )
@@ -99,19 +111,47 @@ def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
         resolve("generate", {"sensor": 32})
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        ({"noise": "none", "noise_rate_hz": 5.0}, "noise_rate_hz has no effect: noise is none"),
-        ({"interpolate": "none", "max_intermediate": 5}, "max_intermediate has no effect: int"),
-    ],
-)
-def test_an_option_that_another_one_switches_off_is_said(tmp_path, options, said):
-    with pytest.warns(TexventWarning, match=said):
-        settings = resolve("simulate", options)
+CONFIGS = {
+    **{name: next(iter(SIMULATORS.load(name).presets.values())) for name in SIMULATORS.builtin},
+    **{type(one).__name__: one for one in (CaptureConfig(), InterpolateConfig())},
+    **{type(one).__name__: one for one in (RigConfig(), RenderConfig())},
+    **{type(one).__name__: one for one in (PromptOptions(), CalibrateOptions())},
+}
+RULES = [
+    (owner, name, *rule)
+    for owner, config in CONFIGS.items()
+    for name, rule in getattr(config, "idle_with", {}).items()
+]
+OTHERS = {"fit": "stretch", "noise_curve": "1:9 9:9"}
+NOT_OF_RUNS = ("RigConfig", "RenderConfig", "PromptOptions", "CalibrateOptions")
+
+
+@pytest.mark.parametrize(("owner", "name", "decider", "values"), RULES)
+def test_an_option_that_another_one_switches_off_is_said(tmp_path, owner, name, decider, values):
+    config = CONFIGS[owner]
+    if owner in NOT_OF_RUNS or name == "interpolator_weights":
+        for value in values:
+            set_to = Path(f"o{value}") if str(value).startswith(".") else value
+            with pytest.warns(TexventWarning, match=f"{name} has no effect: {decider} is"):
+                warn_of_idle([Namespace(**{decider: set_to}), config], [name])
+        warn_of_idle([Namespace(**{decider: Path("o.else")}), config], [name])
+        return
+    default = getattr(config, name)
+    other = default / 2 if isinstance(default, float) else OTHERS.get(name, 7)
+    simulator = owner if owner in SIMULATORS.names() else "texvent"
+    clip = np.random.default_rng(0).integers(0, 255, (3, 6, 8), np.uint8)
+    for value in values:
+        options = {"fps": 50, decider: value, "simulator": simulator}
+        with pytest.warns(TexventWarning, match=f"{name} has no effect: {decider} is"):
+            idle = texvent.simulate(clip, **options, **{name: other})
+        assert idle.equals(texvent.simulate(clip, **options)), "it has an effect"
+
+
+def test_a_file_of_all_options_names_none_that_is_switched_off(tmp_path):
+    settings = resolve("simulate", {"noise": "none"})
     path = tmp_path / "run.toml"
     path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
-    assert resolve("simulate", {}, config=path) == settings  # files hold all options
+    assert resolve("simulate", {}, config=path) == settings
 
 
 @pytest.mark.parametrize(("name", "text"), [("c.toml", "seed = 3"), ("c.yaml", "seed: 3")])

@@ -22,6 +22,7 @@ from texvent.errors import (
 )
 from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
+from texvent.runtime.yaml_text import keys_once
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.scenes.spec.scene import Scene
 
@@ -130,6 +131,10 @@ def _csv_rows(path: Path, text: str) -> Iterator[Row]:
                 f"{path} has no column {_COLUMNS}, separated by commas; it has: "
                 f"{shown(' | '.join(columns))}"
             )
+        try:
+            keys_once([(one, None) for one in columns])
+        except ValueError as error:
+            raise FileFormatError(f"{path}: column {error}") from error
         for row in reader:
             # A comma too many cuts a prompt.
             extra, missing = row.get(None) or (), sum(value is None for value in row.values())
@@ -150,7 +155,7 @@ def _json_rows(path: Path, text: str) -> Iterator[Row]:
             continue
         where = _where(path, number)
         try:
-            row = json.loads(line)
+            row = json.loads(line, object_pairs_hook=keys_once)
         except (ValueError, RecursionError) as error:
             raise FileFormatError(f"{where} is not JSON: {one_line(error)}") from error
         if isinstance(row, str):

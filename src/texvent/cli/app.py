@@ -19,7 +19,7 @@ from texvent.cli.standard_streams import (
 )
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs, remove_own_parts
-from texvent.runtime.interrupts import raise_interrupted
+from texvent.runtime.interrupts import has_threads, raise_interrupted
 
 COMMANDS = {
     "generate": (
@@ -140,6 +140,9 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         return int(stop.code or 0)
     except KeyboardInterrupt as interrupt:
         remove_own_parts()
+        if not has_threads():  # OpenBLAS then interrupts the process itself
+            say("error: the system gives no more threads or processes (ulimit -u); end some")
+            return TexventError.exit_code
         number = getattr(interrupt, "number", signal.SIGINT)
         say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
         return 128 + number

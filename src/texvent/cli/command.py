@@ -10,6 +10,7 @@ from typing import Any
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
+from texvent.config import warn_of_idle
 from texvent.errors import ConfigError
 from texvent.generate.scene_input import Subject, check_words
 from texvent.io.atomic import protect_inputs
@@ -80,6 +81,7 @@ def resolve_command(
     if config is not None:
         given["config"] = Path(config)
     subject, output = with_given(subject, given), with_given(output, given)
+    warn_of_idle([subject, output], given)
     own = {*option_names(type(subject)), *option_names(type(output)), *DECIDING}
     options = {name: value for name, value in given.items() if name not in own} | named
     settings = resolve(command, options, config=config)

@@ -12,6 +12,7 @@ from texvent._registry import nearest
 from texvent.cli.help import asked_help, first_sentence, help_page
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, Option, declared_options, flag_of
+from texvent.config import warn_of_idle
 from texvent.errors import ConfigError, shown
 from texvent.io.atomic import protect_inputs
 from texvent.options.values import SCALARS, option_names
@@ -85,7 +86,9 @@ def parse_configs(
     Arguments and errors are those of `parse_given`; a config may refuse a value.
     """
     given = parse_given(arguments, groups, prog=prog, description=description)
-    return tuple(with_given(config, given) for config in groups.values())
+    configs = tuple(with_given(config, given) for config in groups.values())
+    warn_of_idle(configs, given)
+    return configs
 
 
 def with_given(config: Any, given: Mapping[str, Any]) -> Any:

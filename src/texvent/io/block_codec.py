@@ -113,6 +113,16 @@ class BlockReader(ABC):
         del path
         return {}
 
+    def beside(self, path: Path) -> Iterator[str]:
+        """Names of what an existing file holds beside its events.
+
+        Raises:
+            FileFormatError: the file is damaged.
+        """
+        for name, read in self.side_data(path).items():
+            if any(len(block["t"]) for block in read()):
+                yield name
+
     @abstractmethod
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Facts that an existing file states, and a function that reads its events.

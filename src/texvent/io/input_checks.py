@@ -41,6 +41,7 @@ _KIND_OF = {extension: kind for kind, names in _KINDS.items() for extension in n
 PICKLE = "a pickle, which could run code and is not loaded; save its arrays as .npz"
 FORMS = {
     ".mat": "of MATLAB, before version 7.3; save it with -v7.3, or t, x, y, p as .csv",
+    **dict.fromkeys((".feather", ".arrow", ".ipc"), "of Arrow; save its table as .parquet"),
     **dict.fromkeys((".pkl", ".pickle", ".pt", ".pth"), PICKLE),
 }
 """Extension → form in which events are not read, and a way."""

@@ -112,9 +112,15 @@ def unit_in_name(name: str) -> tuple[str, TimeUnit | None]:
     return match[1], units.get(match[2], "ns")
 
 
+def texts_of(value: Any) -> list[str]:
+    """Texts of an attribute, which has one or several."""
+    every = np.ravel(value).tolist()
+    return [one.decode("latin-1") if isinstance(one, bytes) else str(one) for one in every]
+
+
 def unit_in_words(word: object) -> TimeUnit | None:
     """Unit of an attribute: "ns", "microseconds", b"s" and the like; None of others."""
-    text = word.decode("latin-1") if isinstance(word, bytes) else str(word)
+    text = "".join(texts_of(word)[:1]).partition(" since ")[0]  # netCDF's
     prefixes = {"nanosec": "ns", "microsec": "us", "millisec": "ms", "second": "s"}
     long = next((unit for start, unit in prefixes.items() if text.lower().startswith(start)), text)
     return unit_in_name(f"t_{long}")[1]
@@ -188,7 +194,8 @@ def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
     if values.dtype.kind in "mM":
         return np.asarray(~np.isnat(values))
     if values.dtype.kind == "f":
-        return np.asarray(np.abs(values) < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
+        largest = np.abs(values, dtype=np.float64)  # beyond float16
+        return np.asarray(largest < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
     if values.dtype.kind == "u":
         return np.asarray(values < np.uint64(1 << 63))
     return np.full(len(values), values.dtype.kind in "bi")

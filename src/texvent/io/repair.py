@@ -4,7 +4,7 @@ Events outside the sensor are dropped. Times are judged by what follows them, 10
 
 * A few stamps in a row, after which the clock leaps back to where it was, are strays, and dropped.
 * Where the clock falls and stays low it was set anew (its times then continue those before) or,
-  after a fall by 2^31 or 2^32 µs, it turned over (they count on).
+  after a fall by 2^31 or 2^32 µs or ns, it turned over (they count on).
 * A leap that stays high is a pause; but a few events that are more than 10 minutes from all others,
   at an end of the recording, are strays.
 * Times that step back by some ms, or for a while by less than a second, are sorted among the last
@@ -39,10 +39,12 @@ LOOK_EVENTS = 2**14
 """Events among which the clock is sought again after a fall ..."""
 LATEST_US = 1_000_000
 """... by less than this: those before it are late, and sorted."""
-TURNS_US = (1 << 31, 1 << 32)
+SHORT_TURNS_US = ((1 << 31) // 1000, (1 << 32) // 1000)
+"""Ranges of clocks of 32 bits that count ns, which never show more."""
+TURNS_US = (1 << 31, 1 << 32, *SHORT_TURNS_US)
 """Ranges of clocks that turn over."""
-LONGEST_TURN_US = 60_000_000
-"""Between the last event before a turn and the first after it."""
+LONGEST_TURN_US, TURN_SHARE = 60_000_000, 32
+"""Between the last event before a turn and the first after it; at most so small a share of it."""
 LONGEST_PAUSE_US = 600_000_000
 """A few events before or after a longer one, at an end of the recording, are strays."""
 
@@ -198,7 +200,7 @@ class _Clock:
         found = _strays_before_return(future, latest_us)
         if found:
             return found
-        turn_us = next((t for t in TURNS_US if 0 <= step_us + t <= LONGEST_TURN_US), 0)
+        turn_us = _turn_us(step_us, latest_us)
         if is_end and not turn_us and abs(step_us) > LONGEST_PAUSE_US:
             return len(future)
         if step_us < 0:
@@ -214,6 +216,16 @@ class _Clock:
         self._counts.stray_times += len(times) - len(kept)
         self._counts.out_of_order += int((kept < reached[:-1]).sum())
         self._reached_us = int(reached[-1])
+
+
+def _turn_us(step_us: int, latest_us: int) -> int:
+    """Range of a clock that turned over at this step; 0: it did not."""
+    for turn_us in TURNS_US:
+        longest_us = min(LONGEST_TURN_US, turn_us // TURN_SHARE)
+        is_turn = 0 <= step_us + turn_us <= longest_us
+        if is_turn and (turn_us not in SHORT_TURNS_US or latest_us <= turn_us):
+            return turn_us
+    return 0
 
 
 def _strays_before_return(future: _Times, latest_us: int) -> int:

@@ -207,6 +207,13 @@ def write_split(
                 for number, one in enumerate(intervals):
                     name = f"{folder_of(one.label or '')}/{_name(number, extension)}"
                     table.writerow([name, one.label, one.start_us, one.stop_us])
+        if not count and any(map(len, events)):
+            last = max(one.stop_us for one in intervals)
+            raise InputError(
+                f"no event lies in the intervals, {min(one.start_us for one in intervals)}..{last} "
+                "µs; times with a point are s, whole numbers µs (texvent info says when the "
+                "recording begins and ends)"
+            )
     return count
 
 

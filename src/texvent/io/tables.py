@@ -30,6 +30,7 @@ from texvent.io.reading import (
     guess_unit,
     sample_of,
     stated_or_given,
+    texts_of,
     to_microseconds,
     unit_in_name,
     warn_of_strays,
@@ -423,10 +424,7 @@ def _stated_order(
 ) -> tuple[tuple[str, ...] | None, TimeUnit | None]:
     """Order of the columns that an attribute or another list has, and unit of the times."""
     for value in (*lists, *getattr(array, "attrs", {}).values()):
-        words = [
-            one.decode(errors="replace") if isinstance(one, bytes) else str(one)
-            for one in np.ravel(value).tolist()
-        ]
+        words = texts_of(value)
         if len(words) == 1:
             words = re.split(r"[\s,;]+", words[0].strip()) if len(words[0]) != 4 else [*words[0]]
         found = [spelled(word) for word in words]
@@ -479,7 +477,7 @@ def are_whole(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Which values are whole numbers that pixels may have."""
     if values.dtype.kind != "f":
         return np.ones(len(values), bool)
-    return np.asarray((np.abs(values) < 2**31) & (values == np.rint(values)))
+    return np.asarray((np.abs(values, dtype=np.float64) < 2**31) & (values == np.rint(values)))
 
 
 def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
@@ -488,8 +486,8 @@ def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
     Raises:
         FileFormatError: they are no whole numbers.
     """
-    if values.dtype.kind != "f":
+    if values.dtype.kind in "biu":
         return values
-    if not are_whole(values).all():
+    if values.dtype.kind != "f" or not are_whole(values).all():
         raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
     return values.astype(np.int64)

@@ -77,6 +77,11 @@ def usable_pixels(pixels: NDArray[Any], where: str) -> NDArray[Any]:
         return pixels.astype(np.uint8) * np.uint8(255)
     if pixels.dtype == np.float16:
         return pixels.astype(np.float32)
+    if pixels.dtype.kind == "i" and pixels.size and pixels.min() < 0:
+        raise InputError(
+            f"{where} has pixels from {pixels.min()} to {pixels.max()} ({pixels.dtype}); "
+            "brightness is not negative: shift and scale them to 0..255"
+        )
     raise InputError(
         f"{where} has pixels of type {pixels.dtype}; allowed: uint8 (0..255), uint16 (0..65535), "
         "float (0..255 unless white_level says otherwise), bool. Convert with "
@@ -132,6 +137,9 @@ def whole_numbers(values: Any, what: str, meant: str = "integers") -> NDArray[An
         found = array[~is_whole].flat[0]
         exact = f" ({array.dtype} is exact up to {highest:.0f})" if abs(found) >= highest else ""
         raise InputError(f"{what} must hold {meant}; got {array.dtype}, such as {found}{exact}")
+    if kind in "mM":
+        way = "(t - t[0]).astype('timedelta64[us]').astype(np.int64) counts from the first"
+        raise InputError(f"{what} holds dates or spans ({array.dtype}); {way}")
     if kind not in "iub" or (array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max):
         raise InputError(f"{what} must hold {meant}; got {array.dtype}")
     return array

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
-from texvent.config import FPS_RANGE, check_range
+from texvent.config import FPS_RANGE, IdleOptions, check_range
 from texvent.errors import ConfigError, shown
 from texvent.truth.layout import parse_parts
 
@@ -20,6 +20,11 @@ Layout = Literal["hdf5", "dsec", "rosbag1", "mcap"]
 @dataclass(frozen=True, kw_only=True)
 class RigConfig:
     """The cameras, their frames, and the IMU."""
+
+    idle_with: ClassVar[IdleOptions] = {
+        "readout": ("shutter", ("global",)),
+        "imu_noise": ("imu", (None,)),
+    }
 
     rig: Path | None = None
     """YAML or TOML file of cameras as Kalibr's camchain.yaml has them: resolution, intrinsics,

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from texvent.config import warn_of_idle
 from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.options.values import option_names, with_options
@@ -55,6 +56,7 @@ def record(
     own = {name: value for name, value in options.items() if name in names and value is not None}
     rest = {name: value for name, value in options.items() if name not in names}
     rig_config = with_options(RigConfig(), own, where="options")
+    warn_of_idle([rig_config], own)
     settings = resolve("generate", rest, config=config)
     with open_progress(progress) as shown:
         record_rig(prompt, settings, rig_config, Path(out), overwrite=overwrite, progress=shown)

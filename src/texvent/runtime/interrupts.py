@@ -41,6 +41,15 @@ class StopRequest:
     """The signal that asked, if any."""
 
 
+def has_threads() -> bool:
+    """Whether the system gives this process one more thread."""
+    try:
+        threading.Thread(target=int).start()
+    except RuntimeError:
+        return False
+    return True
+
+
 @contextmanager
 def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
     """Raise `Interrupted` when a signal of `ENDING` arrives inside the block.

@@ -1,14 +1,29 @@
-"""YAML of any origin: plain values, of a size that the text shows."""
+"""YAML of any origin: plain values, of a size that the text shows.
+
+Plain words mean values as in the core schema of YAML 1.2. In 1.1, which PyYAML reads, 1:30 is
+90, 010 is 8, 1e-3 is a text, a date is none, and no, off and on are true or false.
+"""
 
 from __future__ import annotations
 
+import functools
+import re
 from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 from texvent.errors import one_line, shown
 
 MOST_VALUES = 100_000
 """Values of a document, those of an alias as often as it is named."""
+PLAIN_WORDS = {
+    "null": r"~|null|Null|NULL|",
+    "bool": r"true|True|TRUE|false|False|FALSE",
+    "int": r"[-+]?\d[\d_]*|0o[0-7]+|0x[0-9a-fA-F]+",
+    "float": r"[-+]?(\.\d+|\d[\d_]*(\.[\d_]*)?)([eE][-+]?\d+)?|[-+]?\.(?i:inf)|\.(?i:nan)",
+    "merge": r"<<",
+}
+"""Tag → its words; the first that fits counts."""
 
 
 def load_yaml(text: str | bytes) -> Any:
@@ -21,7 +36,7 @@ def load_yaml(text: str | bytes) -> Any:
     import yaml  # only YAML files need it
 
     try:
-        loader = yaml.SafeLoader(text)
+        loader = _loader_type()(text)
         try:
             node = loader.get_single_node()
             if _count(node, {}) > MOST_VALUES:
@@ -35,6 +50,37 @@ def load_yaml(text: str | bytes) -> Any:
         raise ValueError("it is nested too deeply") from error
 
 
+@functools.cache
+def _loader_type() -> Any:
+    """PyYAML's safe loader, with `PLAIN_WORDS`."""
+    import yaml
+
+    loader_type: Any = type("Loader", (yaml.SafeLoader,), {"yaml_implicit_resolvers": {}})
+
+    def whole(loader: Any, node: Any) -> int:
+        text = loader.construct_scalar(node)
+        return int(text, 0 if text[:2] in ("0o", "0x") else 10)
+
+    for name, words in PLAIN_WORDS.items():
+        tag = f"tag:yaml.org,2002:{name}"
+        loader_type.add_implicit_resolver(tag, re.compile(f"(?:{words})$", re.ASCII), None)
+    loader_type.add_constructor("tag:yaml.org,2002:int", whole)
+    return loader_type
+
+
+def keys_once(pairs: Sequence[tuple[Any, Any]]) -> dict[Any, Any]:
+    """A mapping of pairs; `object_pairs_hook` of JSON that people write.
+
+    Raises:
+        ValueError: a key is named twice.
+    """
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        twice = next(key for key, times in Counter(key for key, _ in pairs).items() if times > 1)
+        raise ValueError(f"{shown(twice)} is named twice")
+    return found
+
+
 def _count(node: Any, counted: dict[int, int]) -> int:
     """Values of a node, those of aliases as often as they are named; too many of a cycle."""
     if id(node) not in counted:
@@ -43,9 +89,6 @@ def _count(node: Any, counted: dict[int, int]) -> int:
         if isinstance(inside, str):
             inside = ()
         parts = [part for one in inside for part in (one if isinstance(one, tuple) else (one,))]
-        keys = Counter(str(one[0].value) for one in inside if isinstance(one, tuple))
-        twice = [key for key, times in keys.items() if times > 1]
-        if twice:
-            raise ValueError(f"{shown(twice[0])} is named twice")
+        keys_once([(str(one[0].value), None) for one in inside if isinstance(one, tuple)])
         counted[id(node)] = 1 + sum(_count(part, counted) for part in parts)
     return counted[id(node)]

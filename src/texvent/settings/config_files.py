@@ -75,9 +75,10 @@ def flatten_tables(tables: Mapping[str, Any], path: Path) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, value in tables.items():
         for option, item in (value if isinstance(value, Mapping) else {name: value}).items():
-            if option in flat:
-                raise ConfigError(f"config file {path} sets {shown(option)} twice")
-            flat[str(option).replace("-", "_")] = item
+            key = str(option).replace("-", "_")
+            if key in flat:
+                raise ConfigError(f"config file {path} sets {shown(key)} twice")
+            flat[key] = item
     return flat
 
 

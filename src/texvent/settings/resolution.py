@@ -7,14 +7,20 @@ options. The command line and the Python API both come through here, so they can
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
-from texvent.config import CaptureConfig, IdleOptions, InterpolateConfig, RunConfig, check_range
-from texvent.errors import ConfigError, shown, warn
+from texvent.config import (
+    CaptureConfig,
+    InterpolateConfig,
+    RunConfig,
+    check_range,
+    warn_of_idle,
+)
+from texvent.errors import ConfigError, shown
 from texvent.options.values import option_names, plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
 from texvent.settings.config_files import Command, read_config
@@ -226,7 +232,7 @@ def resolve(
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
     base = base_settings(command, config=config, has_motion=has_motion, **deciding)
     settings = apply_options(base, single, where="options")
-    warn_of_idle(settings, single)
+    warn_of_idle(settings.groups().values(), single)
     return settings
 
 
@@ -280,25 +286,6 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         INTERPOLATORS.load(result.interpolate.interpolate)
     result.size  # noqa: B018  (parses the sensor, so a wrong name fails before any work)
     return result
-
-
-def warn_of_idle(settings: Settings, given: Iterable[str]) -> None:
-    """Warn of options that another one switches off.
-
-    A config lists them in `idle_with`: option → the deciding option, and those of its values with
-    which the first one has no effect.
-
-    Warns:
-        TexventWarning: an option that was given has no effect.
-    """
-    for config in settings.groups().values():
-        idle_with: IdleOptions = getattr(config, "idle_with", {})
-        for name in idle_with.keys() & set(given):
-            decider, values = idle_with[name]
-            value = getattr(config, decider)
-            if value in values:
-                said = "is not given" if value is None else f"is {value}"
-                warn(f"{name} has no effect: {decider} {said}")
 
 
 def _as_number(value: Any, where: str) -> float:

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import ClassVar
 
-from texvent.config import check_range
+from texvent.config import IdleOptions, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -33,6 +34,12 @@ from texvent.view.windows import (
 @dataclass(frozen=True, kw_only=True)
 class RenderConfig:
     """Options of rendering."""
+
+    idle_with: ClassVar[IdleOptions] = {
+        **dict.fromkeys(("render_fps", "speed"), ("out", (".png", ".html"))),
+        **dict.fromkeys(("window", "events_per_image"), ("out", (".html",))),
+        "points": ("out", (".png", ".mp4", ".gif")),
+    }
 
     render_fps: Fraction = Fraction(30)
     """Images per second of video."""

@@ -98,7 +98,8 @@ def write_bag(path: Path, version: int, messages: dict[str, tuple[str, list[Any]
         for topic, (kind, sent) in messages.items():
             connection = bag.add_connection(topic, kind, typestore=types)
             for number, message in enumerate(sent):
-                bag.write(connection, number, pack(message, kind))
+                packed = message if isinstance(message, bytes) else pack(message, kind)
+                bag.write(connection, number, packed)
     return path
 
 

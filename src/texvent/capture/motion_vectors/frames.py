@@ -322,6 +322,9 @@ def attach_motion(
     sources.update({role: one for role, one in (given or {}).items() if one is not None})
     sources = {role: one for role, one in sources.items() if one is not None}
     if not sources:
+        for name in ("motion_convention", "depth_scale"):
+            if getattr(config, name) is not None:
+                warn(f"{name} has no effect: motion is not given")
         return stream
     if stream.is_live:
         raise InputError("motion vectors need frames that can be read twice, not a live stream")

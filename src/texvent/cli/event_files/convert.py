@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,12 +15,12 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError, shown, warn
+from texvent.errors import ConfigError, FileFormatError, InputError, few, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file, check_outputs
 from texvent.io.block_writer import Columns
 from texvent.io.calibration import read_calibration
-from texvent.io.files import open_writer, side_data
+from texvent.io.files import codec_that_reads, open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
@@ -144,6 +145,7 @@ def run(arguments: Sequence[str]) -> int:
         from texvent.view.video.writer import write_images
 
         write_images(frames, options.frames, overwrite=options.overwrite)
+    _warn_of_left_out(options)
     if not count:
         warn(f"{out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
@@ -198,6 +200,21 @@ def _side_data(options: ConvertOptions) -> dict[Path, Iterator[Columns]]:
         if name not in held:
             raise InputError(f"{options.path} holds no {name}; leave out --{name}")
     return {path: held[name]() for name, path in asked.items()}
+
+
+def _warn_of_left_out(options: ConvertOptions) -> None:
+    """Warn of what the inputs hold beside their events, which no event file keeps."""
+    asked = {name for name in (*SIDE_FILES, "frames") if getattr(options, name) is not None}
+    asked |= {"frames"} if options.video is not None else set()
+    for path in (options.path, *options.merge):
+        held: list[str] = []
+        with contextlib.suppress(FileFormatError):  # damage of the events is said before
+            held += codec_that_reads(path, options.from_format).beside(path)
+        left = [one for one in dict.fromkeys(held) if one not in asked]
+        flags = [f"--{one}" for one in left if one in (*SIDE_FILES, "frames")]
+        if left:
+            writes = f"; {', '.join(flags)} PATH writes them" if flags else ""
+            warn(f"{path} also holds {few(left)}, which the event file does not keep{writes}")
 
 
 def _write_table(path: Path, blocks: Iterator[Columns], *, overwrite: bool) -> None:

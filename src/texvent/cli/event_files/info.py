@@ -19,7 +19,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError, visible
+from texvent.errors import FileFormatError, visible, warn
 from texvent.event_packets import EventPackets
 from texvent.io.files import is_event_path, side_data
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
@@ -54,6 +54,8 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.format or is_event_path(options.path) or not options.path.exists():
         facts = _describe_file(options)
+        if options.fps is not None:
+            warn(f"fps has no effect: {options.path} holds events")
     elif is_still(options.path):
         facts = describe_image(options.path)
     else:

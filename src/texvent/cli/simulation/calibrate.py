@@ -20,6 +20,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import (
     CaptureConfig,
+    IdleOptions,
     InterpolateConfig,
     ReadingConfig,
     check_choices,
@@ -59,6 +60,8 @@ class CalibrateOptions:
         "frames", "events", "flicker_hz", "flicker_ratio", "out",
         "threshold_map", "sensor", "start_preset", "frames_gamma", "seconds", "overwrite",
     )  # fmt: skip
+
+    idle_with: ClassVar[IdleOptions] = {"seconds": ("frames", (None,))}
 
     frames: str | None = None
     """Video file, image folder or AEDAT4 recording of a moving scene, on the clock of the events.

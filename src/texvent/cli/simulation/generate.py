@@ -13,6 +13,7 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import describe_scene, execute, print_settings
+from texvent.config import IdleOptions
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.scene_input import Subject, check_takes
@@ -48,6 +49,8 @@ class PromptOptions:
         "contrast_threshold", "noise", "interpolate", "seed", "previews", "config", "preview",
         "dry_run", "overwrite",
     )  # fmt: skip
+
+    idle_with: ClassVar[IdleOptions] = {"llm_model": ("llm_url", (None,))}
 
     prompt: str = REQUIRED
     """Scene: a quoted sentence, or a scene file. See docs/scenes.md."""

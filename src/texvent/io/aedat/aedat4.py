@@ -25,6 +25,8 @@ import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import (
+    EVENTS,
+    FRAMES,
     LZ4_CODE,
     LZ4_NAME,
     MAGIC,
@@ -53,7 +55,6 @@ from texvent.io.reading import ReadOptions, choose
 
 PACKET_US = 10_000
 """Time per packet, µs."""
-EVENTS = "EVTS"
 IMU_COLUMNS = (
     *("temperature_c", "acceleration_x_g", "acceleration_y_g", "acceleration_z_g"),
     *("rotation_x_deg_s", "rotation_y_deg_s", "rotation_z_deg_s"),
@@ -107,6 +108,13 @@ class Aedat4Codec(BlockCodec):
             for name, (identifier, _) in SIDE_TABLES.items()
             if container.streams_of(identifier)
         }
+
+    def beside(self, path: Path) -> Iterator[str]:
+        """Side data, and frames."""
+        yield from super().beside(path)
+        container = open_container(path)
+        if any(map(container.count_packets, container.streams_of(FRAMES))):
+            yield "frames"
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:

@@ -111,6 +111,8 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
+EVENTS, FRAMES = "EVTS", "FRME"
+"""Types of streams."""
 MAGIC = b"#!AER-DAT4.0\r\n"
 PACKET_HEAD = struct.Struct("<ii")
 """Stream and bytes of a packet."""

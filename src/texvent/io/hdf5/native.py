@@ -32,7 +32,7 @@ and Delbruck, v2e: From Video Frames to Realistic DVS Events, 2021, and its file
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -51,13 +51,14 @@ from texvent.io.hdf5.storage import (
     DeferredErrorFile,
     Hdf5Writer,
     append_chunks,
+    as_stated,
     check_claims,
     check_filters,
     open_hdf5,
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.reading import ReadOptions, choose, unit_in_words
+from texvent.io.reading import ReadOptions, choose, texts_of, unit_in_words
 from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables, time_offset
 
 CHUNK_EVENTS = 65_536
@@ -80,6 +81,8 @@ OFFSET = "t_offset"
 """Name of a single value that is added to the times of its group."""
 UNIT_NAME = re.compile(r"((t|ts|times?|timestamps?)[_ ]?)?units?")
 """Name of an attribute that states the unit of times."""
+ORIGIN = re.compile(r"(upper|top|lower|bottom)[ _-]*(left|right)?")
+"""Attribute `origin`: the corner of the sensor from which x and y count."""
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
 
@@ -197,6 +200,10 @@ class Hdf5Codec(BlockCodec):
         rows = partial(_open_rows, path, options)
         return contents_of_rows(size, metadata, rows)
 
+    def beside(self, path: Path) -> Iterator[str]:
+        """Data sets of images, triggers and an IMU, by their names."""
+        return data_sets_beside(path)
+
     def layout(self, file: Any, target: FileTarget) -> StoredColumns:
         """The empty data sets of a new file, h5py's and open."""
         return Hdf5Columns(file, target, self.limits, self.time_type)
@@ -268,6 +275,14 @@ def _arrays_of(file: Any) -> dict[str, Any]:
     return arrays
 
 
+def data_sets_beside(path: Path) -> Iterator[str]:
+    """Names of data sets of images, triggers or an IMU that hold something."""
+    with open_hdf5(path) as file:
+        for name, array in _arrays_of(file).items():
+            if re.search("image|frame|trigger|imu", name.lower()) and array.size:
+                yield name
+
+
 def _target(group: Any, name: str) -> Any:
     """Object that a link leads to; None where it leads nowhere, or round and round."""
     try:
@@ -296,9 +311,31 @@ def _open_rows(path: Path, options: ReadOptions) -> Iterator[TimedRows]:
     """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
         table, arrays = _find_table(file, path, options)
-        groups = (one for one in _groups_of(file, table) if OFFSET in one or OFFSET in one.attrs)
+        groups = _groups_of(file, table)
+        far = _far_sides(table, [*arrays.values(), *groups])
+        sizes = filter(None, (stored_size(group, path) for group in groups))
+        size = next(sizes, options.size) or (0, 0)
+        arrays = {
+            name: as_stated(one, path, size[far[name]] - 1 if name in far else None)
+            for name, one in arrays.items()
+        }
+        groups = [one for one in groups if OFFSET in one or OFFSET in one.attrs]
         offset = next((_time_offset(one, path) for one in groups), None)
         yield table.rows(path, arrays, options, offset=offset, block=PACKET_EVENTS)
+
+
+def _far_sides(table: EventTable, nodes: Sequence[Any]) -> dict[str, int]:
+    """Arrays of coordinates that count from the right (0) or from below (1), as attributes say."""
+    words = {
+        key: "".join(texts_of(node.attrs[key])[:1]).strip().lower()
+        for node in reversed(nodes)
+        for key in ("origin", "y_up")
+        if key in node.attrs
+    }
+    corner = ORIGIN.fullmatch(words.get("origin", "")) or ("", "", "")
+    is_up = corner[1] in ("lower", "bottom") or words.get("y_up") in ("true", "1")
+    far = {"x": corner[2] == "right", "y": is_up}
+    return {table.columns[name].array: side for side, name in enumerate("xy") if far[name]}
 
 
 def _time_offset(group: Any, path: Path) -> NDArray[Any]:

@@ -131,6 +131,48 @@ def check_filters(dataset: Any, path: Path) -> None:
         ) from error
 
 
+class LinearColumn:
+    """A data set [n] that stands for `scale * stored + offset`, whole numbers where it can."""
+
+    def __init__(self, dataset: Any, scale: float, offset: float) -> None:
+        is_whole = np.can_cast(dataset.dtype, np.int64) and abs(scale) == 1 and offset % 1 == 0
+        self.shape, self.dtype = dataset.shape, np.dtype(np.int64 if is_whole else np.float64)
+        self._dataset, self._terms = dataset, np.array([scale, offset]).astype(self.dtype)
+
+    def __getitem__(self, rows: Any) -> NDArray[Any]:
+        """The values of a slice."""
+        scale, offset = self._terms
+        return np.asarray(scale * np.asarray(self._dataset[rows]).astype(self.dtype) + offset)
+
+
+def as_stated(dataset: Any, path: Path, last: int | None) -> Any:
+    """A column by `scale_factor` and `add_offset`, netCDF's attributes.
+
+    Args:
+        dataset: h5py's.
+        path: the file, for messages.
+        last: the last pixel, of a coordinate that counts from the far side.
+
+    Raises:
+        FileFormatError: one is no number, or of several columns.
+    """
+    terms = []
+    for name, default in (("scale_factor", 1), ("add_offset", 0)):
+        stated = np.ravel(dataset.attrs.get(name, default))
+        if stated.size != 1 or stated.dtype.kind not in "iuf" or not np.isfinite(stated).all():
+            raise FileFormatError(f"{path}: {name} of {dataset.name} is {shown(stated.tolist())}")
+        terms.append(float(stated[0]))
+    scale, offset = terms if last is None else (-terms[0], last - terms[1])
+    if (scale, offset) == (1, 0):
+        return dataset
+    if dataset.dtype.names or dataset.size != max(dataset.shape):
+        raise FileFormatError(
+            f"{path}: an attribute scales or turns {dataset.name}, which has several columns; "
+            "write x, y, t and p as data sets of their own"
+        )
+    return LinearColumn(dataset, scale, offset)
+
+
 LEVEL = 1
 WINDOW_BITS = 15
 MEMORY_LEVEL = 9

@@ -36,6 +36,7 @@ from texvent.io.prophesee.triggers import (
     EVT2,
     EVT3,
     EVT21,
+    TRIGGER,
     TriggerCoding,
     Words,
     field_of,
@@ -122,6 +123,13 @@ class EvtReader(BlockReader):
     def side_data(self, path: Path) -> SideData:
         """External triggers."""
         return {"triggers": partial(self._read_triggers, path)}
+
+    def beside(self, path: Path) -> Iterator[str]:
+        """Triggers, without their times."""
+        word, kind = self.trigger_coding.word, self.trigger_coding.kind
+        blocks = self._read_words(path, _read_header(path))
+        if any((field_of(np.frombuffer(one, word), kind) == TRIGGER).any() for one in blocks):
+            yield "triggers"
 
     def _read_triggers(self, path: Path) -> Iterator[Columns]:
         header = _read_header(path)

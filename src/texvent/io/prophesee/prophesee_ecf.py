@@ -41,7 +41,7 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockReader, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import Columns
-from texvent.io.hdf5.native import read_metadata, stored_size
+from texvent.io.hdf5.native import data_sets_beside, read_metadata, stored_size
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.reading import ReadOptions
 
@@ -180,6 +180,10 @@ class EcfHdf5Codec(BlockReader):
                 return "CD/events" in file
         except InputError:  # damaged, or open elsewhere
             return False
+
+    def beside(self, path: Path) -> Iterator[str]:
+        """External triggers."""
+        return data_sets_beside(path)
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata are attributes of the root and of /CD."""

@@ -17,6 +17,7 @@ Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and i
 from __future__ import annotations
 
 import itertools
+import re
 import struct
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -97,6 +98,13 @@ class BagReader(BlockReader):
                 sizes = [one.size for one in itertools.islice(_sized(bag, topics[chosen]), 1)]
                 size = sizes[0] if sizes else None
         return FileContents(size, metadata, partial(_read_blocks, path, chosen))
+
+    def beside(self, path: Path) -> Iterator[str]:
+        """Topics of images and of an IMU."""
+        with _open_bag(path) as bag:
+            for one in bag.reader.connections:
+                if re.search("sensor_msgs/.*(Image|Imu)$", one.msgtype) and one.msgcount:
+                    yield one.topic
 
 
 def _is_facts(connection: Any) -> bool:

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 from texvent.options.values import option_help
 from texvent.runtime.file_names import usable_path
+from texvent.runtime.yaml_text import keys_once
 from texvent.scenes.colours import PALETTES
 from texvent.scenes.spec.data import (
     field_types,
@@ -108,7 +109,8 @@ def parse_scene(text: str, ending: str) -> Scene:
         ConfigError: a field is wrong; the message begins with the path of the field.
     """
     try:
-        document = json.loads(text) if ending.lower() == ".json" else tomllib.loads(text)
+        is_json = ending.lower() == ".json"
+        document = json.loads(text, object_pairs_hook=keys_once) if is_json else tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise FileFormatError(f"is not valid: {one_line(error)}") from error
     return scene_from_data(document)

@@ -7,12 +7,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.config import check_choices, check_range
+from texvent.config import IdleOptions, check_choices, check_range
 from texvent.errors import ConfigError, shown
 from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
 
@@ -80,6 +80,13 @@ class PhysicalConfig:
     Raises:
         ConfigError: an option is out of range, or two contradict each other.
     """
+
+    idle_with: ClassVar[IdleOptions] = {
+        "noise_curve": ("noise_scale", (0.0,)),
+        "noise_decades": ("noise_scale", (0.0,)),
+        "leak_rate_decades": ("leak_rate_hz", (0.0,)),
+        "hot_pixel_rate_hz": ("hot_pixel_fraction", (0.0,)),
+    }
 
     gamma: float = 2.2
     """Exponent that turns the levels of ordinary video into linear light; 1 for frames that are

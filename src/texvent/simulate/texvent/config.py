@@ -26,10 +26,13 @@ class TexventConfig:
         ConfigError: an option is out of range, or two contradict each other.
     """
 
-    idle_with: ClassVar[IdleOptions] = dict.fromkeys(
-        ("noise_rate_hz", "noise_scale", "noise_intensity", "noise_on_fraction"),
-        ("noise", ("none",)),
-    )
+    idle_with: ClassVar[IdleOptions] = {
+        "residual_decay_hz": ("cache", ("local", "none")),
+        "noise_rate_hz": ("noise", ("none",)),
+        "noise_scale": ("noise", ("none",)),
+        "noise_intensity": ("noise", ("none", "gaussian", "random")),
+        "noise_on_fraction": ("noise", ("none", "gaussian")),
+    }
 
     contrast_threshold: float = 0.2
     """Contrast threshold δ of ln(α + I). A change of brightness by it fires an event."""

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from texvent.config import check_range
+from texvent.config import IdleOptions, check_range
 from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import check_nominal_thresholds, smaller_threshold
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
@@ -28,6 +28,8 @@ class V2eConfig:
     Raises:
         ConfigError: an option is out of range.
     """
+
+    idle_with: ClassVar[IdleOptions] = {"leak_rate_decades": ("leak_rate_hz", (0.0,))}
 
     contrast_threshold_on: float = 0.2
     """Rise of the lin-log brightness that fires an ON event: the mean over pixels."""
