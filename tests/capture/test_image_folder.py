@@ -31,6 +31,7 @@ def test_a_frame_rate_gives_the_times(tmp_path):
 
 def test_ecd_layout_is_found_without_options_and_keeps_its_clock(tmp_path):
     save_images(tmp_path / "images")
+    (tmp_path / "images" / "frame1.png").unlink()
     (tmp_path / "images.txt").write_text(
         "# time name\n0.5 images/frame0.png\n0.538766001 images/frame2.png\n"
     )
@@ -244,7 +245,7 @@ def test_images_of_another_size_or_bit_depth_do_not_pass_silently(tmp_path):
 @pytest.mark.parametrize("name", ["../private/frame0.png", "{}/private/frame0.png"])
 def test_a_list_names_no_image_of_another_folder(tmp_path, name):
     save_images(tmp_path / "private")
-    save_images(tmp_path / "shown")
+    save_images(tmp_path / "shown", 2)
     lines = f"0.0 frame1.png\n0.1 {name.format(tmp_path)}\n"
     (tmp_path / "shown" / "images.txt").write_text(lines)
     # An image of that name in the folder is meant, as after a move.

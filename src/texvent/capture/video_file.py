@@ -40,6 +40,8 @@ TEXT_ART = "tty"
 
 PLAYLIST_MARKS = (b"#EXTM3U", b"ffconcat version", b"v=0", b"<?xml", b"<MPD")
 """How files begin that name other files."""
+SEQUENCE_BRAND = "msf1"
+"""Brand of files of HEIF that hold animations."""
 ATTACHED_PICTURE = 1 << 10
 """libav's AV_DISPOSITION_ATTACHED_PIC."""
 HELD_BYTES = 6 * 8
@@ -103,7 +105,9 @@ class VideoFile(FrameSource):
     def _warn_of_others(self, container: InputContainer, stream: VideoStream) -> None:
         """Say that there is another video in the file."""
         videos = [one for one in container.streams.video if has_decoder(one) and not is_cover(one)]
-        if len(videos) > 1:
+        # Its first image, and alpha, are streams of their own in an image sequence (AVIF).
+        is_sequence = SEQUENCE_BRAND in container.metadata.get("compatible_brands", "")
+        if len(videos) > 1 and not is_sequence:
             sizes = [f"{one.width}x{one.height}" for one in videos]
             warn(
                 f"{self._path} holds {len(videos)} videos ({few(sizes)}); number "
