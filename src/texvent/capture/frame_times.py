@@ -66,7 +66,8 @@ class FrameTimes:
         return int(self.listed_us[index])
 
     def of(self, frames: int) -> Sequence[int]:
-        """All listed times, or those of so many frames, µs."""
+        """All listed times, or those of so many frames, µs; errors as `check_count`."""
+        self.check_count(frames)
         return self.listed_us or [self(index) for index in range(frames)]
 
     def check_count(self, frames: int) -> None:
