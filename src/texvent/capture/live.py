@@ -63,6 +63,11 @@ class LiveFrames(FrameSource):
             raise InputError(f"{self._name} ended before its first frame")
         self._first, self._arrived_us = first, _now_us()
         self._clock = _clock_name(self._container, first, times)
+        if self._clock == ARRIVAL and not (is_address(address) or address.startswith("/dev/")):
+            warn(
+                f"{self._name} holds no times, so frames have the moments at which they arrive; "
+                "unless a camera sends them now, give their rate (`fps`)"
+            )
         self._reader = PixelReader(self._name)
         pixels = self._reader.read(first)
         self._metadata: dict[str, Any] = {
