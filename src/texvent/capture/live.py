@@ -55,7 +55,10 @@ class LiveFrames(FrameSource):
         self._name = without_password(address)
         self._times = times
         self._container = _open_live(address, self._name)
-        self._frames = self._decode()
+        stream = self._container.streams.best("video")
+        if not isinstance(stream, VideoStream):
+            raise InputError(f"{self._name} holds no video stream")
+        self._frames = self._decode(stream)
         self._arrivals = ReadOnce(self._arriving(), f"{self._name} is live; it")
         first = next(self._frames, None)
         if first is None:
@@ -79,7 +82,7 @@ class LiveFrames(FrameSource):
             **coding_facts(first),
         }
         size = checked_size(pixels.shape[1], pixels.shape[0])
-        warn_of_pixels(self._container.streams.best("video"), first, pixels, self._name)
+        warn_of_pixels(stream, first, pixels, self._name)
         fps = times.fps if times else None
         self._facts = SourceFacts(size, fps, None, self._metadata, is_live=True)
 
@@ -122,11 +125,8 @@ class LiveFrames(FrameSource):
         pts, first_pts = frame.pts or 0, self._first.pts or 0
         return round((pts - first_pts) * frame.time_base * MICROSECONDS)
 
-    def _decode(self) -> Iterator[VideoFrame]:
+    def _decode(self, stream: VideoStream) -> Iterator[VideoFrame]:
         """Decoded frames; a stream that breaks off has ended, which is how live streams end."""
-        stream = self._container.streams.best("video")
-        if not isinstance(stream, VideoStream):
-            raise InputError(f"{self._name} holds no video stream")
         try:
             yield from self._container.decode(stream)
         except (FFmpegError, EOFError) as error:
