@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.batch.samples import are_videos, read_samples
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, TexventWarning
 
 
 def listed(folder: Path, *prompts: str) -> Path:
@@ -131,3 +131,15 @@ def test_mistakes_are_named(
     with pytest.raises(error, match=why) as caught:
         read_samples(sources, seed=0)
     assert "secret" not in str(caught.value)
+
+
+@pytest.mark.parametrize("places", [("a.mp4", "b/0.png"), ("a.mp4", "0.png"), ("0.png", "b/0.png")])
+def test_kinds_of_frames_beside_those_that_are_taken_are_said(
+    tmp_path: Path, places: tuple[str, ...]
+) -> None:
+    for place in places:
+        (tmp_path / place).parent.mkdir(exist_ok=True)
+        (tmp_path / place).touch()
+    with pytest.warns(TexventWarning, match=r"holds (videos|images) and .* are taken alone"):
+        (sample,) = read_samples([tmp_path], seed=0)
+    assert sample.video in (tmp_path, tmp_path / "a.mp4")

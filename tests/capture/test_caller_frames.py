@@ -3,6 +3,8 @@
 import re
 import warnings
 
+import av
+import cv2
 import numpy as np
 import pytest
 from PIL import Image
@@ -230,6 +232,8 @@ def test_pictures_of_pillow_are_read_by_the_meaning_of_their_mode(mode, door):
     [
         ([one.convert("I") for one in PICTURES], "pixels of type int32"),
         (["a.png", "b.png"], "is the name 'a.png'.*give the folder"),
+        ([av.VideoFrame(24, 16)] * 2, r"is of type VideoFrame.*to_ndarray\(format='rgb24'\)"),
+        ([cv2.UMat(one) for one in LEVELS], r"is of type UMat.*image\.get\(\)"),
         ([None, None], "is None, no frame"),
         ([(one, 1) for one in LEVELS], "cannot be read as an array"),
         ([LEVELS[0], LEVELS[1][:9]], "24x9"),

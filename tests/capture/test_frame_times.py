@@ -100,6 +100,10 @@ def test_names_may_hold_spaces_and_what_separates_others(tmp_path, line, name):
         ("0 0.0\n1 0.04\n", FileFormatError, "line 1 is '0 0.0'; each line must hold one time"),
         ("0;a.png;7\n1;b.png;7\n", FileFormatError, "line 1 is '0;a.png;7'"),
         ("time\nname\n", FileFormatError, "line 2 is 'name'"),
+        ("2024-05-01 12:00:00.04\n", FileFormatError, "A date is no number: write"),
+        ("a.png,12:00:00.04\n", FileFormatError, "A date is no number: write"),
+        ("20240501_120000\n", FileFormatError, "line 1 .*A date is no number: write"),
+        ("20240501120000\n", FileFormatError, "beyond 64 bits .*A date is no number: write"),
         ("# nothing\n", FileFormatError, "has no times"),
     ],
 )

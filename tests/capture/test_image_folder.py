@@ -1,3 +1,4 @@
+import contextlib
 import struct
 from fractions import Fraction
 
@@ -31,6 +32,7 @@ def test_a_frame_rate_gives_the_times(tmp_path):
 
 def test_ecd_layout_is_found_without_options_and_keeps_its_clock(tmp_path):
     save_images(tmp_path / "images")
+    (tmp_path / "images" / "frame1.png").unlink()
     (tmp_path / "images.txt").write_text(
         "# time name\n0.5 images/frame0.png\n0.538766001 images/frame2.png\n"
     )
@@ -120,6 +122,15 @@ def test_a_stack_of_channels_or_of_depths_and_times_is_no_video(tmp_path, text, 
     else:
         with pytest.raises(FileFormatError, match="are not one video"):
             levels(path)
+
+
+def test_a_stack_of_more_images_than_pages_is_refused(tmp_path):
+    for name in "ab":
+        text = {270: "ImageJ=1.53t\nimages=6\nframes=6\n"}
+        Image.new("L", (6, 4)).save(tmp_path / f"{name}.tif", tiffinfo=text)
+    for source in (tmp_path, tmp_path / "a.tif"):
+        with pytest.raises(FileFormatError, match="states 6 images and has 1 page"):
+            levels(source)
 
 
 DURATIONS_MS = [40, 80, 120, 40]
@@ -241,10 +252,37 @@ def test_images_of_another_size_or_bit_depth_do_not_pass_silently(tmp_path):
             list(stream)
 
 
+@pytest.mark.parametrize("is_asked", [False, True])
+def test_images_that_a_found_list_leaves_out_are_said(tmp_path, is_asked):
+    save_images(tmp_path)
+    path = tmp_path / "timestamps.txt"
+    path.write_text("0 frame0.png\n0.1 frame2.png\n")
+    given = {"timestamps": path} if is_asked else {}
+    said = pytest.warns(TexventWarning, match=r"names 2 of 3 images; frame1\.png are left out")
+    with contextlib.nullcontext() if is_asked else said:
+        assert levels(tmp_path, fps=None, **given) == [100, 102]
+
+
+def test_a_list_of_the_images_of_another_folder_is_refused(tmp_path):
+    for place in ("left", "right"):
+        save_images(tmp_path / place)
+    (tmp_path / "timestamps.txt").write_text("0 left/frame0.png\n0.1 left/frame1.png\n")
+    with pytest.raises(InputError, match=r"left/frame0\.png, which is not in .*right"):
+        levels(tmp_path / "right", fps=None)
+
+
+@pytest.mark.parametrize("last", [9998, 9999])
+def test_numbers_of_a_camera_that_start_again_are_said(tmp_path, last):
+    for number in (1, 2, 3, last - 1, last):
+        cv2.imwrite(str(tmp_path / f"DSC_{number:04}.png"), np.full((4, 6), 90, np.uint8))
+    with pytest.warns(TexventWarning, match=rf"start again behind DSC_{last}\.png"):
+        levels(tmp_path)
+
+
 @pytest.mark.parametrize("name", ["../private/frame0.png", "{}/private/frame0.png"])
 def test_a_list_names_no_image_of_another_folder(tmp_path, name):
     save_images(tmp_path / "private")
-    save_images(tmp_path / "shown")
+    save_images(tmp_path / "shown", 2)
     lines = f"0.0 frame1.png\n0.1 {name.format(tmp_path)}\n"
     (tmp_path / "shown" / "images.txt").write_text(lines)
     # An image of that name in the folder is meant, as after a move.

@@ -13,7 +13,7 @@ import pytest
 from texvent.capture.live import LiveFrames
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import InputError, TexventWarning
 
 EXCERPT = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 
@@ -64,7 +64,8 @@ def test_a_named_pipe_is_live_and_keeps_the_streams_times(pipe, film):
 
 def test_frames_without_times_get_the_moment_of_arrival(pipe):
     pipe.fill(jpegs(6))
-    stream = LiveFrames(str(pipe.path))
+    with pytest.warns(TexventWarning, match=r"holds no times.* give their rate \(`fps`\)"):
+        stream = LiveFrames(str(pipe.path))
     times = [frame.t_us for frame in stream]
     assert stream.metadata["clock"] == "arrival"
     assert times[0] == 0

@@ -74,7 +74,7 @@ def with_display_matrix(path, matrix):
     """The mp4 file with the matrix of its track replaced."""
 
     def stored(a, b, c, d):
-        matrix = np.array([a, b, 0, c, d, 0, 0, 0, 1 << 14]) << 16
+        matrix = np.array([a, b, 0, c, d, 0, 0, 0, 1 << 14]) * 2**16
         return matrix.astype(">i4").tobytes()
 
     content = path.read_bytes()
@@ -105,9 +105,68 @@ def test_every_display_matrix_is_applied(clips, tmp_path, matrix):
     assert np.array_equal(pixels[row, column], plain)
 
 
-def test_a_stream_without_a_container_has_its_own_rate(clips):
-    path = clips.write("raw.h264", colours(4, 8), rate=50, ticks=50)
-    assert [frame.t_us for frame in VideoFile(path)] == [0, 20_000, 40_000, 60_000]
+@pytest.mark.parametrize(
+    ("name", "codec", "is_stated"),
+    [
+        *(("a.h264", "libx264", True), ("a.m2v", "mpeg2video", True), ("a.y4m", "rawvideo", True)),
+        *(("a.mjpeg", "mjpeg", False), ("a.obu", "libsvtav1", False), ("a.y4m", "rawvideo", False)),
+    ],
+)
+def test_a_stream_without_a_container_has_its_own_rate_or_an_assumed_one(
+    clips, name, codec, is_stated
+):
+    stored = "yuvj420p" if codec == "mjpeg" else "yuv420p"
+    path = clips.write(name, colours(4, 8), codec=codec, stored=stored, rate=50, ticks=50)
+    if codec == "rawvideo" and not is_stated:
+        path.write_bytes(path.read_bytes().replace(b" F50:1", b" F0:0"))
+    with nullcontext() if is_stated else pytest.warns(TexventWarning, match="so 25 frames per"):
+        stream = VideoFile(path)
+    step_us = 20_000 if is_stated else 40_000
+    assert [frame.t_us for frame in stream] == [step_us * i for i in range(4)]
+    times = [frame.t_us for frame in open_frames(path, CaptureConfig(fps=Fraction(50)))]
+    assert times == [0, 20_000, 40_000, 60_000]
+
+
+def wide_pixels(clips):
+    path = clips.write("a.y4m", colours(), codec="rawvideo", ticks=25)
+    path.write_bytes(path.read_bytes().replace(b" A0:0", b" A2:1"))
+    return path
+
+
+def turned_by_45(clips):
+    path = clips.write("a.mp4", colours(), container={"movflags": "faststart"})
+    path.write_bytes(with_display_matrix(path, np.array([1, 1, -1, 1]) * 0.5**0.5))
+    return path
+
+
+def transparent_gif(clips):
+    images = [Image.new("RGBA", (64, 48), (10, 200, 30, 0)) for _ in range(3)]
+    for number, image in enumerate(images):
+        image.paste((250, 20, 60, 255), (8 * number, 8, 8 * number + 8, 16))
+    path = clips.folder / "a.gif"
+    images[0].save(path, save_all=True, append_images=images[1:], duration=40, disposal=2)
+    return path
+
+
+@pytest.mark.parametrize("frames_of", [VideoFile, lambda path: LiveFrames(str(path))])
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (wide_pixels, "states pixels of 2:1, width to height"),
+        (turned_by_45, "to be shown turned by 45°"),
+        (transparent_gif, "transparent pixels.*read as white"),
+    ],
+)
+def test_marks_that_are_not_followed_are_said(clips, make, words, frames_of):
+    path = make(clips)
+    with pytest.warns(TexventWarning, match=words):
+        assert len(list(frames_of(path))) == 3
+
+
+def test_the_first_image_of_an_animated_avif_is_no_other_video(clips):
+    path = clips.write("a.avif", colours(4, 20), codec="libsvtav1", ticks=25)
+    stream = open_frames(path, CaptureConfig())
+    assert [frame.t_us for frame in stream] == [0, 40_000, 80_000, 120_000]
 
 
 def test_reordered_frames_of_an_avi_follow_one_another(clips):

@@ -61,6 +61,32 @@ def test_a_dry_run_finds_the_jumps_that_the_run_finds(write, capsys):
     assert "later" not in capsys.readouterr().err
 
 
+def write_joined(times_us):
+    """A stream that begins again in its middle."""
+    with av.open("joined.mpg", "w") as clip:
+        stream = clip.add_stream("mpeg2video", rate=25)
+        stream.width, stream.height, stream.pix_fmt = 64, 48, "yuv420p"
+        for level in range(len(times_us)):
+            pixels = np.full((48, 64, 3), 9 * level, np.uint8)
+            clip.mux(stream.encode(av.VideoFrame.from_ndarray(pixels)))
+        clip.mux(stream.encode(None))
+    Path("joined.mpg").write_bytes(Path("joined.mpg").read_bytes() * 2)
+    return "joined.mpg"
+
+
+@pytest.mark.parametrize(
+    ("write", "words"),
+    [(write_joined, "280000"), (write_film, "t.txt has 5 times")],
+)
+def test_a_dry_run_finds_times_that_the_run_refuses(write, words, capsys):
+    Path("t.txt").write_text("0\n.1\n.2\n.3\n.4\n")
+    given = ["simulate", write([40_000 * i for i in range(8)]), "--interpolate", "none"]
+    given += ["--timestamps", "t.txt"] * (write is write_film)
+    for more in (["--dry-run"], ["-o", "a.h5", "--previews", "none"]):
+        assert main([*given, *more]) == 2
+        assert words in capsys.readouterr().err
+
+
 def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):
     words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
     assert main([*words, "--dry-run"]) == 0

@@ -42,6 +42,16 @@ def test_a_run_without_events_warns(capsys):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
 
 
+def test_masks_of_0_and_1_are_not_said_to_stand_still_alone(capsys, folder):
+    Path("masks").mkdir()
+    for index in range(4):
+        mask = np.zeros((12, 16), np.uint8)
+        mask[2:6, index : index + 5] = 1
+        cv2.imwrite(f"masks/{index}.png", mask)
+    words = ["simulate", "masks", "--fps", "10", "-o", "a.h5", "--previews", "none", "-q"]
+    assert "give --white-level 1 if they are masks of 0 and 1" in warnings_of(capsys, *words)[0]
+
+
 @pytest.fixture
 def recording(folder):
     t = np.arange(0, 400_001, 100)

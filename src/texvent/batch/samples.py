@@ -12,7 +12,7 @@ from pathlib import Path
 
 from texvent.batch.identity import derived_seed, digest
 from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list, scene_entry
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.scenes.spec.data import scene_to_data
 from texvent.scenes.spec.files import is_scene_file
@@ -113,18 +113,26 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
 def _folder_entries(folder: Path) -> Iterator[ListEntry]:
     """The videos in a folder, or its image folders, or itself if it holds images."""
     inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
-    videos = [path for path in inside if path.suffix.lower() in FOLDER_VIDEOS]
-    if not videos and _holds_images(inside):
-        videos = [folder]
-    if not videos:
-        videos = [path for path in inside if path.is_dir() and _holds_images(path.iterdir())]
-    if not videos:
+    kinds = {
+        "videos": [path for path in inside if path.suffix.lower() in FOLDER_VIDEOS],
+        "images": [folder] if _holds_images(inside) else [],
+        "folders of images": [
+            path for path in inside if path.is_dir() and _holds_images(path.iterdir())
+        ],
+    }
+    found = [kind for kind, paths in kinds.items() if paths]
+    if not found:
         raise InputError(
             f"{folder} holds no video, no images and no folders of images; videos end in "
             f"{', '.join(sorted(FOLDER_VIDEOS))}"
         )
-    for path in videos:
+    for path in kinds[found[0]]:
         yield ListEntry(where=str(path), video=path)
+    if found[1:]:
+        warn(
+            f"{folder} holds {' and '.join(found)}, of which the {found[0]} are taken alone; name "
+            f"each kind by a pattern, such as '{folder}/*.mp4' or '{folder}/*/'"
+        )
 
 
 def _folder_stills(folder: Path) -> Iterator[ListEntry]:

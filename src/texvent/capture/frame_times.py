@@ -33,6 +33,8 @@ LONGEST_STEP_S, LONGEST_WHOLE_S = 60, 5
 """Frames that are further apart, or as far in whole numbers, are hardly meant in seconds."""
 HEADER = re.compile(r"time|stamp|^\W*(t|ts|sec\w*)\b", re.IGNORECASE)
 """Names of a column of times."""
+DATE = re.compile(r"\d{4}\W\d\d\W\d\d|\d\d:\d\d|(19|20)\d{6}[_T ]?\d{6}|(19|20)\d{12}")
+DATES_TO_US = "np.array(dates, 'datetime64[us]').astype(np.int64)"
 HIGHEST_FPS = 20_000
 """Times that give more frames per second have another unit."""
 
@@ -64,7 +66,8 @@ class FrameTimes:
         return int(self.listed_us[index])
 
     def of(self, frames: int) -> Sequence[int]:
-        """All listed times, or those of so many frames, µs."""
+        """All listed times, or those of so many frames, µs; errors as `check_count`."""
+        self.check_count(frames)
         return self.listed_us or [self(index) for index in range(frames)]
 
     def check_count(self, frames: int) -> None:
@@ -107,7 +110,7 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
     Warns:
         TexventWarning: as `warn_of_unit`.
     """
-    times = whole_numbers(t_us, origin, f"whole microseconds ({HOW_TO_ROUND})")
+    times = whole_numbers(t_us, origin, f"whole microseconds ({HOW_TO_ROUND}; {DATES_TO_US})")
     if times.ndim != 1 or times.dtype.kind == "b":
         raise InputError(
             f"{origin} must be one-dimensional whole microseconds; got {times.dtype} of shape "
@@ -196,7 +199,7 @@ def read_timestamps(path: Path, unit: str | None) -> Timestamps:
             raise FileFormatError(
                 f"{path}, line {number} is {shown(line.strip())}; each line must hold one time in "
                 f"{unit or 's'} as a number with a decimal point, and a file name or none; a "
-                "header begins with #"
+                f"header begins with #{_date_advice(line)}"
             )
         times_us.append(_microseconds(numbers[0], unit or "s", f"{path}, line {number}"))
         names += [field for field in fields if field != numbers[0]]
@@ -248,7 +251,14 @@ def check_seconds(origin: str, times_us: Sequence[int], help: str) -> None:
     )
 
 
+def _date_advice(text: str) -> str:
+    advice = ". A date is no number: write datetime.timestamp() of it, in s"
+    return advice if DATE.search(text) else ""
+
+
 def _is_number(text: str) -> bool:
+    if "_" in text:  # Python groups digits so; a file's are those of a date
+        return False
     try:
         parse_fraction(text)
     except (ValueError, ZeroDivisionError):
@@ -296,6 +306,6 @@ def _microseconds(text: str, unit: str, where: str) -> int:
     if abs(time_us) >= 2**63:
         raise FileFormatError(
             f"{where}: {shown(text)} {unit} is beyond 64 bits of µs, so it is probably of a "
-            "smaller unit, such as ns; give `timestamps_unit`"
+            f"smaller unit, such as ns; give `timestamps_unit`{_date_advice(text)}"
         )
     return time_us

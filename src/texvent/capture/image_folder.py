@@ -54,6 +54,9 @@ _AXES = re.compile(
 )
 
 
+_IMAGEJ_COUNT = re.compile(rb"ImageJ=[^\0]*?\nimages=(\d{1,9})\b")
+
+
 class ImageFolder(FrameSource):
     """Images of a folder in natural order (2 before 10), or in the timestamp file's order.
 
@@ -90,6 +93,8 @@ class ImageFolder(FrameSource):
         gap = None
         if file is not None and listing is not None and listing.names is not None:
             paths = _named_images(listing, file, images_folder)
+            if timestamps is None:
+                _warn_of_unnamed(file, paths, images_folder)
         elif folder.is_file():
             paths = [folder]
         else:
@@ -137,14 +142,27 @@ class ImageFolder(FrameSource):
 
 
 def count_images(path: Path) -> int:
-    """Images of a TIFF stack; 1 of any other file, damaged ones too."""
+    """Images of a TIFF stack; 1 of any other file, damaged ones too.
+
+    Raises:
+        FileFormatError: it states more images than there are pages.
+    """
     import cv2
 
     if path.suffix.lower() not in TIFF:
         return 1
+    count = 1
     with contextlib.suppress(cv2.error):
-        return max(1, cv2.imcount(str(path), DEPTH_AND_COLOUR))
-    return 1
+        count = max(1, cv2.imcount(str(path), DEPTH_AND_COLOUR))
+    with path.open("rb") as file:
+        stated = _IMAGEJ_COUNT.search(file.read(HEAD_BYTES))
+    if stated and int(stated[1]) > count:
+        raise FileFormatError(
+            f"{path} states {int(stated[1])} images and has {count} page, as ImageJ and tifffile "
+            "write large stacks; save one file per image (ImageJ: Save As > Image Sequence), or "
+            "np.save('a.npy', tifffile.imread(...))"
+        )
+    return count
 
 
 def read_stack(path: Path, count: int, white_level: float | None) -> Iterator[PixelArray]:
@@ -320,8 +338,26 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
                 f"{file} names {shown(name)}, which is neither beside it nor in {folder}; "
                 "remove the line or restore the image"
             )
+        if not _is_below(path, folder):
+            raise InputError(
+                f"{file} names {path}, which is not in {folder}; give a frame rate (`fps`), or "
+                "`timestamps` that name the images of this folder"
+            )
         paths.append(path)
     return paths
+
+
+def _warn_of_unnamed(file: Path, named: Sequence[Path], folder: Path) -> None:
+    """Say that a list, found without being asked for, leaves images of the folder out."""
+    known = {os.path.normpath(path) for path in named}
+    others = [path for path in folder.iterdir() if _is_image(path)]
+    left = sorted(path.name for path in others if os.path.normpath(path) not in known)
+    if left:
+        warn(
+            f"{file}, found beside the images, names {len(known)} of {len(known) + len(left)} "
+            f"images; {few(left)} are left out. Give `timestamps` if that is meant, or `fps` for "
+            "all"
+        )
 
 
 def _is_below(path: Path, *folders: Path) -> bool:

@@ -61,6 +61,11 @@ def caller_pixels(image: Any, where: str) -> PixelArray:
             "folder of the files, or open them one by one"
         )
     pixels = as_array(image, where)
+    if pixels.dtype == object and pixels.ndim == 0:
+        raise InputError(
+            f"{where} is of type {type(image).__name__}, which is no array; make one of it, such "
+            "as frame.to_ndarray(format='rgb24') of PyAV, image.get()[..., ::-1] of OpenCV's UMat"
+        )
     if pixels.ndim == 3 and pixels.shape[-1] == 1:
         pixels = pixels[..., 0]
     shape = pixels.shape

@@ -12,12 +12,17 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_range
+from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
-from texvent.runtime.media_files import only_self_contained, open_media, raise_scarcity
+from texvent.runtime.media_files import (
+    is_timeless,
+    only_self_contained,
+    open_media,
+    raise_scarcity,
+)
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
@@ -26,8 +31,6 @@ STANDARD_INPUT = "-"
 ARRIVAL = "arrival"
 TIMEOUT_S = 15.0
 """How long a silent network stream is waited for."""
-NO_TIMESTAMPS = 0x80
-"""libav's AVFMT_NOTIMESTAMPS."""
 OPTIONS = {"fpsprobesize": "0"}
 """Do not collect frames to guess a rate: they would then all arrive at once."""
 
@@ -52,7 +55,10 @@ class LiveFrames(FrameSource):
         self._name = without_password(address)
         self._times = times
         self._container = _open_live(address, self._name)
-        self._frames = self._decode()
+        stream = self._container.streams.best("video")
+        if not isinstance(stream, VideoStream):
+            raise InputError(f"{self._name} holds no video stream")
+        self._frames = self._decode(stream)
         self._arrivals = ReadOnce(self._arriving(), f"{self._name} is live; it")
         first = next(self._frames, None)
         if first is None:
@@ -60,6 +66,11 @@ class LiveFrames(FrameSource):
             raise InputError(f"{self._name} ended before its first frame")
         self._first, self._arrived_us = first, _now_us()
         self._clock = _clock_name(self._container, first, times)
+        if self._clock == ARRIVAL and not (is_address(address) or address.startswith("/dev/")):
+            warn(
+                f"{self._name} holds no times, so frames have the moments at which they arrive; "
+                "unless a camera sends them now, give their rate (`fps`)"
+            )
         self._reader = PixelReader(self._name)
         pixels = self._reader.read(first)
         self._metadata: dict[str, Any] = {
@@ -71,7 +82,7 @@ class LiveFrames(FrameSource):
             **coding_facts(first),
         }
         size = checked_size(pixels.shape[1], pixels.shape[0])
-        warn_of_range(first, pixels, self._name)
+        warn_of_pixels(stream, first, pixels, self._name)
         fps = times.fps if times else None
         self._facts = SourceFacts(size, fps, None, self._metadata, is_live=True)
 
@@ -114,11 +125,8 @@ class LiveFrames(FrameSource):
         pts, first_pts = frame.pts or 0, self._first.pts or 0
         return round((pts - first_pts) * frame.time_base * MICROSECONDS)
 
-    def _decode(self) -> Iterator[VideoFrame]:
+    def _decode(self, stream: VideoStream) -> Iterator[VideoFrame]:
         """Decoded frames; a stream that breaks off has ended, which is how live streams end."""
-        stream = self._container.streams.best("video")
-        if not isinstance(stream, VideoStream):
-            raise InputError(f"{self._name} holds no video stream")
         try:
             yield from self._container.decode(stream)
         except (FFmpegError, EOFError) as error:
@@ -145,9 +153,7 @@ def _open_live(address: str, name: str) -> InputContainer:
 def _clock_name(container: InputContainer, first: VideoFrame, times: FrameTimes | None) -> str:
     if times is not None:
         return "given"
-    # For formats without times (MJPEG; jpeg_pipe, png_pipe) libav invents 25 per second.
-    is_timeless = container.format.flags & NO_TIMESTAMPS or "_pipe" in container.format.name
-    return ARRIVAL if is_timeless or first.pts is None else "presentation"
+    return ARRIVAL if is_timeless(container) or first.pts is None else "presentation"
 
 
 def _now_us() -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
@@ -75,7 +76,8 @@ class PreparedFrames(FrameSource):
         if not times_us:
             return None
         start_us, stop_us = _ends_us(self._config)
-        return [t_us for t_us in times_us if start_us <= t_us - times_us[0] < stop_us]
+        before = itertools.takewhile(lambda t_us: t_us - times_us[0] < stop_us, times_us)
+        return [t_us for t_us in before if start_us <= t_us - times_us[0]]
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""

@@ -22,12 +22,13 @@ from texvent.capture.decoding.packet_times import (
     needs_packet_times,
     read_packet_times,
 )
-from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_range
+from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
 from texvent.io.input_checks import begins_with, refuse_missing
-from texvent.runtime.media_files import open_media_file, raise_scarcity
+from texvent.runtime.image_files import HEAD_BYTES
+from texvent.runtime.media_files import is_timeless, open_media_file, raise_scarcity
 from texvent.runtime.memory import usable_bytes
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
@@ -39,6 +40,8 @@ TEXT_ART = "tty"
 
 PLAYLIST_MARKS = (b"#EXTM3U", b"ffconcat version", b"v=0", b"<?xml", b"<MPD")
 """How files begin that name other files."""
+SEQUENCE_BRAND = "msf1"
+"""Brand of files of HEIF that hold animations."""
 ATTACHED_PICTURE = 1 << 10
 """libav's AV_DISPOSITION_ATTACHED_PIC."""
 HELD_BYTES = 6 * 8
@@ -79,8 +82,8 @@ class VideoFile(FrameSource):
                 raise FileFormatError(
                     f"{path} has no frame that can be decoded; it may be cut off or empty"
                 )
-            self._warn_of_kind(container, stream, first)
-            self._warn_of_delays(container, stream)
+            self._warn_of_others(container, stream)
+            self._warn_of_times(container, stream)
             reader = PixelReader(path)
             pixels = reader.read(first)
             self._metadata: dict[str, Any] = {
@@ -93,31 +96,32 @@ class VideoFile(FrameSource):
                 **coding_facts(first, comment),
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
-            warn_of_range(first, pixels, str(path))
+            warn_of_pixels(stream, first, pixels, str(path))
         if is_doubtful:
             count = self._count_packets()
         fps = times.fps if times else self._rate
         self._facts = SourceFacts(size, fps, count or None, self._metadata)
 
-    def _warn_of_kind(
-        self, container: InputContainer, stream: VideoStream, first: VideoFrame
-    ) -> None:
-        """Say what else the file may be meant for, and what its frames may hold."""
+    def _warn_of_others(self, container: InputContainer, stream: VideoStream) -> None:
+        """Say that there is another video in the file."""
         videos = [one for one in container.streams.video if has_decoder(one) and not is_cover(one)]
-        if len(videos) > 1:
+        # Its first image, and alpha, are streams of their own in an image sequence (AVIF).
+        is_sequence = SEQUENCE_BRAND in container.metadata.get("compatible_brands", "")
+        if len(videos) > 1 and not is_sequence:
             sizes = [f"{one.width}x{one.height}" for one in videos]
             warn(
                 f"{self._path} holds {len(videos)} videos ({few(sizes)}); number "
                 f"{1 + videos.index(stream)} is read, of {stream.width}x{stream.height}; copy "
                 "another into a file of its own (ffmpeg -map 0:v:NUMBER -c copy)"
             )
-        if first.interlaced_frame:
-            warn(
-                f"{self._path} is marked as interlaced: lines of a frame are of two times, which "
-                "makes events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
-            )
 
-    def _warn_of_delays(self, container: InputContainer, stream: VideoStream) -> None:
+    def _warn_of_times(self, container: InputContainer, stream: VideoStream) -> None:
+        """Say what is assumed where the file has neither times nor a rate."""
+        if self._times is None and not _states_rate(self._path, container, stream):
+            warn(
+                f"{self._path} holds neither times nor a frame rate, so {self._rate} frames per "
+                "second are assumed, as players do; give the rate (`fps`)"
+            )
         count = 0 if self._times else count_undelayed(self._path, container, stream)
         if count:
             warn(
@@ -373,8 +377,7 @@ def _promised_end_us(stream: VideoStream, first_pts_us: Fraction) -> int | None:
     return round(seconds * MICROSECONDS - first_pts_us)
 
 
-RAW = ("h264", "hevc", "m4v", "mpegvideo", "vvc", "obu")
-"""Containers that hold nothing but the stream."""
+Y4M = "yuv4mpegpipe"
 AVI = "avi"
 """Container without times: its frames follow one another, and B-frames mix up the order in it."""
 
@@ -382,6 +385,14 @@ AVI = "avi"
 def _own_rate(container: InputContainer, stream: VideoStream) -> Fraction | None:
     """Frame rate of the stream; libav invents one for streams without a container."""
     rate = stream.average_rate or stream.guessed_rate
-    if container.format.name in RAW:
+    if is_timeless(container):
         rate = stream.codec_context.framerate or rate
     return Fraction(rate) if rate else None
+
+
+def _states_rate(path: Path, container: InputContainer, stream: VideoStream) -> bool:
+    """Whether a rate, or times, are the file's own, and not invented by libav."""
+    if container.format.name == Y4M:
+        with path.open("rb") as file:
+            return re.search(rb" F[1-9]", file.readline(HEAD_BYTES)) is not None
+    return not is_timeless(container) or bool(stream.codec_context.framerate)

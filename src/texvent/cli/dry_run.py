@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 from texvent.capture.frame_source import known_times_us
+from texvent.capture.frame_times import check_increasing
 from texvent.pairs.time_jump import check_times
 from texvent.pipeline import Simulation
 from texvent.run.prepare import estimate_bytes
@@ -24,7 +25,9 @@ def estimate_run(simulation: Simulation) -> str:
     Warns:
         TexventWarning: of jumps in time, wherever they are.
     """
-    check_times(known_times_us(simulation.video) or ())
+    times_us = known_times_us(simulation.video) or ()
+    check_increasing(times_us, "the video", "; give a frame rate that replaces them (`fps`)")
+    check_times(times_us)
     total = simulation.video.frame_count
     size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
     memory = f"memory about {size}, however long the clip is"

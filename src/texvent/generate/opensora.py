@@ -169,6 +169,7 @@ class OpenSoraGenerator:
             made = self._run(prompt, seed, Path(folder))
             with atomic_file(path, overwrite=True) as part:
                 part.write_bytes(made.read_bytes())
+            cache.seal(path)
         return open_stored(path, fps, origin)
 
     def _run(self, prompt: str, seed: int, folder: Path) -> Path:

@@ -166,8 +166,20 @@ def _order_doubt(ordered: Sequence[Path]) -> str | None:
     ]
     if len(hours) == len(texts) and moments != sorted(moments):
         return "hours are those of am and pm"
+    if _starts_again(texts):
+        return f"numbers may start again behind {ordered[-1].name}, as those of cameras do"
     may_be = "digits behind _, p or - may be counted or decimals"
     return may_be if _may_be_decimals(texts) else None
+
+
+def _starts_again(texts: Sequence[str]) -> bool:
+    """Whether numbers of equal width are the highest and the lowest ones, and few between them."""
+    found = [re.findall(r"\d+", text)[-1:] for text in texts]
+    if not all(found) or len({len(one[0]) for one in found}) > 1:
+        return False
+    numbers, full = [int(one[0]) for one in found], 10 ** len(found[0][0])
+    gap = max((second - first for first, second in itertools.pairwise(numbers)), default=0)
+    return numbers[0] <= 1 and numbers[-1] >= full - 2 and 2 * gap > full
 
 
 def _may_be_decimals(texts: Sequence[str]) -> bool:

@@ -26,6 +26,9 @@ LEADING_ELSEWHERE = frozenset(
 )
 """Formats whose files name other files and addresses, or are programs."""
 
+NO_TIMESTAMPS = 0x80
+"""libav's AVFMT_NOTIMESTAMPS."""
+
 NO_DELAY = {"default_fps": "10"}
 """Frames of an animated PNG without a delay take 0.1 s, as those of a GIF do and in browsers."""
 
@@ -57,6 +60,11 @@ def only_self_contained() -> dict[str, str]:
     A video from someone else could otherwise show any file of this machine.
     """
     return {"format_whitelist": ",".join(sorted(av.formats_available - LEADING_ELSEWHERE))}
+
+
+def is_timeless(container: InputContainer) -> bool:
+    """Whether a format holds images without times, for which libav invents 25 per second."""
+    return bool(container.format.flags & NO_TIMESTAMPS) or "_pipe" in container.format.name
 
 
 def raise_scarcity(error: BaseException, name: object) -> None:

@@ -101,7 +101,7 @@ class SignalTally:
         if most_levels <= STILL_LEVELS:
             return (
                 f"the video stands still, no pixel changes by more than {most_levels:.0f} of 255 "
-                "levels; see `texvent check VIDEO`"
+                f"levels; {self._dimness()}see `texvent check VIDEO`"
             )
         share = float(np.mean(ranges >= threshold))
         what = "nothing changed" if share == 0 else f"{share:.2%} of the pixels changed"
@@ -110,6 +110,10 @@ class SignalTally:
             lower = min(most, threshold) / 2
             advice = f"lower it, such as contrast_threshold={lower:.2g}, or check the video"
         return f"{what} by more than the contrast threshold ({threshold:g}); {advice}"
+
+    def _dimness(self) -> str:
+        is_mask = 0 < float(self._high.max(initial=0.0)) <= STILL_LEVELS
+        return "give white_level=1 if they are masks of 0 and 1; " if is_mask else ""
 
     def _ranges(self) -> NDArray[Any]:
         """From the lowest to the highest brightness of each pixel followed, log units."""

@@ -35,12 +35,13 @@ def check_exact(stream, forward=True, backward=True):
     return motions
 
 
-def test_arrays_of_one_field_per_frame():
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
+def test_arrays_of_one_field_per_frame(dtype):
     given = {
         "motion": FORWARD, "motion_back": BACKWARD, "depth": DEPTH, "instances": INSTANCES,
     }  # fmt: skip
-    motions = check_exact(opened(given))
-    assert np.array_equal(motions[2].depth, DEPTH[2])
+    motions = check_exact(opened({name: field.astype(dtype) for name, field in given.items()}))
+    assert np.array_equal(motions[2].depth, DEPTH[2].astype(dtype).astype(np.float32))
     assert np.array_equal(motions[2].instance, INSTANCES[2])
     assert (motions[2].depth.dtype, motions[2].instance.dtype) == (np.float32, np.int32)
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.generate.videos.stored_video import (
     reopen,
     to_16_bits,
@@ -83,15 +83,22 @@ def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     assert cache.find("abd", FPS) is None
 
 
-def test_a_kept_video_that_is_cut_is_not_found_or_refused(cache):
+def test_a_kept_video_that_is_damaged_is_not_found_and_made_again(cache):
     path = cache.store("abc", noise(), FPS, {}).path
     content = path.read_bytes()
-    for size in range(0, len(content) - 2000, len(content) // 30):
-        path.write_bytes(content[:size])
-        found = cache.find("abc", FPS)
+    for place in range(0, len(content) - 2000, len(content) // 30):
+        flipped = content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :]
+        for damaged in (content[:place], flipped):
+            path.write_bytes(damaged)
+            with pytest.warns(TexventWarning, match="is damaged.*is made again"):
+                assert cache.find("abc", FPS) is None
+        path.write_bytes(content[:place])
+        found = reopen(path)
         if found is not None:
             with pytest.raises(FileFormatError, match="delete it and generate again"):
                 list(found)
+    cache.store("abc", noise(), FPS, {})
+    assert len(list(cache.find("abc", FPS))) == 5
 
 
 def test_without_reuse_nothing_is_kept_in_the_made_folder():

@@ -37,7 +37,10 @@ class PacketTimes:
     count: int
     """Packets that hold a frame to be shown."""
     times_us: NDArray[np.int64] | None
-    """Their times from the first, without repeats, µs; None where packets have none."""
+    """Their times from the first, without repeats, µs; None where packets have none.
+
+    They go back where those of decoding do.
+    """
     constant_rate: Fraction | None
     """Frames per second where the file states a rate and all times are those of it, rounded."""
 
@@ -57,17 +60,23 @@ def needs_packet_times(stream: VideoStream) -> bool:
 def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketTimes:
     """Read all packets of a stream; what is damaged ends the count, and decoding says so."""
     times: list[int | None] = []
+    falls: list[int] = []
+    last = None
     with contextlib.suppress(FFmpegError):
         for packet in container.demux(stream):
             if packet.size and not packet.is_discard:
+                if last is not None and packet.dts is not None and packet.dts < last:
+                    falls.append(len(times))
+                last = packet.dts
                 times.append(packet.pts)
     if not times or None in times:
         return PacketTimes(len(times), None, None)
-    ticks = np.sort(np.array(times, np.int64))
+    ticks = np.concatenate([*map(np.sort, np.split(np.array(times, np.int64), falls))])
     ticks -= ticks[0]
     rates = (rate for rate, step in _ticks_per_frame(stream).items() if _is_even(ticks, step))
     tick_us = float((stream.time_base or 1) * MICROSECONDS)
-    times_us = np.rint(np.unique(ticks) * tick_us).astype(np.int64)
+    shown = ticks[np.diff(ticks, prepend=-1) != 0]
+    times_us = np.rint(shown * tick_us).astype(np.int64)
     return PacketTimes(len(times), times_us, next(rates, None) if len(times) > 1 else None)
 
 

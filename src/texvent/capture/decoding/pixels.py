@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from av.sidedata.sidedata import Type as SideDataType
 from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
 from av.video.reformatter import ColorRange, VideoReformatter
+from av.video.stream import VideoStream
 from numpy.typing import NDArray
 
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
@@ -20,6 +22,9 @@ from texvent.video import PixelArray
 
 LIMITED = (16, 235)
 """Black and white of limited range."""
+GIF = "gif"
+SQUARE_ENOUGH = 0.01
+"""Pixels are called square, and turns quarters of a circle, up to this share."""
 UNSPECIFIED = 2
 """libav's number of an unknown transfer characteristic."""
 
@@ -58,7 +63,7 @@ class PixelReader:
         if self._matrix is None:
             # A frame whose side data were looked at is held by them until the garbage collector
             # runs, so this is done once.
-            self._matrix = display_matrix(frame)
+            self._matrix = _signs(*display_matrix(frame))
         return self._matrix
 
     def _levels(self, frame: VideoFrame) -> NDArray[Any]:
@@ -72,17 +77,43 @@ class PixelReader:
         return image.to_ndarray()
 
 
-def warn_of_range(frame: VideoFrame, pixels: PixelArray, name: str) -> None:
-    """Warn of grey that is marked as limited range, and may be.
+def warn_of_pixels(stream: VideoStream, frame: VideoFrame, pixels: PixelArray, name: str) -> None:
+    """Warn of marks of a video that are not followed: its frames are read as they are stored.
 
     libav reads and writes all grey as full range, but a file made from limited colour may keep its
     mark.
 
     Args:
+        stream: it states the shape of pixels.
         frame: the first one.
         pixels: its levels; some outside the limited range tell that they are full.
         name: of the file or stream.
     """
+    if frame.interlaced_frame:
+        warn(
+            f"{name} is marked as interlaced: lines of a frame are of two times, which makes "
+            "events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
+        )
+    aspect = stream.sample_aspect_ratio or Fraction(1)
+    if abs(aspect - 1) > SQUARE_ENOUGH:
+        warn(
+            f"{name} states pixels of {aspect.numerator}:{aspect.denominator}, width to height, "
+            "and is read pixel by pixel, so shapes and motion are squeezed; make its pixels square "
+            "(ffmpeg -vf scale=iw*sar:ih,setsar=1)"
+        )
+    a, b, c, d = display_matrix(frame)
+    turned, straight = abs(b) + abs(c), abs(a) + abs(d)
+    if min(turned, straight) > SQUARE_ENOUGH * max(turned, straight):
+        warn(
+            f"{name} is to be shown turned by {np.degrees(np.arctan2(b, a)):.3g}°, and is read "
+            "turned by the nearest quarter of a circle; turn it (ffmpeg -vf rotate), or remove "
+            "the mark (ffmpeg -display_rotation 0)"
+        )
+    if stream.codec_context.name == GIF and not frame.to_ndarray(format="rgba")[..., 3].all():
+        warn(
+            f"{name} has transparent pixels, of which a GIF has no colour: they are read as white; "
+            "give it a background, or save it as animated PNG"
+        )
     low, high = (round(level * np.iinfo(pixels.dtype).max / 255) for level in LIMITED)
     is_limited = pixels.ndim == 2 and frame.color_range == ColorRange.MPEG
     if is_limited and low <= pixels.min() and pixels.max() <= high:
@@ -93,16 +124,18 @@ def warn_of_range(frame: VideoFrame, pixels: PixelArray, name: str) -> None:
         )
 
 
-def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
-    """Signs of a, b, c, d of a frame's display matrix: x' = a x + c y, y' = b x + d y.
-
-    Angles between quarter turns, which no camera writes, count as the nearest.
-    """
+def display_matrix(frame: VideoFrame) -> tuple[int, ...]:
+    """a, b, c, d of a frame's display matrix: x' = a x + c y, y' = b x + d y."""
     side_data: Any = frame.side_data  # keys are of a type that its stub does not know
     stored = side_data.get(SideDataType.DISPLAYMATRIX)
     if stored is None:
         return 1, 0, 0, 1
     a, b, _, c, d = np.frombuffer(bytes(stored), "<i4", 5).tolist()
+    return a, b, c, d
+
+
+def _signs(a: int, b: int, c: int, d: int) -> tuple[int, int, int, int]:
+    """Signs of a display matrix; angles between quarter turns count as the nearest."""
     is_turned = abs(b) > abs(a)
     kept = (0, b, c, 0) if is_turned else (a, 0, 0, d)
     return tuple(np.sign(kept).tolist())

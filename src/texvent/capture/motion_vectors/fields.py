@@ -83,7 +83,7 @@ class FieldStack:
     """The two files between which a number is missing, if one is."""
 
     def field(self, kind: str, index: int) -> NDArray[Any]:
-        """One field of one frame.
+        """One field of one frame; half floats, whose products overflow, as float32.
 
         Raises:
             InputError: the file of this frame lacks a kind that the first one has.
@@ -95,7 +95,8 @@ class FieldStack:
                 f"{self.name}: the fields of frame {index} lack {kind}, which those of the first "
                 "frame have; write all files alike"
             )
-        return fields[kind]
+        field = fields[kind]
+        return field.astype(np.float32) if field.dtype == np.float16 else field
 
 
 def open_fields(given: Any, role: Role) -> FieldStack:

@@ -17,9 +17,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import OutputError
+from texvent.errors import OutputError, warn
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
-from texvent.io.atomic import temporary_folder
+from texvent.io.atomic import atomic_file, temporary_folder
 from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.video import PixelArray
@@ -68,8 +68,19 @@ class VideoCache:
         return folder / f"{key}{extension}"
 
     def has(self, key: str, extension: str = EXTENSION) -> bool:
-        """Whether a video of that key is kept."""
-        return self._is_kept and self.path(key, extension).is_file()
+        """Whether a video of that key is kept, byte for byte as it was made.
+
+        Warns:
+            TexventWarning: it has changed since.
+        """
+        path = self.path(key, extension)
+        if not (self._is_kept and path.is_file()):
+            return False
+        seal = _seal_of(path)
+        is_whole = not seal.is_file() or seal.read_text(errors="replace") == _digest(path)
+        if not is_whole:
+            warn(f"{path} is damaged: it has changed since it was made, and is made again")
+        return is_whole
 
     def find(self, key: str, fps: Fraction) -> StoredVideo | None:
         """The video of that `content_key`, or None."""
@@ -79,8 +90,24 @@ class VideoCache:
     def store(
         self, key: str, frames: Iterable[PixelArray], fps: Fraction, metadata: Mapping[str, Any]
     ) -> StoredVideo:
-        """Write a video; see `stored_video.write_video`."""
-        return write_video(frames, self.path(key), fps, metadata, overwrite=True)
+        """Write a video and seal it; see `stored_video.write_video`."""
+        video = write_video(frames, self.path(key), fps, metadata, overwrite=True)
+        self.seal(video.path)
+        return video
+
+    def seal(self, path: Path) -> None:
+        """Note the digest of a video of this cache, by which `has` finds damage."""
+        with atomic_file(_seal_of(path), overwrite=True) as part:
+            part.write_text(_digest(path))
+
+
+def _seal_of(path: Path) -> Path:
+    return path.with_name(f"{path.name}.sha256")
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 @functools.cache
