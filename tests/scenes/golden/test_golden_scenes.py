@@ -13,6 +13,7 @@ from tests.scenes.golden.golden import (
     stored_films,
     stored_scenes,
 )
+from tests.scenes.golden.rows import rows, stored_sums
 
 from texvent.generate.scene_input import list_nouns, list_words
 from texvent.scenes.spec.data import scene_from_data
@@ -41,6 +42,18 @@ def test_pictures_and_truth_are_as_they_were(sentence):
     means, _ = film(sentence)
     worst = np.abs(means - FILMS[sentence][0]).max(axis=(0, 1, 2))
     assert {name for name, one in zip(CHANNELS, worst, strict=True) if one > WITHIN[name]} == set()
+
+
+def test_every_row_of_a_table_gives_the_numbers_that_it_gave():
+    stored, others = stored_sums(), {}
+    found = {name: find() for name, find in rows()}
+    assert list(found) == list(stored)
+    for name, marks in found.items():
+        assert list(marks) == list(stored[name]), name
+        near = np.isclose(list(marks.values()), list(stored[name].values()), rtol=1e-6, atol=1e-6)
+        if not near.all():
+            others[name] = [one for one, row in zip(marks, near, strict=True) if not row.all()]
+    assert not others, f"{len(others)} of {len(stored)}"
 
 
 def test_all_sentences_that_are_to_be_filmed_are():
