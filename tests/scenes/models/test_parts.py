@@ -22,6 +22,7 @@ AT_REST = Pose(0.0, 0.0, 0.0, "stand")
 def test_every_noun_has_a_class_id():
     assert set(NOUNS) <= set(CLASS_IDS)
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
+    assert (CLASS_IDS["car"], CLASS_IDS["man"]) == (24, 67)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
     assert max(CLASS_IDS.values()) < FIRST_OTHER
 

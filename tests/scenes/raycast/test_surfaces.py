@@ -11,7 +11,7 @@ from tests.scenes.hand_scenes import day
 
 from texvent.scenes.raycast.acceleration import bin_rectangles
 from texvent.scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
-from texvent.scenes.raycast.shading.ground import crossing_place, strip_place
+from texvent.scenes.raycast.shading.ground import strip_place
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
@@ -87,7 +87,8 @@ def test_the_drawn_roads_lie_on_the_lines_of_the_staging(x, y, angle, roads):
     describe_surroundings(instant[0], environment, shadows=True)
     along, across, cosine, sine = strip_place(instant[0], x, y)
     assert across == pytest.approx(line.across(np.array([x, y])), abs=1e-6)
-    crossed = [crossing_place(instant[0], n, x, y)[1] for n in range(instant[0]["crossing_count"])]
+    drawn = instant[0]["crossings"][: instant[0]["crossing_count"]]
+    crossed = [(y - y0) * turn_x - (x - x0) * turn_y for x0, y0, turn_x, turn_y in drawn]
     nearest = min(abs(one) for one in (across, *crossed))
     assert nearest == pytest.approx(float(line.distance(np.array([[x, y]]))[0]), abs=1e-6)
     foot_x, foot_y, heading = line.at(along)

@@ -59,8 +59,7 @@ def strip_place(instant: Record, x: float, y: float) -> Strip:
 
 
 @jit(error_model="numpy", inner=True)
-def crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
-    """Where a ground point lies on the line of a road that crosses the main one."""
+def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
     x0, y0, cosine, sine = instant.crossings[number]
     return (
         (x - x0) * cosine + (y - y0) * sine,
@@ -192,7 +191,7 @@ def _road_look(
     other, other_feet, beyond = strip, feet, 0.0
     kerb = box_coverage(abs(strip[1]), half, half + 0.3, feet[1])
     for number in range(instant.crossing_count):
-        place = crossing_place(instant, number, x, y)
+        place = _crossing_place(instant, number, x, y)
         spread = _feet(place, patch)
         share = _inside_share(instant, place, spread[1])
         kerb = max(kerb, box_coverage(abs(place[1]), half, half + 0.3, spread[1]))
