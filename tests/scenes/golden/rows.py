@@ -12,7 +12,7 @@ import gzip
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 from zlib import crc32
@@ -30,7 +30,7 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
 )
 from texvent.scenes.models.places import PLACES
-from texvent.scenes.models.protocol import Noun, Pose
+from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.scene import (
     Camera,
@@ -79,9 +79,15 @@ def mark(*values: Any) -> list[float]:
     return [len(found), float(weights @ np.nan_to_num(found, posinf=3.0, neginf=-3.0))]
 
 
+@cache
+def usual_model(noun: Noun) -> Model:
+    """The model that several tests look at; built once, as building takes most of their time."""
+    return noun.build(colour=None, scale=1.0, seed=1)
+
+
 def mark_noun(noun: Noun) -> Marks:
     """A model: its size, and its parts at rest, on its way, and at all that it can do."""
-    model = noun.build(colour=None, scale=1.0, seed=1)
+    model = usual_model(noun)
     acts = sorted(noun.acts) + (sorted(HAND_GESTURES) if noun.name in HAND_NOUNS else [])
     if noun.name in PERSON_NOUNS:
         acts += sorted(ACTIVITIES) if noun.name == "man" else ["wave"]
