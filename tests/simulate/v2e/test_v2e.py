@@ -43,6 +43,15 @@ def test_a_bandwidth_above_the_frame_rate_follows_at_once():
     assert fast.equals(run(V2eSimulator(CLEAN), frames))
 
 
+@pytest.mark.parametrize("intensity", [0.0, 100.0, 255.0])
+def test_shot_noise_falls_with_the_light(intensity):
+    config = with_only(shot_noise_rate_hz=5.0)
+    frames = static(intensity, fps=24, seconds=0.5, shape=(60, 80))
+    expected = 5.0 * (1 - 0.75 * (intensity + 20) / 275) * 0.5 * 60 * 80
+    events = run(V2eSimulator(config, seed=1), frames)
+    assert len(events) == pytest.approx(expected, abs=4 * math.sqrt(expected))
+
+
 def test_pixels_with_a_low_threshold_have_more_shot_noise_of_that_polarity():
     config = with_only(shot_noise_rate_hz=50.0, threshold_sigma=0.03)
     simulator = V2eSimulator(config, seed=2)
