@@ -16,6 +16,7 @@ from tests.scenes.golden.golden import (
 from tests.scenes.golden.rows import rows, stored_sums
 
 from texvent.generate.scene_input import list_nouns, list_words
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import scene_text
 
@@ -56,5 +57,8 @@ def test_every_row_of_a_table_gives_the_numbers_that_it_gave():
     assert not others, f"{len(others)} of {len(stored)}"
 
 
-def test_all_sentences_that_are_to_be_filmed_are():
+def test_all_sentences_that_are_to_be_filmed_are_and_show_every_ground():
     assert list(FILMS) == read_lines("filmed.txt")
+    filmed = (decided(stored_scenes()[one]) for one in FILMS)
+    shown = {PLACES[one.place.name].ground for one in filmed if one is not None}
+    assert shown == {place.ground for place in PLACES.values()}
