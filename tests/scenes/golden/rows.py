@@ -44,7 +44,7 @@ from texvent.scenes.spec.scene import (
     SceneObject,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.lighting import LIGHTINGS, choose_lighting
+from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.sensor import SensorSize
 
 SUMS = Path(__file__).with_name("rows.json.gz")
@@ -137,11 +137,11 @@ def mark_lights() -> Marks:
     """The lighting of all places in every light."""
     return {
         kind: mark(*(choose_lighting(place, Light(kind)) for place in PLACES.values()))
-        for kind in LIGHTINGS
+        for kind in _choices(Light, "kind")
     }
 
 
-def _choices(owner: type, field: str) -> tuple[str, ...]:
+def _choices(owner: type, field: str) -> tuple[Any, ...]:
     """Words that a field of a scene may have."""
     (literal, _) = get_args(get_type_hints(owner)[field])
     return get_args(literal)
@@ -167,8 +167,8 @@ def _of_objects() -> Iterator[tuple[str, Scene]]:
             objects = actor, SceneObject(target), SceneObject("dog")
             yield f"{noun} {kind} {target}", Scene(objects=objects, place=EMPTY)
     for one in get_args(spec.Placement):
-        objects = SceneObject("man", placement=one), SceneObject("car")
-        yield f"placed {one}", Scene(objects=objects, place=EMPTY)
+        placed = SceneObject("man", placement=one), SceneObject("car")
+        yield f"placed {one}", Scene(objects=placed, place=EMPTY)
 
 
 def _of_surroundings() -> Iterator[tuple[str, Scene]]:
