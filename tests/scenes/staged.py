@@ -27,19 +27,22 @@ def stage(
     relations: tuple[tuple[Any, ...], ...] = (),
     effects: tuple[Effect, ...] = (),
     camera: Camera | None = None,
-    place: str | None = "grass",
+    place: str | None = "",
     light: str | None = None,
     seed: int = 0,
     duration_s: float = DURATION_S,
 ) -> ComposedScene:
-    """A scene; a relation is its kind, an object's number and those of its targets."""
+    """A scene; a relation is its kind, an object's number and those of its targets.
+
+    Where no place is given there is grass without scenery, which is quick.
+    """
     description = SceneDescription(
         objects=objects,
         relations=tuple(Relation(kind, who, tuple(targets)) for kind, who, *targets in relations),
         effects=effects,
         camera=camera or Camera(),
         light=Light(light),
-        place=Place(place),
+        place=Place("grass", is_empty=True) if place == "" else Place(place),
     )
     return compose_scene(description, seed=seed, size=SIZE, duration_s=duration_s)
 

@@ -46,6 +46,11 @@ def test_models_that_remember_are_not_doubted(simulator):
     assert said == ""
 
 
+def test_two_equal_frames_stand_still():
+    _, said = doubt_of(drifting(frames=1).repeat(2, axis=0))
+    assert said.startswith("no events: the video stands still, no pixel changes by more than 0")
+
+
 def test_a_model_that_holds_change_back_otherwise_gets_general_advice():
     _, said = doubt_of(drifting(), simulator="v2e", cutoff_hz=0.01, shot_noise_rate_hz=0.0)
     assert "hold it back; give a lower contrast_threshold=0.1" in said

@@ -94,6 +94,13 @@ def test_labels_that_cannot_be_are_refused(
         read_labels(tmp_path / name.replace("b.", "c."), SIZE)
 
 
+@pytest.mark.parametrize("right", [2, 3])
+def test_a_track_may_tremble(tmp_path: Path, right: int) -> None:
+    """By less than a diagonal of its box, 5 px, from frame to frame and back."""
+    (tmp_path / "a.txt").write_text(f"1,4,1,1,3,4\n2,4,{right},1,3,4\n3,4,1,1,3,4\n")
+    assert read_labels(tmp_path / "a.txt", SIZE).boxes["x"].tolist() == [0, right - 1, 0]
+
+
 TIMES = np.array([1_000, 2_000, 3_000, 4_000])
 IDS = {"1": 4, "2": 0}
 

@@ -16,7 +16,6 @@ import texvent
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.tables import CLASS_IDS
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
@@ -371,8 +370,3 @@ def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
     assert truth.metadata["complete"] is False
     assert len(events)
     np.testing.assert_array_equal(truth.event_instance, events.instance)
-
-
-def test_every_noun_has_a_class_id_that_stays():
-    assert set(CLASS_IDS) >= set(NOUNS)
-    assert [CLASS_IDS[name] for name in ("airplane", "car", "man", "zebra")] == [1, 24, 67, 117]

@@ -41,7 +41,6 @@ class SignalTally:
     def begin(self, simulator: Any) -> None:
         """Forget everything; the next frames go to this simulator."""
         self.signal = self.noise = 0
-        self._frames = 0
         self._simulator = simulator
         self._low: NDArray[Any] = np.empty(0)
         self._high: NDArray[Any] = np.empty(0)
@@ -52,11 +51,10 @@ class SignalTally:
         luma = frame.luma
         step = math.ceil(math.sqrt(luma.size / SAMPLE))
         sample = luma[::step, ::step]
-        if self._frames == 0:
+        if self._pixels == 0:
             self._low = self._high = sample.copy()
             self._pixels = luma.size
         self._low, self._high = np.minimum(self._low, sample), np.maximum(self._high, sample)
-        self._frames += 1
 
     def count(self, packet: EventStream) -> None:
         """Count the events of a packet; without a label they are signal."""
@@ -74,7 +72,7 @@ class SignalTally:
         """
         if kept == "noise":
             return None if self.noise else "no events: the run keeps those of noise alone"
-        if self._frames < 2:
+        if self._pixels == 0:
             return None
         threshold = float(self._simulator.contrast_threshold)
         ranges = self._ranges()

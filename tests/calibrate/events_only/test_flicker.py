@@ -115,11 +115,12 @@ def test_a_refractory_period_that_hides_the_burst_keeps_the_old_values():
     assert flicker.config == START
 
 
-def test_cycles_and_bursts_of_a_pixel_by_hand():
+@pytest.mark.parametrize("stated", [9.82, 9.953, 10.0, 10.17])
+def test_cycles_and_bursts_of_a_pixel_by_hand(stated):
     # 10 Hz: bright from 0, dark from 50 ms; two ON events each, then one OFF event.
     t = [start + after for start in range(0, 500_000, 100_000) for after in (1000, 3000, 52_000)]
     events = EventStream([0] * 15, [0] * 15, t, [1, 1, 0] * 5, SensorSize(1, 1))
-    cycles = find_cycles(events, 10.0)
+    cycles = find_cycles(events, stated)
     assert cycles.hz == pytest.approx(10.0, rel=1e-6)
     trains = PixelTrains.of(events)
     on, off = find_bursts(trains, cycles, 1), find_bursts(trains, cycles, 0)

@@ -49,7 +49,7 @@ def both_at(
 PIXELS = np.stack(np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT)), axis=2).reshape(-1, 2)
 
 
-@pytest.mark.parametrize("place", [0.0, 0.3, 0.5, 1.0])
+@pytest.mark.parametrize("place", [0.3, 1.0])
 def test_a_bar_before_a_background_is_drawn_as_defined(place):
     # The bar is upright: two rows at the image's edges and one inside.
     rows = PIXELS[np.isin(PIXELS[:, 1], (0, 5, HEIGHT - 1))]
@@ -75,7 +75,7 @@ def test_random_surfaces_are_drawn_as_defined():
             )
             for index in range(2)
         ]
-        image, expected = both_at(*frames, 0.4, random.permutation(PIXELS)[:60])
+        image, expected = both_at(*frames, 0.4, random.permutation(PIXELS)[:30])
         # A place exactly on a limit may fall to either side in float32.
         assert np.mean(np.abs(image - expected) > 0.05) < 0.02
 

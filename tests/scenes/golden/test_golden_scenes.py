@@ -13,8 +13,10 @@ from tests.scenes.golden.golden import (
     stored_films,
     stored_scenes,
 )
+from tests.scenes.golden.rows import rows, stored_sums
 
 from texvent.generate.scene_input import list_nouns, list_words
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import scene_text
 
@@ -43,5 +45,20 @@ def test_pictures_and_truth_are_as_they_were(sentence):
     assert {name for name, one in zip(CHANNELS, worst, strict=True) if one > WITHIN[name]} == set()
 
 
-def test_all_sentences_that_are_to_be_filmed_are():
+def test_every_row_of_a_table_gives_the_numbers_that_it_gave():
+    stored, others = stored_sums(), {}
+    found = {name: find() for name, find in rows()}
+    assert list(found) == list(stored)
+    for name, marks in found.items():
+        assert list(marks) == list(stored[name]), name
+        near = np.isclose(list(marks.values()), list(stored[name].values()), rtol=1e-6, atol=1e-6)
+        if not near.all():
+            others[name] = [one for one, row in zip(marks, near, strict=True) if not row.all()]
+    assert not others, f"{len(others)} of {len(stored)}"
+
+
+def test_all_sentences_that_are_to_be_filmed_are_and_show_every_ground():
     assert list(FILMS) == read_lines("filmed.txt")
+    filmed = (decided(stored_scenes()[one]) for one in FILMS)
+    shown = {PLACES[one.place.name].ground for one in filmed if one is not None}
+    assert shown == {place.ground for place in PLACES.values()}

@@ -6,12 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from texvent.scenes.models.materials import RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.scene import Shape
 
 from ..every_row import for_every
+from ..golden.rows import usual_model
 
 ALL = list(NOUNS.values())
 POSES = [
@@ -38,14 +38,12 @@ HOPPERS = {"frog"}
 """What leaves the ground at each stride."""
 
 
-def build(noun: Noun, *, scale: float = 1.0, seed: int = 0) -> Model:
-    return noun.build(colour=None, scale=scale, seed=seed)
+VIOLET = (0.31, 0.02, 0.47)
 
 
 @cache
-def usual_model(noun: Noun) -> Model:
-    """What several tests look at; built once, as building takes most of their time."""
-    return build(noun, seed=1)
+def violet_model(noun: Noun) -> Model:
+    return noun.build(colour=VIOLET, scale=0.3, seed=7)
 
 
 for_every_noun = for_every(ALL)
@@ -87,9 +85,8 @@ def test_every_word_means_one_noun_and_is_lower_case():
 
 @for_every_noun
 def test_parts_keep_their_number_order_and_handedness(noun):
-    for seed, colour, scale in ((0, None, 1.0), (7, RED, 0.3)):
-        model = noun.build(colour=colour, scale=scale, seed=seed)
-        posed = [model.parts(pose) for pose in (POSES if seed == 0 else POSES[::3])]
+    for model, poses in ((usual_model(noun), POSES), (violet_model(noun), POSES[::3])):
+        posed = [model.parts(pose) for pose in poses]
         shapes = [[part.shape for part in parts] for parts in posed]
         assert all(row == shapes[0] for row in shapes)
         assert 1 <= len(shapes[0]) <= 60
@@ -108,7 +105,7 @@ def test_parts_keep_their_number_order_and_handedness(noun):
 
 @for_every_noun
 def test_size_holds_all_parts_and_is_not_loose(noun):
-    model = build(noun, seed=2)
+    model = usual_model(noun)
     points = all_points(model, *(pose for pose in POSES if pose.activity != "sit"))
     reach = np.abs(points).max(axis=0)
     size = np.array([model.length, model.width, model.height])
@@ -164,10 +161,8 @@ def test_a_millisecond_moves_nothing_far(noun):
 def test_a_colour_word_shows(noun):
     if noun.name in LINES:
         return
-    violet = (0.31, 0.02, 0.47)
-    pose = Pose(0.3, 0.4, 1.0)
-    painted = noun.build(colour=violet, scale=1.0, seed=0).parts(pose)
-    hue = np.array(violet) / np.linalg.norm(violet)
+    painted = violet_model(noun).parts(Pose(0.3, 0.4, 1.0))
+    hue = np.array(VIOLET) / np.linalg.norm(VIOLET)
     likeness = [float(np.dot(p.colour, hue) / max(np.linalg.norm(p.colour), 1e-9)) for p in painted]
     assert max(likeness) > 0.97
 
@@ -175,7 +170,7 @@ def test_a_colour_word_shows(noun):
 @pytest.mark.parametrize("name", ["ball", "football", "sphere", "wheel", "car", "truck", "bicycle"])
 def test_rolling_nouns_turn_by_distance_over_radius(name):
     for scale in (1.0, 2.5):
-        model = build(NOUNS[name], scale=scale)
+        model = NOUNS[name].build(colour=None, scale=scale, seed=0)
         step = 1e-3
         first = model.parts(Pose(0.0, 0.0, 1.0))
         second = model.parts(Pose(0.0, step, 1.0))

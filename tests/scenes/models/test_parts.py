@@ -1,7 +1,6 @@
-"""Nouns as lists of parts: what lines, surfaces and joints mean; and that no noun has changed."""
+"""Nouns as lists of parts: what lines, surfaces and joints mean."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,44 +10,19 @@ from texvent.scenes.models.joints import read_joint, read_light
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.part_lines import read_parts
-from texvent.scenes.models.parts import PartsBuilder, read_nouns
-from texvent.scenes.models.protocol import Noun, Pose
+from texvent.scenes.models.parts import read_nouns
+from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.surfaces import read_surface, shared_surfaces
 from texvent.scenes.models.tables import CLASS_IDS, FIRST_OTHER
 from texvent.scenes.scene import Texture
 
-DIGEST = Path(__file__).with_name("noun_digest.txt")
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
-
-
-def describe(noun: Noun) -> list[float]:
-    """Number of parts, size, mean height and brightness: what a wrong edit of data changes."""
-    model = noun.build(colour=None, scale=1.0, seed=1)
-    parts = model.parts(Pose(0.4, 0.7, 1.0))
-    places = np.array([part.to_body for part in parts])
-    volumes = np.abs(np.linalg.det(places[:, :, :3])) ** (1 / 3)
-    mean = volumes @ np.array([(part.to_body[2, 3], sum(part.colour)) for part in parts])
-    return [len(parts), model.length, model.width, model.height, *(mean / volumes.sum())]
-
-
-def listed() -> list[Noun]:
-    return [noun for noun in NOUNS.values() if isinstance(noun.build, PartsBuilder)]
-
-
-def test_every_noun_of_the_files_is_as_it_was():
-    entries = DIGEST.read_text("utf-8").replace("\n", ";").strip(";").split(";")
-    stored = {name.strip(): line.split() for name, line in (one.split(":") for one in entries)}
-    found = {noun.name: describe(noun) for noun in listed()}
-    assert sorted(found) == sorted(stored)
-    for name, numbers in found.items():
-        # Processors differ in the last digit of a sum.
-        wanted = [float(word) for word in stored[name]]
-        np.testing.assert_allclose(numbers, wanted, rtol=0.02, atol=2e-3, err_msg=name)
 
 
 def test_every_noun_has_a_class_id():
     assert set(NOUNS) <= set(CLASS_IDS)
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
+    assert (CLASS_IDS["car"], CLASS_IDS["man"]) == (24, 67)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
     assert max(CLASS_IDS.values()) < FIRST_OTHER
 

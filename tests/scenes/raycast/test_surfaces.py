@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.scenes.hand_scenes import day
 
 from texvent.scenes.raycast.acceleration import bin_rectangles
-from texvent.scenes.raycast.records import INSTANT_RECORD, describe_surroundings
+from texvent.scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
 from texvent.scenes.raycast.shading.ground import strip_place
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
 from texvent.scenes.raycast.shading.value_noise import (
@@ -72,21 +72,25 @@ def test_a_material_keeps_its_mean_at_every_size(texture):
     assert np.abs(means[0][2:]).max() < 0.05
 
 
-@given(
-    x=st.floats(-30, 30),
-    y=st.floats(-30, 30),
-    angle=st.floats(-3, 3),
-)
+METRES, ANGLE = st.floats(-30, 30), st.floats(-3, 3)
+
+
+@given(x=METRES, y=METRES, angle=ANGLE, roads=st.lists(st.tuples(METRES, METRES, ANGLE)))
 @settings(max_examples=100)
-def test_the_drawn_road_lies_on_the_line_of_the_staging(x, y, angle):
-    line = RoadLine(angle, (2.0, -1.0))
-    offset = np.array([2.0, -1.0])
-    environment = replace(day(Ground.ROAD), road_angle=angle, road_offset=offset)
+def test_the_drawn_roads_lie_on_the_lines_of_the_staging(x, y, angle, roads):
+    line = RoadLine(angle, (2.0, -1.0), tuple(roads[:MAX_CROSSINGS]))
+    environment = replace(
+        day(Ground.ROAD), road_angle=angle, road_offset=np.array([2.0, -1.0]),
+        road_crossings=np.array(roads).reshape(-1, 3),
+    )  # fmt: skip
     instant = np.zeros(1, dtype=INSTANT_RECORD)
     describe_surroundings(instant[0], environment, shadows=True)
     along, across, cosine, sine = strip_place(instant[0], x, y)
     assert across == pytest.approx(line.across(np.array([x, y])), abs=1e-6)
-    assert abs(across) == pytest.approx(float(line.distance(np.array([[x, y]]))[0]), abs=1e-6)
+    drawn = instant[0]["crossings"][: instant[0]["crossing_count"]]
+    crossed = [(y - y0) * turn_x - (x - x0) * turn_y for x0, y0, turn_x, turn_y in drawn]
+    nearest = min(abs(one) for one in (across, *crossed))
+    assert nearest == pytest.approx(float(line.distance(np.array([[x, y]]))[0]), abs=1e-6)
     foot_x, foot_y, heading = line.at(along)
     assert (cosine, sine) == pytest.approx((np.cos(heading), np.sin(heading)), abs=1e-6)
     assert (foot_x - sine * across, foot_y + cosine * across) == pytest.approx((x, y), abs=1e-6)

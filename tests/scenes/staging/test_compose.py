@@ -34,6 +34,7 @@ PROMPTS = (
     "a rocket launches",
 )
 TIMES = (0.0, 0.4, 1.0, 1.7, 2.0)
+EMPTY = Place("grass", is_empty=True)
 
 
 @lru_cache(maxsize=64)
@@ -115,7 +116,7 @@ def test_actors_do_not_stand_in_one_another(prompt):
 
 def test_a_noun_alone_is_large_in_the_image():
     for name in list(NOUNS)[::7]:
-        thing = SceneDescription("", (SceneObject(name),), place=Place("grass"))
+        thing = SceneDescription("", (SceneObject(name),), place=EMPTY)
         scene = compose_scene(thing, seed=0, size=SIZE, duration_s=2.0)
         for time in (0.0, 2.0):
             points = seen(scene, scene.actors[0], time)
@@ -123,19 +124,6 @@ def test_a_noun_alone_is_large_in_the_image():
             pixels = np.ptp(points[:, :2], axis=0) * [SIZE.width / 2, SIZE.height / 2]
             assert pixels.max() > 40.0, name
             assert np.abs(points[:, :2].mean(axis=0)).max() < 0.9, name
-
-
-@pytest.mark.parametrize("nouns", [("house", "tree"), ("ball", "cube"), ("man", "bus")])
-def test_left_and_right_are_so_in_the_picture(nouns):
-    objects = tuple(
-        SceneObject(noun, placement=side)
-        for noun, side in zip(nouns, ("left", "right"), strict=True)
-    )
-    description = SceneDescription("", objects, place=Place("grass"))
-    scene = compose_scene(description, seed=0, size=SIZE, duration_s=2.0)
-    for time in TIMES:
-        left, right = (float(seen(scene, one, time)[:, 0].mean()) for one in scene.actors)
-        assert left < 0.0 < right
 
 
 def test_an_object_is_made_of_what_is_said():

@@ -76,14 +76,6 @@ def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
         assert abs(after.speed_m_s - before.speed_m_s) < 1.0
 
 
-@pytest.mark.parametrize(("direction", "sign"), [("left", 1.0), ("right", -1.0)])
-def test_a_car_turns_a_quarter_circle_and_drives_on(direction, sign):
-    start, end = (path_of(Motion("turn", direction)).at(time_s) for time_s in (0.0, 4.0))
-    assert end.yaw - start.yaw == pytest.approx(sign * 0.5 * math.pi)
-    assert end.distance_m > 10.0
-    assert end.speed_m_s == start.speed_m_s
-
-
 @given(st.floats(0.5, 20.0))
 def test_stated_speeds_are_exact(speed):
     kinds = [Motion("drive", speed_m_s=speed), Motion("turn", "left", speed_m_s=speed)]

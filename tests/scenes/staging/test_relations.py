@@ -47,16 +47,6 @@ def test_a_car_overtakes_a_truck_without_touching_it(relation):
     assert max(overlap(car, truck, t) for t in TIMES) == 0.0
 
 
-def test_chairs_stand_around_a_table_and_face_it():
-    objects = thing("chair", ("stand",), count=4), thing("table")
-    *chairs, table = stage(*objects, relations=(("around", 0, 1),), place="indoor").actors
-    for chair in chairs:
-        inwards = (table.middle(0.0) - chair.middle(0.0))[:2]
-        nose = chair.trajectory.at(0.0).to_world()[:2, 0]
-        assert float(nose @ inwards) / np.linalg.norm(inwards) > 0.9
-        assert overlap(chair, table, 0.0) < 0.3
-
-
 def test_what_begins_after_the_clip_is_reported():
     jumps = Motion("jump", start_s=5.0)
     walks = SceneObject("man", motions=(Motion("walk"), jumps))
@@ -83,16 +73,6 @@ def test_who_is_on_a_seat_sits_unless_they_stand(motions, doing):
     man, chair = stage(thing("man", *motions), thing("chair"), relations=(("on", 0, 1),)).actors
     assert man.trajectory.at(0.0).activity == doing
     assert overlap(man, chair, 0.0) > 0.4
-
-
-def test_things_in_a_row_on_a_table_stand_on_its_top():
-    objects = thing("book", count=3), thing("cup"), thing("table")
-    scene = stage(*objects, place="indoor", relations=(("on", 0, 2), ("on", 1, 2)))
-    *things, table = scene.actors
-    for one in things:
-        assert one.corners(0.0)[:, 2].min() == pytest.approx(table.model.height, abs=0.03)
-        assert overlap(one, table, 0.0) == pytest.approx(1.0)
-    assert len({round(float(one.middle(0.0)[0]), 2) for one in things}) == 4
 
 
 def test_who_is_on_what_moves_goes_along():

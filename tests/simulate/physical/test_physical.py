@@ -21,13 +21,6 @@ def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest():
     assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
 
 
-def test_a_step_fires_once_per_threshold():
-    frames = frames_of([intensity(v) for v in (4, 4, 4.9, 4.9)], [0, 1000, 1001, 500_000])
-    events = run(clean(), frames)
-    assert events.t.tolist() == [1000] * 4
-    assert events.p.all()
-
-
 def test_gamma_makes_video_linear():
     levels = [255 * (linear / 255) ** (1 / 2.2) for linear in (50, 120)]
     coded = run(clean(gamma=2.2), frames_of(levels, [0, 100_000]))

@@ -162,7 +162,7 @@ def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame():
     assert all(np.array_equal(one, two) for one, two in zip(small, inside, strict=True))
 
 
-@pytest.mark.parametrize("mean", [1e-5, 0.01, 0.3, 0.99])
+@pytest.mark.parametrize("mean", [0.0, 1e-5, 0.01, 0.3, 0.99])
 def test_voltage_noise_reaches_the_threshold_with_the_stated_probability(mean):
     shape = (400, 400)
     noise = draw_voltage_noise(shape, frame_key(1, 2), threshold=0.2, mean=mean)

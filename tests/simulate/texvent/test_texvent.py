@@ -37,15 +37,14 @@ def seconds(events: EventStream) -> list[float]:
     return [round(t / SECOND, 3) for t in events.t.tolist()]
 
 
-def ramp_a(inner: int = 5, *, blended: bool = False) -> list[Frame]:
+def ramp_a(inner: int = 5) -> list[Frame]:
     steps = inner + 1
     frames = []
     for k in range(steps + 1):
         phase = k / steps
-        exact = 50 * np.exp(1.05 * phase) - BALANCE
-        mixed = 20 + (50 * np.exp(1.05) - BALANCE - 20) * phase
+        level = 50 * np.exp(1.05 * phase) - BALANCE
         t_us = round(k * SECOND / steps)
-        frames.append(pixel(mixed if blended else exact, t_us, is_source=k in (0, steps)))
+        frames.append(pixel(level, t_us, is_source=k in (0, steps)))
     return frames
 
 
@@ -69,15 +68,6 @@ def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times):
     events = simulate(ramp_a(), reset=reset, timestamp_rule=stamp)
     assert seconds(events) == pytest.approx(times, abs=1e-9)
     assert set(events.p.tolist()) == {1}
-
-
-@pytest.mark.parametrize(
-    ("reset", "times"),
-    [("current", (0.124, 0.324, 0.528, 0.936)), ("step", (0.124, 0.269, 0.446, 0.660, 0.927))],
-)
-def test_blended_frames_bend_the_times_of_ramp_a(reset, times):
-    events = simulate(ramp_a(blended=True), reset=reset, timestamp_rule="linear")
-    assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
 def test_a_single_event_per_frame_keeps_the_first_crossing_only():

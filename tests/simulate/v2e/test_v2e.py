@@ -43,15 +43,13 @@ def test_a_bandwidth_above_the_frame_rate_follows_at_once():
     assert fast.equals(run(V2eSimulator(CLEAN), frames))
 
 
-@pytest.mark.parametrize(("fps", "intensity"), [(24, 0.0), (24, 255.0), (500, 0.0)])
-def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
+@pytest.mark.parametrize("intensity", [0.0, 100.0, 255.0])
+def test_shot_noise_falls_with_the_light(intensity):
     config = with_only(shot_noise_rate_hz=5.0)
-    frames = static(intensity, fps=fps, seconds=0.5, shape=(60, 80))
-    events = run(V2eSimulator(config, seed=1), frames)
+    frames = static(intensity, fps=24, seconds=0.5, shape=(60, 80))
     expected = 5.0 * (1 - 0.75 * (intensity + 20) / 275) * 0.5 * 60 * 80
-    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-    assert (events.label == NOISE).all()
+    events = run(V2eSimulator(config, seed=1), frames)
+    assert len(events) == pytest.approx(expected, abs=4 * math.sqrt(expected))
 
 
 def test_pixels_with_a_low_threshold_have_more_shot_noise_of_that_polarity():

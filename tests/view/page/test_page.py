@@ -50,7 +50,8 @@ def test_the_page_holds_the_events_and_the_facts(tmp_path: Path) -> None:
     np.testing.assert_array_equal(column(data, "p", "u1"), events.p)
     shares = column(data, "t", "<f4")
     np.testing.assert_allclose(shares * 49_900 + 1_000, events.t, atol=0.01)
-    for text in ("two trees", "Seed", "Sensor", "alpha"):
+    for text in ("two trees", "Seed", "Sensor", "alpha", "pixels · 0.050 s · 500 events",
+                 "0.049901 s, from 1,000 µs", "10 k events per second"):  # fmt: skip
         assert text in page
     assert "Shows all 500 events." in page
     assert "500 (50.0% ON)" in page

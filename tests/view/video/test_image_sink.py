@@ -19,9 +19,9 @@ def images():
     return [(1_000_003 + 40_000 * n, np.full(SIZE.shape, n / 10, np.float32)) for n in range(4)]
 
 
-def write(path, *, overwrite=False, some=None):
+def write(path, *, overwrite=False, some=None, size=SIZE):
     opened = open_image_sink(
-        path, size=SIZE, fps=Fraction(25), facts={"network": "firenet"}, overwrite=overwrite
+        path, size=size, fps=Fraction(25), facts={"network": "firenet"}, overwrite=overwrite
     )
     with opened as sink:
         for t_us, image in images() if some is None else some:
@@ -40,12 +40,17 @@ def test_a_folder_is_read_again_with_its_times(tmp_path):
     assert facts == {"network": "firenet"}
 
 
-def test_a_video_has_even_sides_and_the_times_of_the_images(tmp_path):
-    write(tmp_path / "video.mp4")
-    frames = list(open_frames(str(tmp_path / "video.mp4"), CaptureConfig()))
+@pytest.mark.parametrize("size", [SIZE, SensorSize(16, 11), SensorSize(15, 12)])
+@pytest.mark.parametrize(("name", "error"), [("video.mp4", 4), ("video.gif", 0.5)])
+def test_a_video_has_even_sides_and_the_times_of_the_images(tmp_path, size, name, error):
+    ramp = np.add.outer(*(np.arange(side) for side in size.shape)).astype(np.float32)
+    some = [(t_us, ramp * n / 100) for n, (t_us, _) in enumerate(images())]
+    write(tmp_path / name, some=some, size=size)
+    frames = list(open_frames(str(tmp_path / name), CaptureConfig()))
     assert frames[0].size == SensorSize(16, 12)
     assert [frame.t_us for frame in frames] == [0, 40_000, 80_000, 120_000]
-    assert float(frames[3].luma.mean()) == pytest.approx(0.3 * 255, abs=3)
+    shown = frames[3].luma[: size.height, : size.width]
+    assert np.abs(shown - 255 * some[3][1]).mean() < error
 
 
 def test_only_a_folder_of_such_images_is_replaced(tmp_path):

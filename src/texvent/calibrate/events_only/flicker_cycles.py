@@ -13,6 +13,9 @@ from texvent.video import MICROSECONDS
 
 FREQUENCY_RANGE = 0.02
 """Relative range around the given frequency that is searched."""
+TRIALS = 16
+"""Frequencies tried for each cycle by which they differ over the recording: the nearest one is
+wrong by less than `NEAR_BURST`."""
 MOST_EVENTS = 200_000
 """Events that the frequency is found from."""
 LEAST_STRENGTH = 0.2
@@ -77,7 +80,7 @@ def find_cycles(events: EventStream, hz: float) -> Cycles:
     step = max(1, len(events) // MOST_EVENTS)
     t = (events.t[::step] - first_us) / MICROSECONDS
     sign = events.p[::step].astype(np.float64) * 2 - 1
-    count = 2 * int(8 * seconds * hz * FREQUENCY_RANGE) + 9
+    count = 2 * int(TRIALS * seconds * hz * FREQUENCY_RANGE) + 9
     trials = hz * (1 + np.linspace(-1, 1, count) * FREQUENCY_RANGE)
     strength = np.array([abs((sign * np.exp(2j * np.pi * one * t)).mean()) for one in trials])
     best = int(strength.argmax())
@@ -86,23 +89,12 @@ def find_cycles(events: EventStream, hz: float) -> Cycles:
             f"ON and OFF events do not alternate at {hz:g} Hz (strength {strength[best]:.2f} of 1, "
             f"{LEAST_STRENGTH} is needed). Is that the frequency of the light?"
         )
-    hz = _peak(trials, strength, best)
-    hz = _straighten(hz, t[sign > 0])
+    hz = _straighten(trials[best], t[sign > 0])
     phase = (t * hz) % 1.0
     rate = [np.histogram(phase[sign == one], PHASE_BINS, (0, 1))[0] for one in (-1, 1)]
     onset = [_onset(rate[p], rate[1 - p]) / PHASE_BINS - LEAD for p in (0, 1)]
     start = first_us + (np.array(onset) % 1.0) * MICROSECONDS / hz
     return Cycles(hz, start, int(seconds * hz) - 1)
-
-
-def _peak(trials: Float64Array, strength: Float64Array, best: int) -> float:
-    """The top of the parabola through the best trial and its neighbours."""
-    if not 0 < best < len(trials) - 1:
-        return float(trials[best])
-    left, middle, right = strength[best - 1 : best + 2]
-    bend = left - 2 * middle + right
-    shift = 0.5 * (left - right) / bend if bend else 0.0
-    return float(trials[best] + shift * (trials[1] - trials[0]))
 
 
 def _straighten(hz: float, t: Float64Array) -> float:

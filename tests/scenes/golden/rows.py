@@ -1,0 +1,211 @@
+"""A small scene or model of every row of the tables of scenes, and sums over its numbers.
+
+    python -m tests.scenes.golden.rows    # writes the sums anew; CHANGELOG.md says why
+
+`rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
+do, motions, relations, places, lights, effects, camera moves.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.generate.scene_input import describe_scene
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.nouns import MOTIONS, NOUNS
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+)
+from texvent.scenes.models.places import PLACES
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.spec import scene as spec
+from texvent.scenes.spec.scene import (
+    Camera,
+    CameraMove,
+    Effect,
+    Light,
+    Motion,
+    Place,
+    Relation,
+    Scene,
+    SceneObject,
+)
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.surroundings.lighting import choose_lighting
+from texvent.sensor import SensorSize
+
+SUMS = Path(__file__).with_name("rows.json.gz")
+SIZE, SEED, DURATION_S = SensorSize(96, 72), 5, 1.0
+INSTANTS_S = (0.23, 0.81)
+ACTED_S = (0.13, 0.46, 0.71)
+MOVING = (Pose(0.31, 0.17, 1.3), Pose(2.9, 11.3, 4.0, "run"), Pose(0.4, 0.0, 0.0, "sit"))
+EMPTY = Place("plain", is_empty=True)
+DIRECTIONS, MOVE_DIRECTIONS = get_args(spec.Direction), get_args(spec.MoveDirection)
+Marks = dict[str, list[float]]
+
+
+def numbers(value: Any) -> Iterator[NDArray[Any]]:
+    """All numbers in a value, in order; a word counts as its checksum."""
+    if isinstance(value, str):
+        yield np.array([crc32(value.encode()) / 2**32])
+    elif is_dataclass(value):
+        yield from numbers(list(vars(value).values()))
+    elif value is None:
+        return
+    elif isinstance(value, Sequence) or np.asarray(value).dtype == np.object_:
+        for one in value:
+            yield from numbers(one)
+    else:
+        yield np.ravel(value).astype(np.float64)
+
+
+def mark(*values: Any) -> list[float]:
+    """How many numbers values have, and their sum, in which each has a weight of its own."""
+    found = np.concatenate([np.zeros(1), *numbers(values)])
+    weights = 0.5 + np.modf(np.arange(len(found)) * 0.618034)[0]
+    return [len(found), float(weights @ np.nan_to_num(found, posinf=3.0, neginf=-3.0))]
+
+
+@cache
+def usual_model(noun: Noun) -> Model:
+    """The model that several tests look at; built once, as building takes most of their time."""
+    return noun.build(colour=None, scale=1.0, seed=1)
+
+
+def mark_noun(noun: Noun) -> Marks:
+    """A model: its size, and its parts at rest, on its way, and at all that it can do."""
+    model = usual_model(noun)
+    acts = sorted(noun.acts) + (sorted(HAND_GESTURES) if noun.name in HAND_NOUNS else [])
+    if noun.name in PERSON_NOUNS:
+        acts += sorted(ACTIVITIES) if noun.name == "man" else ["wave"]
+    times_s = ACTED_S if acts else ACTED_S[:1]
+    poses = [*MOVING, *(Pose(t, 0.6, 0.9, act) for act in ["stand", *acts] for t in times_s)]
+    return {
+        "size": mark(model.length, model.width, model.height),
+        "parts": mark(*((p.shape, p.texture, p.texture_scale) for p in model.parts(poses[0]))),
+        "paints": mark(*((p.colour, p.second_colour, p.emission) for p in model.parts(poses[0]))),
+        "places": mark(*(part.to_body for pose in poses for part in model.parts(pose))),
+    }
+
+
+def stage(scene: Scene, size: SensorSize = SIZE) -> ComposedScene:
+    description = describe_scene(scene, NOUNS)
+    return compose_scene(description, seed=SEED, size=size, duration_s=DURATION_S)
+
+
+def mark_scene(scene: Scene) -> Marks:
+    """A staged scene at some instants, by its fields."""
+    staged, found = stage(scene), {}
+    for name, seen in (
+        ("shapes", staged.primitives),
+        ("camera", staged.camera),
+        ("environment", staged.environment),
+    ):
+        at = [seen(time_s) for time_s in INSTANTS_S]
+        for field in fields(at[0]):
+            found[f"{name}.{field.name}"] = mark(*(getattr(one, field.name) for one in at))
+    return found
+
+
+def mark_moves() -> Marks:
+    """All camera moves, each in every direction."""
+    path = stage(Scene(objects=(SceneObject("box"),), place=EMPTY)).camera_path
+    moves = [CameraMove(kind, to) for kind in get_args(spec.MoveKind) for to in MOVE_DIRECTIONS]
+    return {
+        f"{one.kind} {one.direction}": mark(
+            *(replace(path, moves=(one,)).at(t) for t in INSTANTS_S)
+        )
+        for one in moves
+        if one.kind != "travel"
+    }
+
+
+def mark_lights() -> Marks:
+    """The lighting of all places in every light."""
+    return {
+        kind: mark(*(choose_lighting(place, Light(kind)) for place in PLACES.values()))
+        for kind in _choices(Light, "kind")
+    }
+
+
+def _choices(owner: type, field: str) -> tuple[Any, ...]:
+    """Words that a field of a scene may have."""
+    (literal, _) = get_args(get_type_hints(owner)[field])
+    return get_args(literal)
+
+
+def _one_of(words: Sequence[Any], name: str, step: int = 0) -> Any:
+    """One of some words; which one hangs on the row's name alone, not on the rows before."""
+    return words[(crc32(name.encode()) + step) % len(words)]
+
+
+def _of_objects() -> Iterator[tuple[str, Scene]]:
+    bodies = ("car", "man", "dog", "airplane", "ball", "boat")
+    for kind in sorted(MOTIONS - set(ACTIVITIES) | {"walk", "run", "jump", "sit", "swim"}):
+        for step in (0, 1):
+            noun, way = _one_of(bodies, kind, step), _one_of(DIRECTIONS, kind, step)
+            actor = SceneObject(noun, motions=(Motion(kind, way), Motion("move", start_s=0.6)))
+            yield f"{noun} {kind} {way}", Scene(objects=(actor,), place=EMPTY)
+    pairs = (("man", "table"), ("cat", "box"), ("car", "truck"), ("man", "chair"))
+    for kind in get_args(spec.RelationKind):
+        for noun, target in pairs[::2] if kind in ("on", "at") else [_one_of(pairs, kind)]:
+            count = 2 if noun == "cat" else 1
+            actor = SceneObject(noun, count=count, relations=(Relation(kind, (target,)),))
+            objects = actor, SceneObject(target), SceneObject("dog")
+            yield f"{noun} {kind} {target}", Scene(objects=objects, place=EMPTY)
+    for one in get_args(spec.Placement):
+        placed = SceneObject("man", placement=one), SceneObject("car")
+        yield f"placed {one}", Scene(objects=placed, place=EMPTY)
+
+
+def _of_surroundings() -> Iterator[tuple[str, Scene]]:
+    box, dog = (SceneObject("box"),), (SceneObject("dog"),)
+    for kind in EFFECTS:
+        for source in ("box", None):
+            effects = (Effect(kind, source),)
+            yield f"{kind} from {source}", Scene(objects=box, effects=effects, place=EMPTY)
+    for name in PLACES:
+        place = Place(name, weather=_one_of(["fog", "rain", "snow", None], name))
+        light = Light(_one_of(_choices(Light, "kind"), name))
+        yield name, Scene(objects=dog, place=place, light=light)
+    man = (SceneObject("man", motions=(Motion("walk"),)),)
+    moves = [CameraMove(one, _one_of(MOVE_DIRECTIONS, one)) for one in get_args(spec.MoveKind)]
+    cameras = [Camera((one,)) for one in moves]
+    cameras += [Camera(view=one) for one in get_args(spec.View)]
+    cameras += [Camera(framing=one) for one in _choices(Camera, "framing")]
+    for camera in cameras:
+        yield str(camera), Scene(objects=man, camera=camera, place=EMPTY)
+
+
+def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
+    """Name of each row, and its marks."""
+    yield "camera moves", mark_moves
+    yield "lights", mark_lights
+    for name, noun in NOUNS.items():
+        yield name, partial(mark_noun, noun)
+    for name, scene in (*_of_objects(), *_of_surroundings()):
+        yield f"scene: {name}", partial(mark_scene, scene)
+
+
+def stored_sums() -> Mapping[str, Marks]:
+    """Name of each row, and what its marks were."""
+    found: dict[str, Marks] = json.loads(gzip.decompress(SUMS.read_bytes()))
+    return found
+
+
+if __name__ == "__main__":
+    text = json.dumps({name: find() for name, find in rows()}, separators=(",", ":"))
+    SUMS.write_bytes(gzip.compress(text.encode(), mtime=0))
