@@ -76,12 +76,17 @@ class Outcome(NamedTuple):
     code: int
     printed: str
     """Standard output."""
-    said: str
-    """Standard error, without times and sizes."""
+    errors: str
+    """Standard error."""
     streams: dict[str, texvent.EventStream]
     """By the name of the file."""
     files: dict[str, bytes]
     """All others: name → contents."""
+
+    @property
+    def said(self) -> str:
+        """Standard error, without times and sizes."""
+        return TIMES.sub("", self.errors)
 
     @property
     def events(self) -> list[Any]:
@@ -151,7 +156,7 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
     with contextlib.chdir(place):
         if before:
             _call(before)
-        code, printed, said = _call(words)
+        code, printed, errors = _call(words)
         streams: dict[str, texvent.EventStream] = {}
         files: dict[str, bytes] = {}
         for path in sorted(one for one in Path().rglob("*") if one.is_file()):
@@ -160,7 +165,7 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
                 with contextlib.suppress(TexventError):
                     streams[str(path)] = texvent.load(path)
                     del files[str(path)]
-    return Outcome(code, printed, TIMES.sub("", said), streams, files)
+    return Outcome(code, printed, errors, streams, files)
 
 
 def _call(words: str) -> tuple[int, str, str]:
