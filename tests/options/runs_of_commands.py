@@ -5,12 +5,14 @@ from __future__ import annotations
 import contextlib
 import functools
 import io
+import os
 import re
 import shlex
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
+from unittest import mock
 
 import numpy as np
 
@@ -153,7 +155,11 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
     place = folder / "run"
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir()
-    with contextlib.chdir(place):
+    width_and_downloads = {
+        "COLUMNS": "100",
+        **dict.fromkeys(("TEXVENT_DATA", "TEXVENT_CACHE"), str(folder / "cache")),
+    }
+    with contextlib.chdir(place), mock.patch.dict(os.environ, width_and_downloads):
         if before:
             _call(before)
         code, printed, errors = _call(words)
