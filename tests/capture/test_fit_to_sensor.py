@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.capture.fit_to_sensor import fit_motion, fit_pixels
+from texvent.capture.fit_to_sensor import fit_motion, fit_pixels, fit_place
 from texvent.sensor import SensorSize
 from texvent.video import Motion
 
@@ -102,3 +102,25 @@ def test_motion_fits_wherever_pixels_do(width, height, new_width, new_height, fi
     inside = np.isfinite(fitted.depth)
     widest = max(1.0, width / new_width, height / new_height)
     assert np.abs(shown - fitted.instance)[inside].max(initial=0) <= widest
+
+
+@given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))
+def test_both_axes_are_fitted_alike(width, height, new_width, new_height, fit):
+    motion, size = motion_of(height, width), SensorSize(new_width, new_height)
+    pixels = np.random.default_rng(2).uniform(20, 200, (height, width)).astype(np.float32)
+    turned_size = SensorSize(new_height, new_width)
+    turned = fit_pixels(pixels.T.copy(), turned_size, fit).T
+    assert np.allclose(fit_pixels(pixels, size, fit), turned, atol=1e-3)
+    upright = Motion(
+        motion.forward.transpose(1, 0, 2)[..., ::-1].copy(),
+        None,
+        motion.depth.T.copy(),
+        motion.instance.T.copy(),
+    )
+    fitted, turned = fit_motion(motion, size, fit), fit_motion(upright, turned_size, fit)
+    assert np.array_equal(fitted.depth, turned.depth.T)
+    assert np.array_equal(fitted.instance, turned.instance.T)
+    assert np.allclose(fitted.forward, turned.forward.transpose(1, 0, 2)[..., ::-1])
+    scale, shift = fit_place(SensorSize(width, height), size, fit)
+    turned_scale, turned_shift = fit_place(SensorSize(height, width), turned_size, fit)
+    assert np.array_equal([scale, shift], np.array([turned_scale, turned_shift])[:, ::-1])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-from tests.cli.running import refused
 from tests.scenes.assets.glb_bar import write_bar
 
 from texvent.cli.app import main
@@ -23,11 +21,3 @@ def test_a_word_lists_the_nouns_that_have_it_with_their_sizes(capsys) -> None:
     assert main(["scenes", "cube"]) == 0
     _, *rows = map(str.rstrip, capsys.readouterr().out.splitlines())
     assert any(row.split()[1] == "cube" and row.endswith("0.8 x 0.8 x 0.8 m") for row in rows)
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [(["saxofone"], "did you mean 'saxophone'"), (["--assets", "nowhere"], "does not exist")],
-)
-def test_bad_input_is_one_clear_line(words, message, capsys) -> None:
-    assert message in refused(capsys, "scenes", *words)

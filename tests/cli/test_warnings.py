@@ -28,12 +28,6 @@ def still_video(path):
     writer.release()
 
 
-def test_a_prompt_of_which_nothing_is_understood_is_refused(capsys):
-    said = refused(capsys, "generate", "qwerty zxcv", "-o", "a.h5", *SMALL)
-    assert "nothing in the prompt was understood: qwerty, zxcv" in said
-    assert not Path("a.h5").exists()
-
-
 def test_a_run_without_events_warns(capsys):
     still_video("still.avi")
     words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--previews", "none", "-q"]
@@ -71,34 +65,17 @@ def test_a_time_outside_of_the_recording_is_refused(capsys, recording, source, c
     assert not Path(out[-1]).exists()
 
 
-@pytest.fixture
-def others(recording):
-    still_video("mine.mp4")
-    Path("README.md").write_text("# Events\n")
-    for name in ("shot.png", "page.html", "run.toml"):
-        Path(name).write_bytes(b"not read")
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["view", "mine.mp4"], "mine.mp4 is no event file: it is a video; texvent simulate makes"),
-        (["info", "shot.h5"], "no such file: shot.h5; check the name and the folder"),
-        (["validate", "README.md"], "README.md has extension '.md'; event files end in .h5"),
-        (["convert", "shot.png", "b.h5"], "an image; texvent simulate takes a folder of images"),
         (["render", "page.html", "-o", "b.png"], "a page, made of an event file; give that"),
-        (["view", "run.toml"], "a file of options, for --config"),
-        (["simulate", "a.h5", "-o", "b.h5"], "an event file; texvent render, view, convert and"),
-        (["simulate", "none/of/it.mp4", "-o", "b.h5"], "no such folder: none (of none/of/it.mp4)"),
-        (["simulate", "frames/", "-o", "b.h5"], "no such video or folder: frames"),
-        (["simulate", "a red ball", "-o", "b.h5"], "a prompt is for texvent generate"),
         (["simulate", "/dev/video99", "-o", "b.h5"], "no such camera: /dev/video99; there is"),
-        (["convert", "none/a.h5", "b.h5"], "no such folder: none (of none/a.h5)"),
     ],
 )
 def test_a_file_of_another_kind_is_named_with_the_command_that_takes_it(
-    capsys, others, words, said
+    capsys, folder, words, said
 ):
+    Path("page.html").write_bytes(b"not read")
     assert said in refused(capsys, *words)
 
 

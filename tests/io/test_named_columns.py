@@ -170,12 +170,6 @@ def test_numbers_with_fractions_far_behind_whole_ones_are_refused() -> None:
         assert "some have fractions; give time_unit" in str(events)
 
 
-@pytest.mark.parametrize("dtype", ["M8[us]", "m8[us]", "m8[ns]", ">i8", "<f8", "<u4"])
-def test_times_of_every_type_are_read(dtype: str) -> None:
-    stored = T.astype("m8[us]").astype(dtype) if dtype == "m8[ns]" else T.astype(dtype)
-    assert is_true(found(written("npz", t=stored))[0])
-
-
 CODES: Mapping[str, tuple[Any, Any]] = {
     **{"0/1": (0, 1), "-1/+1": (-1, 1), "0/255": (0, 255), "1/2": (1, 2)},
     **{"booleans": (False, True), "floats": (-1.0, 1.0)},
@@ -354,7 +348,7 @@ def test_links_within_a_file_are_names_of_its_arrays(part: str, make: Any) -> No
 
 @pytest.mark.parametrize("holder", ["/", "/events", "/events/t"])
 @pytest.mark.parametrize("name", ["unit", "units", "time_unit", "t_units", "Timestamp unit"])
-@pytest.mark.parametrize("unit", ["ns", "nanoseconds", b"ns"])
+@pytest.mark.parametrize("unit", ["ns", "Nanoseconds", b"ns"])
 def test_an_attribute_states_the_unit(holder: str, name: str, unit: str | bytes) -> None:
     with h5py.File(written("h5", t=T * 1000), "a") as file:
         file[holder].attrs[name] = unit

@@ -151,24 +151,6 @@ def test_content_decides_whatever_the_name(tmp_path: Path) -> None:
     assert len(load(text, size=SIZE)) == 1
 
 
-@pytest.mark.parametrize(("word", "factor"), [("ns", 1000), ("Nanoseconds", 1000), (b"ms", 0.001)])
-def test_the_unit_that_an_attribute_states_is_taken(tmp_path: Path, word, factor: float) -> None:
-    times = np.arange(40) * 1000
-    with h5py.File(tmp_path / "e.h5", "w") as file:
-        for name in "xyp":
-            file[f"events/{name}"] = np.zeros(40, np.uint8)
-        file["events/t"] = (times * factor).astype(np.int64)
-        file["events/t"].attrs["units"] = word
-    assert load(tmp_path / "e.h5", size=SIZE).t.tolist() == times.tolist()
-
-
-def test_times_of_another_age_are_refused_with_the_likely_unit(tmp_path: Path) -> None:
-    path = tmp_path / "e.csv"
-    path.write_text("t,x,y,p\n" + "".join(f"{16 * 10**17 + at},1,1,1\n" for at in range(40)))
-    with pytest.raises(FileFormatError, match="--time-unit ns"):
-        load(path, size=SIZE)
-
-
 @pytest.mark.parametrize(
     ("stored", "attributes"),
     [

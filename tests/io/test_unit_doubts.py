@@ -108,8 +108,12 @@ def test_one_wrong_time_says_nothing_of_the_unit(
 
 
 @every_writer
-def test_a_pause_says_nothing_of_the_unit(tmp_path: Path, write: Write) -> None:
-    times = STEADY + np.where(np.arange(COUNT) < 1500, 0, 3_600_000_000)
+@pytest.mark.parametrize("kind", [int, float])
+@pytest.mark.parametrize("start", [0, 3_000_000_000, 1_700_000_000_000_000])
+def test_whole_us_are_read_after_a_pause_and_since_1970(
+    tmp_path: Path, write: Write, start: int, kind: type
+) -> None:
+    times = (start + STEADY + np.where(np.arange(COUNT) < 1500, 0, 3_600_000_000)).astype(kind)
     assert load(write(tmp_path, columns(t=times)), size=SIZE).t.tolist() == times.tolist()
 
 

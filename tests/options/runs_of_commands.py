@@ -5,12 +5,14 @@ from __future__ import annotations
 import contextlib
 import functools
 import io
+import os
 import re
 import shlex
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
+from unittest import mock
 
 import numpy as np
 
@@ -76,12 +78,17 @@ class Outcome(NamedTuple):
     code: int
     printed: str
     """Standard output."""
-    said: str
-    """Standard error, without times and sizes."""
+    errors: str
+    """Standard error."""
     streams: dict[str, texvent.EventStream]
     """By the name of the file."""
     files: dict[str, bytes]
     """All others: name → contents."""
+
+    @property
+    def said(self) -> str:
+        """Standard error, without times and sizes."""
+        return TIMES.sub("", self.errors)
 
     @property
     def events(self) -> list[Any]:
@@ -148,10 +155,14 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
     place = folder / "run"
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir()
-    with contextlib.chdir(place):
+    width_and_downloads = {
+        "COLUMNS": "100",
+        **dict.fromkeys(("TEXVENT_DATA", "TEXVENT_CACHE"), str(folder / "cache")),
+    }
+    with contextlib.chdir(place), mock.patch.dict(os.environ, width_and_downloads):
         if before:
             _call(before)
-        code, printed, said = _call(words)
+        code, printed, errors = _call(words)
         streams: dict[str, texvent.EventStream] = {}
         files: dict[str, bytes] = {}
         for path in sorted(one for one in Path().rglob("*") if one.is_file()):
@@ -160,7 +171,7 @@ def run_once(folder: Path, words: str, *, before: str = "") -> Outcome:
                 with contextlib.suppress(TexventError):
                     streams[str(path)] = texvent.load(path)
                     del files[str(path)]
-    return Outcome(code, printed, TIMES.sub("", said), streams, files)
+    return Outcome(code, printed, errors, streams, files)
 
 
 def _call(words: str) -> tuple[int, str, str]:

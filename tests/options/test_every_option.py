@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-import functools
+import re
+from collections.abc import Iterator
+from dataclasses import fields
+from pathlib import Path
 
 import pytest
-from tests.options.inputs_of_commands import make_inputs
-from tests.options.runs_of_commands import Listed, listed_options, run_once
+from tests.options.runs_of_commands import Listed, listed_options
 from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, SERVED, Try, read_tries
 
+from texvent._registry import FILTERS
 from texvent.cli.app import COMMANDS
 from texvent.cli.dataset.dataset import STEPS
+from texvent.errors import TexventError
+from texvent.options.parts import make_part
 
 TRIES = read_tries()
+RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()
+BEYOND = 10**30
 
 
-@pytest.fixture(scope="module")
-def outcome(tmp_path_factory):
-    """Function of a command line, and of one that ran before: its outcome, kept."""
-    folder = tmp_path_factory.mktemp("inputs")
-    make_inputs(folder)
-    return functools.cache(functools.partial(run_once, folder))
+def own_options(command: str) -> Iterator[Listed]:
+    """Options of a command that no other one tries."""
+    shared = {*COMMANDS_TRIED[command].shared}
+    for name, listed in listed_options(command).items():
+        if not {listed.section, name} & shared and (command, name) not in ELSEWHERE:
+            yield listed
 
 
 def tries_of(command: str, listed: Listed) -> list[Try]:
@@ -58,14 +65,11 @@ def fault_of(outcome, command: str, one: Try) -> str | None:
 @pytest.mark.parametrize("command", COMMANDS_TRIED)
 def test_every_option_changes_something_and_figures_in_the_direction_of_its_help(command, outcome):
     wrong = {}
-    for name, listed in listed_options(command).items():
-        assert listed.text.strip(), name
-        shared = COMMANDS_TRIED[command].shared
-        if {listed.section, name} & {*shared} or (command, name) in ELSEWHERE:
-            continue
+    for listed in own_options(command):
+        assert listed.text.strip(), listed.name
         for one in tries_of(command, listed):
             if fault := fault_of(outcome, command, one):
-                wrong[f"--{name}"] = fault
+                wrong[listed.flag] = fault
     assert not wrong, "\n".join(f"{one}: {why}" for one, why in wrong.items())
 
 
@@ -73,3 +77,41 @@ def test_every_command_and_step_is_tried():
     steps = {f"dataset {one}" for one in STEPS}
     tried = {one.partition(" --")[0] for one in COMMANDS_TRIED}
     assert {*COMMANDS} | steps == tried | {*SERVED, "dataset"}
+
+
+def stated_range(low: str, high: str) -> str:
+    """The range that refusals of two numbers beyond it state; empty: they do not."""
+    found = [re.search(r" is -?1e\+30.*?; it must be (.+)", one) for one in (low, high)]
+    return " and ".join(dict.fromkeys(one[1] for one in found if one))
+
+
+@pytest.mark.parametrize("command", COMMANDS_TRIED)
+def test_options_of_a_command_have_the_ranges_of_the_table(command, outcome):
+    words, found = COMMANDS_TRIED[command].words, []
+    for listed in own_options(command):
+        if listed.placeholder and "{" not in listed.placeholder:
+            low, high = (
+                outcome(f"{words} {listed.flag}={sign}{BEYOND}").errors for sign in ("-", "")
+            )
+            if stated := stated_range(low, high):
+                found.append(f"{command} {listed.flag}: {stated}")
+    assert found == [one for one in RANGES if re.match(rf"{re.escape(command)} --[\w-]+:", one)]
+
+
+def refusal(text: str) -> str:
+    """Why there is no such filter, if there is none."""
+    try:
+        make_part(FILTERS, text)
+    except TexventError as error:
+        return str(error)
+    return ""
+
+
+def test_options_of_filters_have_the_ranges_of_the_table():
+    found = []
+    for name in FILTERS.builtin:
+        for option in (one.name for one in fields(FILTERS.load(name)) if one.init):
+            said = (refusal(f"{name}:{option}={sign}{BEYOND}") for sign in ("-", ""))
+            if stated := stated_range(*said):
+                found.append(f"{name}:{option}: {stated}")
+    assert found == [one for one in RANGES if one.partition(":")[0] in FILTERS.builtin]

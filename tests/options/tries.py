@@ -93,14 +93,19 @@ COMMANDS_TRIED: dict[str, Command] = {
 """Command, or one with the word that decides which options it has → how it is run."""
 
 
+def read_lines(name: str) -> list[str]:
+    """Lines of a file beside this one, without its remarks."""
+    lines = Path(__file__).with_name(name).read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line and not line.startswith("#")]
+
+
 def read_tries() -> dict[str, list[Try]]:
     """Option, perhaps behind its command → what to try; those of `tries.txt` and of tables."""
     found: dict[str, list[Try]] = defaultdict(list)
-    for line in Path(__file__).with_name("tries.txt").read_text(encoding="utf-8").splitlines():
-        if line and not line.startswith("#"):
-            filled = re.sub(r"\b[A-Z]{3,}\b", lambda word: WORDS.get(word[0], word[0]), line)
-            key, values, *cells = (cell.strip() for cell in filled.split("|"))
-            found[key] += [Try(one.strip(), *cells) for one in values.split(";")]
+    for line in read_lines("tries.txt"):
+        filled = re.sub(r"\b[A-Z]{3,}\b", lambda word: WORDS.get(word[0], word[0]), line)
+        key, values, *cells = (cell.strip() for cell in filled.split("|"))
+        found[key] += [Try(one.strip(), *cells) for one in values.split(";")]
     default, *others = SIMULATORS.builtin
     found["--simulator"] = [Try(f"--simulator {one}") for one in others]
     found["--preset"] = [Try(f"--preset {one}") for one in presets_by_simulator()[default][1:]]

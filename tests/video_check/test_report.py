@@ -1,5 +1,8 @@
 """Real and embedded clips pass the checks of a generated video; deliberately broken ones do not."""
 
+import math
+import re
+
 import cv2
 import numpy as np
 import pytest
@@ -8,7 +11,7 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer, decode_srgb
 from texvent.video import Frame
-from texvent.video_check.checks import check_video
+from texvent.video_check.checks import CHECKS, check_video
 from texvent.video_check.measurements import (
     VideoMeasurer,
     block_means,
@@ -33,6 +36,23 @@ def clip():
 
 def problems(images) -> set[str]:
     return set(check_video(frames(images)).problems)
+
+
+class Everything(dict):
+    """Measurements that all have one value, and of which none is there by itself."""
+
+    def __missing__(self, name):
+        return self["all"]
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda one: one.name)
+def test_a_check_finds_what_is_beyond_the_limit_that_it_states(check):
+    least, number, percent = re.match(r"(at least )?([\d.]+)(%?)", check.limit).groups()
+    limit = float(number) / (100 if percent else 1) if "usual" not in check.limit else 0.0
+    below, above = (math.nextafter(limit, end) for end in (-math.inf, math.inf))
+    found = [check.is_found(Everything(all=one)) for one in (below, limit, above)]
+    is_least = least is not None or check.name == "dark"
+    assert found == [is_least, False, not is_least]
 
 
 def test_a_moving_image_is_fine(clip):

@@ -247,9 +247,6 @@ def test_odd_numbers_of_a_page_give_json(source, number):
 
 def test_bad_input_is_one_line(capsys, source):
     assert "no such camera: /dev/video77" in refused(capsys, "live", "/dev/video77")
-    assert "unknown simulator 'nosuch'" in refused(capsys, "live", CLIP, "--simulator", "nosuch")
-    assert "nosuch does not exist" in refused(capsys, "live", "--folder", "nosuch", codes=(3,))
-    assert "show the address nowhere" in refused(capsys, "live", CLIP, "-q", "--no-browser")
     with LiveServer(LiveEvents(source, {}), "camera", Path()) as page:
         source.feed(0)
         ask = open_entry(page.entry)

@@ -181,8 +181,8 @@ def to_microseconds(
         return np.rint(times_us).astype(np.int64)
     if times.dtype.kind not in "biu":
         raise FileFormatError(f"{path} holds times that are no numbers")
-    if times.dtype.kind == "u" and times.size and int(times.max()) >= 1 << 63:
-        raise FileFormatError(f"{path} holds times beyond 2^63 {unit}")
+    if not are_times(times, unit).all():
+        raise FileFormatError(f"{path} holds times beyond 2^63 µs, as numbers of {unit}")
     whole = times.astype(np.int64, copy=False)
     if per_second <= MICROSECONDS:
         return whole * (MICROSECONDS // per_second) if per_second < MICROSECONDS else whole
@@ -193,12 +193,13 @@ def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
     """Which values can be times in a unit, as `to_microseconds` takes them."""
     if values.dtype.kind in "mM":
         return np.asarray(~np.isnat(values))
+    in_us = MICROSECONDS / PER_SECOND[unit]
     if values.dtype.kind == "f":
-        largest = np.abs(values, dtype=np.float64)  # beyond float16
-        return np.asarray(largest < LARGEST_FLOAT / MICROSECONDS * PER_SECOND[unit])
-    if values.dtype.kind == "u":
-        return np.asarray(values < np.uint64(1 << 63))
-    return np.full(len(values), values.dtype.kind in "bi")
+        return np.asarray(np.abs(values.astype(np.float64) * in_us) < LARGEST_FLOAT)
+    if values.dtype.kind not in "biu":
+        return np.zeros(len(values), np.bool_)
+    largest = ((1 << 63) - 1) // max(1, int(in_us))
+    return np.asarray((values <= largest) & (values >= -largest))
 
 
 def refuse_fractions(path: Path, times: NDArray[np.float64]) -> None:

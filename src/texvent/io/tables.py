@@ -273,10 +273,11 @@ class ColumnValues:
         offset: NDArray[Any] | None = None,
     ) -> None:
         known = stated_or_given(path, stated, options)
-        times = samples["t"][are_times(samples["t"], known or "s")]
+        times = samples["t"][are_times(samples["t"], known or "us")]
         self._path, self._is_guessed, self._offset_us = path, known is None, 0
         self._repairs = options.repair
         self._unit = known or guess_unit(times)
+        times = times[are_times(times, self._unit)]
         if offset is not None:
             self._offset_us = int(to_microseconds(path, offset, self._unit)[0])
         self._code = PolarityCode(path, samples["p"], is_repaired=options.repair)

@@ -104,28 +104,6 @@ def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
     assert len(texvent.simulate(stripes, noise="none", **options)) > 20 * 60
 
 
-@pytest.mark.parametrize(
-    ("options", "error", "said"),
-    [
-        (
-            {"camera": "wobble"},
-            ConfigError,
-            "unknown camera 'wobble'; allowed: saccade",
-        ),
-        ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*`duration` says"),
-        ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
-        ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),
-        ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
-        ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; `stop` ends a video"),
-        ({}, InputError, "is one image, so nothing changes; move a camera over it with `camera`"),
-    ],
-)
-def test_what_does_not_go_together_gets_one_line(photo, options, error, said):
-    with pytest.raises(error, match=said) as caught:
-        texvent.simulate(photo, **options)
-    assert "\n" not in str(caught.value)
-
-
 def test_what_is_no_image_gets_one_line(tmp_path):
     video = tmp_path / "clip.mp4"
     video.write_bytes(b"x")

@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 
 import pytest
-from tests.cli.running import refused
 
 from texvent.cli.app import main
 
@@ -128,21 +127,6 @@ def test_going_on_needs_the_folder_alone(folder, whole):
     (folder / "cars.toml").unlink()
     assert run("make", "cars", "--workers", 1, "-q") == 0
     assert digests(folder / "cars") == whole
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["cars.toml", "--shards", "0/3"], "it must be K/N with 1 ≤ K ≤ N"),
-        (["cars.toml", "--shards", "3"], "it must be K/N, such as 3/10"),
-        (["cars.toml", "--workers", "0"], "workers is 0"),
-        (["none.toml"], "cannot read config file none.toml"),
-        (["cars.toml", "-o", "cars.toml"], "holds no data set"),
-        (["."], "holds no data set"),
-    ],
-)
-def test_what_cannot_be_is_refused_in_one_line(folder, capsys, words, message):
-    assert message in refused(capsys, "dataset", "make", *words, codes=(2, 3))
 
 
 def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn):

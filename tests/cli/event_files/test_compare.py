@@ -3,7 +3,6 @@
 import json
 
 import pytest
-from tests.cli.running import refused
 
 from texvent.cli.app import main
 from texvent.events import EventStream
@@ -55,34 +54,6 @@ def test_compare_cuts_to_the_span(pair, capsys):
     words = ["compare", "guess.npz", "truth.npz", "--json", "--time", ",0.01"]
     assert main([*words, "--metrics", "stpp"]) == 0
     assert json.loads(capsys.readouterr().out)["scores"] == {"stpp": 1.0}
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["compare", "guess.npz"], "guess.npz is the only file; give one or several to judge"),
-        (["compare", "nothing.npz", "truth.npz"], "no such file: nothing.npz"),
-        (["compare", "guess.npz", "truth.npz", "--metrics", "spp"], "did you mean 'stpp'"),
-        (
-            ["compare", "guess.npz", "truth.npz", "--time", "2,3"],
-            "no file has events in the time 2,3",
-        ),
-        (
-            ["compare", "guess.npz", "truth.npz", "--metrics", "ef_lpips"],
-            "texvent weights pull lpips",
-        ),
-        (
-            ["compare", "guess.npz", "truth.npz", "--metrics", "eqs"],
-            "metric eqs cannot be computed: it needs RVT's weights, pass --rvt-weights FILE",
-        ),
-        (
-            ["compare", "guess.npz", "truth.npz", "--rvt-weights", "none.ckpt"],
-            "no weights file none.ckpt",
-        ),
-    ],
-)
-def test_mistakes_are_one_clear_line(pair, capsys, words, message):
-    assert message in refused(capsys, *words, codes=(2, 3))
 
 
 def test_several_files_are_judged_beside_each_other(pair, capsys):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.cli.running import refused, run
+from tests.cli.running import run
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -61,21 +61,3 @@ def test_a_part_of_the_time_is_shown_alone(recording) -> None:
     assert run("render", recording, "-o", "part.png", "--time", "0.04,0.12") == 0
     assert run("render", recording, "-o", "whole.png") == 0
     assert Path("part.png").read_bytes() != Path("whole.png").read_bytes()
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["view", "in.h5", "-o", "page.mp4"], "must end in .html"),
-        (["view", "missing.h5"], "no such file"),
-        (["view", "in.h5", "--points", "0", "-o", "p.html"], "points is 0"),
-        (["view", "in.h5", "-o", "p.html", "--video", "missing.mp4"], "no such video"),
-        (["render", "in.h5", "-o", "p.mp4", "--overlay", "boxes"], "embedded generator"),
-        (["render", "in.h5", "-o", "p.mp4", "--time", "1"], "give START,STOP in seconds"),
-        (["render", "in.h5", "-o", "p.mp4", "--time", "5,6"], "no event from 5 to 6 s"),
-        (["view", "in.h5", "-o", "p.html", "--time", "2,1"], "the stop must be after the start"),
-    ],
-)
-def test_mistakes_are_one_line_and_leave_nothing(recording, capsys, words, message) -> None:
-    assert message in refused(capsys, *words)
-    assert [path.name for path in recording.parent.iterdir()] == ["in.h5"]

@@ -155,13 +155,3 @@ def test_several_processes_make_the_same_files(folder, monkeypatch):
         assert run("batch", "p.txt", "-o", jobs, "--jobs", jobs, *QUICK) == 0
     assert [len(ids) for ids in seen.values()] == [0, 2]
     assert recordings(folder / "1") == recordings(folder / "2")
-
-
-def test_mistakes_are_one_line(folder, capsys):
-    (folder / "taken").write_text("")
-    (folder / "p.txt").write_text("a car\n")
-    assert run("batch", "p.txt", "-o", "taken") == 3
-    assert run("batch", "none.txt") == 2
-    assert run("batch", "p.txt", "--jobs", "0") == 2
-    assert run("batch", "p.txt", "--keep-partial") == 2
-    assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from tests.calibrate.known_scenes import simulate_flicker, simulate_static
-from tests.cli.running import refused
 
 from texvent.cli.app import main
 from texvent.events import EventStream
@@ -50,22 +49,6 @@ def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, 
     assert "exists" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("more", "message"),
-    [
-        (("--start-preset", "davis34"), "did you mean 'davis346'"),
-        (("--seconds", "0"), "seconds"),
-        (("--events", "nowhere.npz"), "no such file"),
-        (("--frames-gamma", "-1"), "gamma"),
-        (("--flicker-hz", "5"), "leave out --frames"),
-        (("--start-preset", "nowhere.toml"), "nowhere.toml"),
-    ],
-)
-def test_calibrate_refuses_in_one_line(recording, tmp_path, capsys, more, message):
-    assert message in refused(capsys, *words(recording, tmp_path / "x.toml", *more))
-    assert not (tmp_path / "x.toml").exists()
-
-
 SMALL = SensorSize(32, 24)
 
 
@@ -99,18 +82,3 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     assert found.threshold_map == pixels
     assert capsys.readouterr().out.splitlines()[1] == str(pixels)
     assert read_threshold_map(pixels).on.shape == SMALL.shape
-
-
-@pytest.mark.parametrize(
-    ("more", "message"),
-    [
-        (("--keep", "balance"), "--keep is for"),
-        (("--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
-        (("--threshold-map", "a.npz"), "are for --flicker-hz"),
-        (("--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),
-    ],
-)
-def test_scenes_without_frames_are_refused_in_one_line(scenes, tmp_path, capsys, more, message):
-    words = ["calibrate", "--events", str(scenes / "rest.npz"), "-o", str(tmp_path / "x.toml")]
-    assert message in refused(capsys, *words, *more)
-    assert not (tmp_path / "x.toml").exists()

@@ -7,7 +7,6 @@ import re
 
 import numpy as np
 import pytest
-from tests.cli.running import refused
 from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
@@ -52,16 +51,3 @@ def test_advice_names_options_that_exist():
     advised = {name for check in CHECKS for name in re.findall(named, check.help)}
     assert advised <= known | OF_GENERATE
     assert "deflicker" in advised
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["none.mp4"], "none.mp4"),
-        (["{clip}", "--camera", "pan"], "unknown option '--camera'"),
-        (["{clip}", "-o", "out.h5"], "-o"),
-    ],
-    ids=["missing", "camera", "output"],
-)
-def test_bad_input_is_one_line(clip, capsys, words, said):
-    assert said in refused(capsys, "check", *(word.format(clip=clip) for word in words))

@@ -6,7 +6,7 @@ from fractions import Fraction
 import h5py
 import numpy as np
 import pytest
-from tests.cli.running import refused, run
+from tests.cli.running import run
 
 import texvent
 from texvent.errors import FileFormatError
@@ -49,23 +49,6 @@ def test_the_written_video_is_what_was_rendered_to_16_bits(folder):
     for ours, stored in zip(rendered, reopen(folder / "ball.avi"), strict=True):
         assert ours.t_us == stored.t_us
         assert np.abs(stored.pixels / 257.0 - ours.pixels).max() <= 0.5 / 257 + 1e-4
-
-
-@pytest.mark.parametrize(
-    ("words", "code", "why"),
-    [
-        (("--video-only", "-o", "x.mp4"), 2, "must end in .avi"),
-        (("--video-only", "-o", "taken.avi"), 3, "exists already"),
-        (("--generator", "wan-1.3b", "-o", "taken.h5"), 3, "exists already"),
-        (("--generator", "./no-model", "--fps", "16"), 2, "there is no model folder no-model"),
-        (("--generator", "wan-9b"), 2, "unknown generator 'wan-9b'"),
-    ],
-)
-def test_mistakes_are_one_line_before_any_work(folder, capsys, words, code, why):
-    (folder / "taken.avi").write_bytes(b"mine")
-    (folder / "taken.h5").write_bytes(b"mine")
-    assert why in refused(capsys, "generate", PROMPT, *words, codes=(code,))
-    assert (folder / "taken.avi").read_bytes() == b"mine"
 
 
 def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, capsys, monkeypatch):

@@ -20,9 +20,3 @@ def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(folde
     assert image.shape == (48, 3 * 64 + 2 * 4, 3)
     assert not np.array_equal(image[:, :64], image[:, 68:132])
     assert main([*words, "--preview", "scene.png"]) == 3  # exists already
-    assert main([*words, "--preview", "scene.jpg"]) == 2
-    assert main([*words, "--preview", "a.png", "--generator", "wan-1.3b"]) == 2
-    for other in (["-o", "out.h5"], ["--dry-run"], ["--write-scene", "a.toml"]):
-        assert main([*words, "--preview", "a.png", *other]) == 2
-        assert "--preview" in capsys.readouterr().err
-    assert not Path("a.png").exists()

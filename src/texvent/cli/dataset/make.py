@@ -132,7 +132,10 @@ def parse_part(text: str | None) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,9})/(\d{1,9})", text or "1/1")
     if match is None:
         raise ConfigError(f"shards is {shown(text)}; it must be K/N, such as 3/10")
-    return int(match[1]), int(match[2])
+    which, parts = int(match[1]), int(match[2])
+    if not 1 <= which <= parts:
+        raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
+    return which, parts
 
 
 def _open(options: MakeOptions) -> tuple[Recipe, Path]:

@@ -100,6 +100,7 @@ class CalibrateOptions:
     def __post_init__(self) -> None:
         check_choices(self)
         check_range("seconds", self.seconds, 0.1)
+        check_range("frames_gamma", self.frames_gamma, 0.1, 10.0)
         check_range("flicker_hz", self.flicker_hz, 0.01, 1000)
         check_range("flicker_ratio", self.flicker_ratio, 1.1, 1e4)
         self._check_scene()

@@ -201,7 +201,7 @@ def _write_preview(prompt: Subject, settings: Settings, path: Path, output: Outp
 
     if path.suffix.lower() != STILLS_EXTENSION:
         raise ConfigError(f"preview is {path}; its name must end in {STILLS_EXTENSION}")
-    if not issubclass(GENERATORS.load(str(settings.generator)), ProceduralGenerator):
+    if GENERATORS.load(str(settings.generator)) is not ProceduralGenerator:
         raise ConfigError(
             "--preview shows scenes of the embedded generator; a learned model must make its whole "
             "video first: use --video-only"

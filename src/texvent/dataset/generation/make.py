@@ -93,8 +93,6 @@ def find_work(
         FileFormatError: the record of a shard is damaged.
     """
     which, parts = part
-    if not 1 <= which <= parts:
-        raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
     work, renders = Work(), not (recipe.items.are_videos or recipe.stores_videos)
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
