@@ -20,6 +20,7 @@ from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, simulate_video
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.augmentation import measure_recognition
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
 from texvent_lab.bench.real.recording import (
@@ -69,13 +70,15 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
     """Values of one table, and what is missing for the rest.
 
     Args:
-        config: of table 1, 2, 7, 8 or 9; `measure_ablations` has 4 and 5.
+        config: of table 1, 2, 6, 7, 8 or 9; `measure_ablations` has 4 and 5.
         progress: told of every step.
 
     Raises:
         InputError, FileFormatError: an input that was named is missing or damaged.
         ConfigError: the network does not exist.
     """
+    if config.table == 6:
+        return measure_recognition(config, progress)
     if config.table == 9:
         return measure_accuracy(config, progress)
     if config.table == 2:
