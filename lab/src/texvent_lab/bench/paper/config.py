@@ -16,7 +16,7 @@ from texvent_lab.bench.real.recording import (
     locate_source,
     open_recording,
 )
-from texvent_lab.registries import RECONSTRUCTORS
+from texvent_lab.reconstruct.reconstructor import find_network
 
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
@@ -71,7 +71,7 @@ class PaperConfig:
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
         if self.network is not None:
-            RECONSTRUCTORS.load(self.network)
+            find_network(self.network)
         check_range("jobs", self.jobs, 1)
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
