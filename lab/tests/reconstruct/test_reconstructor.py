@@ -98,7 +98,7 @@ def test_depth_has_colours_and_is_not_compared_with_frames(folder):
     assert far.tolist() == pytest.approx([0.001, 0.0, 0.014], abs=0.01)
     flat = reconstructor.picture(np.full(SIZE.shape, 0.5, np.float32))
     assert (flat == flat[0, 0]).all()
-    with pytest.raises(ConfigError, match="e2depth, which gives depth; to compare with frames"):
+    with pytest.raises(ConfigError, match="e2depth, which gives depth; frames are compared"):
         find_network("e2depth")
     image = load(folder, "e2vid+").reconstruct(noise())
     assert load(folder, "e2vid+").picture(image) is image

@@ -8,12 +8,8 @@ import numpy as np
 from texvent_lab.reconstruct.recurrent_network import Picture, PublishedNetwork
 from texvent_lab.reconstruct.recurrent_unet import E2vid
 
-FARTHEST_M = 80.0
-"""Depth of an output of 1 by the weights of real and simulated driving."""
-LOG_RANGE = 3.70378
-"""Natural logarithm of the farthest depth over the nearest one."""
-BRIGHTEST = 95.0
-"""Percentile of nearness that gets the brightest colour."""
+FARTHEST_M, LOG_RANGE = 80.0, 3.70378
+"""Depth of an output of 1, and the natural logarithm of it over that of an output of 0."""
 
 
 def depth_in_metres(output: Picture) -> Picture:
@@ -36,7 +32,7 @@ def depth_colours(output: Picture) -> Picture:
         the 95th percentile.
     """
     near = 1.0 - (output - output.min())
-    span = np.percentile(near, BRIGHTEST) - near.min()
+    span = np.percentile(near, 95.0) - near.min()
     levels = np.clip((near - near.min()) / (span or 1.0), 0.0, 1.0)
     bgr = cv2.applyColorMap(np.rint(levels * 255).astype(np.uint8), cv2.COLORMAP_MAGMA)
     return np.asarray(bgr[..., ::-1] / 255.0, np.float32)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -14,7 +15,6 @@ from texvent_lab.reconstruct.recurrent_unet import PUBLISHED_HEAD, RecurrentUNet
 
 _torch: Any = require("torch", extra=EXTRA)
 _nn: Any = require("torch.nn", extra=EXTRA)
-_Module: Any = _nn.Module
 
 SCALES = 3
 HEADS, DROPOUT, WAVELENGTH = 8, 0.1, 10_000.0
@@ -88,27 +88,21 @@ class EtNet(RecurrentUNet):
         return getattr(self, f"trans_{kind}{scale}")[kind]["layers"]
 
 
-class DecoderLayer(_Module):
-    """Attention of tokens to themselves, then to a memory, then two linear layers."""
+class DecoderLayer(_nn.TransformerDecoderLayer):
+    """torch's layer under the published names, with a normalisation of the memory."""
+
+    multihead_attn, norm2 = (property(operator.attrgetter(one)) for one in ("cross_attn", "norm21"))
 
     def __init__(self, features: int) -> None:
-        super().__init__()
-        for name in ("self_attn", "cross_attn"):
-            setattr(self, name, _nn.MultiheadAttention(features, HEADS, dropout=DROPOUT))
-        for name in ("norm1", "norm21", "norm22", "norm3"):
-            setattr(self, name, _nn.LayerNorm(features))
-        self.linear1 = _nn.Linear(features, 4 * features)
-        self.linear2 = _nn.Linear(4 * features, features)
-        self.dropout = _nn.Dropout(DROPOUT)
+        super().__init__(features, HEADS, 4 * features, DROPOUT, norm_first=True)
+        children = dict(self.named_children())
+        self.cross_attn, self.norm21 = children["multihead_attn"], children["norm2"]
+        del self.multihead_attn, self.norm2
+        self.norm22 = _nn.LayerNorm(features)
 
     def forward(self, tokens: Tensor, memory: Tensor) -> Tensor:
         """Tokens of the same shape, [tokens, n, features]."""
-        same, known = self.norm1(tokens), self.norm22(memory)
-        tokens = tokens + self.dropout(self.self_attn(same, same, same, need_weights=False)[0])
-        asking = self.norm21(tokens)
-        tokens = tokens + self.dropout(self.cross_attn(asking, known, known, need_weights=False)[0])
-        hidden = self.dropout(self.linear1(self.norm3(tokens)).relu())
-        return tokens + self.dropout(self.linear2(hidden))
+        return super().forward(tokens, self.norm22(memory))
 
 
 def _encoder_layer(features: int) -> Any:

@@ -22,7 +22,7 @@ ATOMS = 6
 PATTERNS = 6
 """Fourier-Bessel patterns per kernel side 3, 5, ...; every atom is a mixture of all of them."""
 CONTEXT, HIDDEN = 32, 64
-"""Channels of the context, and between the two convolutions that make the atoms of it."""
+"""Channels of the context, and of the layer between it and the atoms."""
 BESSEL_ZEROS = (
     *((0, 2.40482556), (1, 3.83170597), (2, 5.1356223), (0, 5.52007811)),
     *((3, 6.3801619), (1, 7.01558667), (4, 7.58834243), (2, 8.41724414)),
@@ -110,27 +110,30 @@ def fourier_bessel(side: int) -> NDArray[np.float32]:
     Source: Q. Qiu et al., "DCFNet: deep neural network with decomposed convolutional filters", ICML
         2018, whose program scales the patterns of a disc to a mean energy of 1.
     """
-    reach = side // 2
+    reach, root = side // 2, np.sqrt(2)
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
     angle, found = np.arctan2(x, y), []
     for scale in range(1, reach + 1):
         place = np.hypot(x, y) / (scale + 0.5)
-        patterns: list[NDArray[np.float64]] = []
-        for order, zero in BESSEL_ZEROS[: 4 * scale]:
-            radial = _bessel(order, place * zero) / np.abs(_bessel(order + 1, np.array(zero)))
-            radial[place >= 1] = 0
-            waves = (np.cos(order * angle), np.sin(order * angle)) if order else ()
-            patterns += [np.sqrt(2) * radial * wave for wave in waves] or [radial]
-        disc = np.stack(patterns).reshape(len(patterns), -1)
+        patterns = [
+            (place < 1)
+            * root
+            * wave
+            * _bessel(order, place * zero)
+            / np.abs(_bessel(order + 1, zero))
+            for order, zero in BESSEL_ZEROS[: 4 * scale]
+            for wave in ((np.cos(order * angle), np.sin(order * angle)) if order else (1 / root,))
+        ]
+        disc = np.reshape(patterns, (-1, side * side))
         found.append(disc[:PATTERNS] / np.sqrt((disc**2).sum(1).mean()))
     return np.concatenate(found).astype(np.float32)
 
 
-def _bessel(order: int, z: NDArray[np.float64]) -> NDArray[np.float64]:
+def _bessel(order: int, z: NDArray[np.float64] | float) -> NDArray[np.float64]:
     """Bessel function of the first kind, as the mean of cos(order τ − z sin τ) over a turn."""
     turn = np.arange(64) * (2 * np.pi / 64)
-    values: NDArray[np.float64] = np.cos(order * turn - z[..., None] * np.sin(turn)).mean(-1)
-    return values
+    waves = np.cos(order * turn - np.asarray(z)[..., None] * np.sin(turn))
+    return np.asarray(waves.mean(-1))
 
 
 HYPER_E2VID = PublishedNetwork(

@@ -22,11 +22,7 @@ from texvent_lab.reconstruct.checkpoint import find_weights, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 
 if TYPE_CHECKING:
-    from texvent_lab.reconstruct.recurrent_network import (
-        Picture,
-        PublishedNetwork,
-        RecurrentNetwork,
-    )
+    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
@@ -61,8 +57,8 @@ def find_network(name: str) -> PublishedNetwork:
     published: PublishedNetwork = RECONSTRUCTORS.load(name)
     if published.colours is not None:
         raise ConfigError(
-            f"network is {name}, which gives depth; to compare with frames takes one that gives "
-            "images, such as e2vid. texvent reconstruct runs it"
+            f"network is {name}, which gives depth; frames are compared with images: give e2vid or "
+            "another, or see depth by texvent reconstruct"
         )
     return published
 
@@ -136,7 +132,7 @@ class Reconstructor:
         """Name of the network."""
         return self._published.name
 
-    def picture(self, output: Picture) -> Picture:
+    def picture(self, output: Intensity) -> Intensity:
         """An output as it is shown: depth in colours, brightness as it is."""
         colours = self._published.colours
         return output if colours is None else colours(output)
