@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
-from texvent.extending import require
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.networks.weight_files import Tensor
 
 EXTRA = "torch"
@@ -32,10 +35,10 @@ class Padding:
         below, right = (-side % multiple for side in shape)
         return cls(right - right // 2, right // 2, below - below // 2, below // 2)
 
-    def around(self, image: Tensor, value: float = 0.0) -> Tensor:
-        """The image, [..., H, W], with that value around it."""
-        margins = (self.left, self.right, self.top, self.bottom)
-        return require("torch", extra=EXTRA).nn.functional.pad(image, margins, value=value)
+    def around(self, grid: NDArray[Any], how: Literal["constant", "reflect"]) -> NDArray[Any]:
+        """The grid, [channels, H, W], with zeros or its mirror image around it."""
+        margins = ((0, 0), (self.top, self.bottom), (self.left, self.right))
+        return np.pad(grid, margins, mode=how)
 
     def off(self, image: Tensor) -> Tensor:
         """The image, [..., H, W], without what `around` added."""

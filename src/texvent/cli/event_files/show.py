@@ -71,6 +71,7 @@ page (.html).
 
   texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
   texvent render out.h5 -o out.mp4 --overlay both      boxes and optical flow
+  texvent render out.h5 -o flow.png --show flow        optical flow of the events
   texvent render clip.raw -o out.mp4 --video clip.mp4  the video on the left"""
 
 
@@ -79,7 +80,7 @@ class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "video", "time", "speed", "render_fps", "window", "overlay",
+        "out", "video", "time", "speed", "render_fps", "window", "overlay", "show",
         "palette", "overwrite",
     )  # fmt: skip
 

@@ -17,7 +17,7 @@ from texvent_lab.bench.real.recording import (
     locate_source,
     open_recording,
 )
-from texvent_lab.registries import RECONSTRUCTORS
+from texvent_lab.reconstruct.reconstructor import find_network
 
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
@@ -78,7 +78,7 @@ class PaperConfig:
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
         if self.network is not None:
-            RECONSTRUCTORS.load(self.network)
+            find_network(self.network)
         check_range("jobs", self.jobs, 1)
         check_range("epochs", self.epochs, 1, 1_000_000)
         as_size(self.image_size)
