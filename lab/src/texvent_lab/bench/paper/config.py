@@ -10,7 +10,7 @@ from texvent.config import check_range
 from texvent.data.pull import find_pulled
 from texvent.errors import ConfigError
 from texvent.sensor import as_size
-from texvent_lab.bench.paper.published_tables import TABLES
+from texvent_lab.bench.paper.published_tables import FIGURES, TABLES
 from texvent_lab.bench.real.recording import (
     WITH_FRAMES,
     FrameRecording,
@@ -18,6 +18,7 @@ from texvent_lab.bench.real.recording import (
     open_recording,
 )
 from texvent_lab.reconstruct.reconstructor import find_network
+from texvent_lab.registries import RECONSTRUCTORS
 
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
@@ -33,12 +34,14 @@ class PaperConfig:
     """
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "table", "scenes", "recordings", "configs", "weights", "match_rate", "out", "overwrite",
-        "quiet",
+        "table", "figure", "scenes", "recordings", "configs", "weights", "match_rate", "out",
+        "overwrite", "quiet",
     )  # fmt: skip
 
     table: int | None = None
     """Table of the paper: 1, 2 or 4 to 9; default: the ablations of both 4 and 5."""
+    figure: int | None = None
+    """Figure of the paper instead of a table: 5, 6, 7 or 12, of one recording; -o is its PNG."""
     scenes: str | None = None
     """Tables 4 and 5: names of scenes of bench fidelity, separated by commas; default: its own."""
     oracle: bool = True
@@ -77,13 +80,26 @@ class PaperConfig:
             raise ConfigError(
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
-        if self.network is not None:
+        if self.figure is not None:
+            self._check_figure()
+        elif self.network is not None:
             find_network(self.network)
         check_range("jobs", self.jobs, 1)
         check_range("epochs", self.epochs, 1, 1_000_000)
         as_size(self.image_size)
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
+
+    def _check_figure(self) -> None:
+        if self.figure not in FIGURES:
+            known = ", ".join(map(str, FIGURES))
+            raise ConfigError(f"figure is {self.figure}; the figures are {known}")
+        if self.table is not None:
+            raise ConfigError("table and figure are given; give one of them")
+        if self.network is not None:
+            RECONSTRUCTORS.load(self.network)
+        if len(self.named_recordings) > 1:
+            raise ConfigError(f"recordings is {self.recordings}; a figure shows one recording")
 
     @property
     def named_recordings(self) -> tuple[str, ...]:

@@ -122,6 +122,14 @@ TABLES: Mapping[int, PaperTable] = {
 }
 """Number → table."""
 
+FIGURES: Mapping[int, str] = {
+    5: "events, and images reconstructed from them",
+    6: "events warped along their motion, and depth",
+    7: "balance and brightness cache: the paper's setting and E1 to E5",
+    12: "optical flow",
+}
+"""Number → pictures of a recorded and of simulated streams."""
+
 
 def join_measured(parts: Sequence[Measured]) -> Measured:
     """Values of several parts of one table; equal notes and needs once."""
