@@ -179,7 +179,7 @@ def _search_grid(place: Float64Array, share: Float64Array, reach: float) -> Floa
 def _contrast(place: Float64Array, share: Float64Array, way: Float64Array) -> float:
     """Sum of squares of the image of events moved back along a way, smoothed by (1 2 1)."""
     moved = place - way[:, None] * share
-    image = np.pad(_splat(moved, moved), 1)
+    image = np.pad(_splat(moved, moved), 2)
     # Events between two pixels are spread thinner than events on one; smoothing evens that out.
     image = image[:-2] + 2 * image[1:-1] + image[2:]
     image = image[:, :-2] + 2 * image[:, 1:-1] + image[:, 2:]
