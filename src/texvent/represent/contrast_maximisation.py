@@ -153,7 +153,7 @@ def _warp(events: EventStream, flow: Float64Array) -> Float64Array:
         raise InputError(f"flow has shape {list(flow.shape)}; give [2] or {list(dense)}, px/s")
     velocity = np.nan_to_num(flow if flow.ndim == 1 else flow[events.y, events.x])
     seconds = (events.t - events.t[:1].sum()) / MICROSECONDS
-    return np.stack([events.x, events.y]) - velocity.reshape(-1, 2).T * seconds
+    return np.asarray([events.x, events.y] - velocity.reshape(-1, 2).T * seconds)
 
 
 def _search_grid(place: Float64Array, share: Float64Array, reach: float) -> Float64Array:
