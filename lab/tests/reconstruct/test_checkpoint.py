@@ -142,6 +142,13 @@ def test_networks_have_the_published_number_of_tensors_and_parameters(name, tens
     assert count_parameters(shapes) == pytest.approx(millions * 1e6, abs=5e3)
 
 
+@pytest.mark.parametrize("side", [1, 4, 301])
+def test_kernels_of_an_unpublished_side_are_refused_before_patterns_are_made(side, tmp_path):
+    torch.save({HEADS["hypere2vid"]: torch.ones(1, 5, side, side)}, tmp_path / "model.pth")
+    with pytest.raises(FileFormatError, match="first layer is of another kind"):
+        read("hypere2vid", tmp_path / "model.pth")
+
+
 LAYOUT = {
     "hypere2vid": (
         *("context_fusion.conv.weight", "dynamic_atom_generation.bases_net.4.running_var"),

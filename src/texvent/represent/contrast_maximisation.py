@@ -153,7 +153,7 @@ def _warp(events: EventStream, flow: Float64Array) -> Float64Array:
         raise InputError(f"flow has shape {list(flow.shape)}; give [2] or {list(dense)}, px/s")
     velocity = np.nan_to_num(flow if flow.ndim == 1 else flow[events.y, events.x])
     seconds = (events.t - events.t[:1].sum()) / MICROSECONDS
-    return np.stack([events.x, events.y]) - velocity.reshape(-1, 2).T * seconds
+    return np.asarray([events.x, events.y] - velocity.reshape(-1, 2).T * seconds)
 
 
 def _search_grid(place: Float64Array, share: Float64Array, reach: float) -> Float64Array:
@@ -179,7 +179,7 @@ def _search_grid(place: Float64Array, share: Float64Array, reach: float) -> Floa
 def _contrast(place: Float64Array, share: Float64Array, way: Float64Array) -> float:
     """Sum of squares of the image of events moved back along a way, smoothed by (1 2 1)."""
     moved = place - way[:, None] * share
-    image = np.pad(_splat(moved, moved), 1)
+    image = np.pad(_splat(moved, moved), 2)
     # Events between two pixels are spread thinner than events on one; smoothing evens that out.
     image = image[:-2] + 2 * image[1:-1] + image[2:]
     image = image[:, :-2] + 2 * image[:, 1:-1] + image[:, 2:]

@@ -145,4 +145,5 @@ class RecurrentLayer(_Module):
 
     def forward(self, x: Tensor, state: tuple[Tensor, Tensor] | None) -> tuple[Tensor, Tensor]:
         """The new output and cell."""
-        return self.recurrent_block(self.conv(x).relu(), state)
+        hidden, cell = self.recurrent_block(self.conv(x).relu(), state)
+        return hidden, cell

@@ -1,4 +1,7 @@
-"""E2Depth: E2VID's network, trained to give depth."""
+"""E2Depth: E2VID's network, trained to give depth.
+
+Deviation: voxels are normalised by the deviation of a sample, n − 1; the authors' program takes n.
+"""
 
 from __future__ import annotations
 

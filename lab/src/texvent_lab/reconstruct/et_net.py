@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from texvent.extending import require
 from texvent.networks.weight_files import Shape, Tensor
@@ -33,7 +33,7 @@ class EtNet(RecurrentUNet):
         2021, section 3, and its program.
     """
 
-    multiple: ClassVar[int] = 2**SCALES
+    multiple = 2**SCALES
 
     def __init__(self, head: Shape = PUBLISHED_HEAD, *, has_norm: bool = False) -> None:
         """Random weights, for a first kernel of that shape and biases or batch normalisation."""
@@ -76,7 +76,7 @@ class EtNet(RecurrentUNet):
             for layer in self._stack("encoder", scale):
                 tokens = layer(tokens)
             encoded.append(tokens)
-        total = sum(encoded)
+        total: Tensor = sum(encoded)
         for scale, tokens in enumerate(encoded):
             for layer in self._stack("decoder", scale):
                 tokens = layer(tokens, encoded[max(scale - 1, 0)])

@@ -99,8 +99,7 @@ class DynamicDecoder(_Module):
             row, column = divmod(position, side)
             shifted = padded[..., row : row + height, column : column + width]
             mixed.addcmul_(shifted[:, :, None], atoms[:, None, :, position])
-        weights = self.dynamic_conv
-        mixture, bias = weights["compositional_coefficients"], weights["bias"]
+        mixture, bias = (self.dynamic_conv[one] for one in ("compositional_coefficients", "bias"))
         return _nn.functional.conv2d(mixed.flatten(1, 2), mixture, bias).relu()
 
 
@@ -109,21 +108,21 @@ def fourier_bessel(side: int) -> NDArray[np.float32]:
 
     Source: Q. Qiu et al., "DCFNet: deep neural network with decomposed convolutional filters", ICML
         2018, whose program scales the patterns of a disc to a mean energy of 1.
+
+    Raises:
+        ValueError: the side is neither 3 nor 5 px, as in every published file.
     """
-    reach, root = side // 2, np.sqrt(2)
+    if side not in (3, 5):
+        raise ValueError(f"a kernel of {side} px")
+    reach, found = side // 2, []
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
-    angle, found = np.arctan2(x, y), []
+    angle = np.arctan2(x, y)
     for scale in range(1, reach + 1):
-        place = np.hypot(x, y) / (scale + 0.5)
-        patterns = [
-            (place < 1)
-            * root
-            * wave
-            * _bessel(order, place * zero)
-            / np.abs(_bessel(order + 1, zero))
-            for order, zero in BESSEL_ZEROS[: 4 * scale]
-            for wave in ((np.cos(order * angle), np.sin(order * angle)) if order else (1 / root,))
-        ]
+        place, patterns = np.hypot(x, y) / (scale + 0.5), []
+        for order, zero in BESSEL_ZEROS[: 4 * scale]:
+            radial = (place < 1) * _bessel(order, place * zero) / abs(_bessel(order + 1, zero))
+            waves = (np.cos(order * angle), np.sin(order * angle)) if order else (np.sqrt(0.5),)
+            patterns += [radial * wave for wave in waves]
         disc = np.reshape(patterns, (-1, side * side))
         found.append(disc[:PATTERNS] / np.sqrt((disc**2).sum(1).mean()))
     return np.concatenate(found).astype(np.float32)
