@@ -60,7 +60,7 @@ class SuperSlomoInterpolator(RifeInterpolator):
         del stream
         torch = require("torch", extra=EXTRA)
         self._device = "cuda" if torch.cuda.is_available() else "cpu"
-        self._path = _find_weights(config)
+        self._path = find_super_slomo(config.interpolator_weights)
         self._nets: Any = read_super_slomo(self._path).to(self._device)
         self.pair_flow = self
         """`CountPolicy` measures motion by the network's own flow, as VID2E does."""
@@ -68,7 +68,7 @@ class SuperSlomoInterpolator(RifeInterpolator):
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
         """Name and sha256 of the checkpoint; stored with the events."""
-        return describe_file(_find_weights(config))
+        return describe_file(find_super_slomo(config.interpolator_weights))
 
     def motion_px(self, first: Frame, second: Frame) -> float:
         """Longest vector of the flows both ways, px."""
@@ -104,8 +104,13 @@ class SuperSlomoInterpolator(RifeInterpolator):
         return (mixed / (weights[0] + weights[1]))[0, 0]
 
 
-def _find_weights(config: InterpolateConfig) -> Path:
-    path, option = config.interpolator_weights, "interpolator_weights"
+def find_super_slomo(path: Path | None) -> Path:
+    """The checkpoint: the one named, else that in the weights folder.
+
+    Raises:
+        InputError: there is no such file.
+    """
+    option = "interpolator_weights"
     return locate_weights("interpolator super-slomo", FILE, WHERE_FROM, path, option=option)
 
 

@@ -16,6 +16,7 @@ from texvent_lab.bench.oracle.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
 from texvent_lab.bench.paper.run import (
+    choose_e8,
     leave_out_other_tables,
     measure_ablations,
     measure_table,
@@ -53,6 +54,7 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
     entries = read_ablations(config.configs, is_rate_matched=config.match_rate)
     if config.table is not None:
         entries = leave_out_other_tables(config.table, entries)
+    entries, e8 = choose_e8(entries, config.slomo_weights)
     check_baseline(config.baseline, [one.name for one in entries], default=BASELINE)
     recordings = [open_scene(source) for source in config.named_recordings]
     reports = []
@@ -65,7 +67,8 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
         reports.append(run_real(recordings, entries, jobs=config.jobs, progress=progress))
     tables: dict[str, Any] = {}
     for number in ABLATIONS if config.table is None else (config.table,):
-        measured = join_measured([measure_ablations(number, report) for report in reports])
+        parts = [measure_ablations(number, report) for report in reports]
+        measured = join_measured([*parts, e8] if number == 4 else parts)
         write_out(f"{compare_with_paper(TABLES[number], measured)}\n")
         tables[f"table {number}"] = asdict(measured)
     for report in reports:
