@@ -19,18 +19,12 @@ EXTRA = "torch"
 def locate_weights(
     name: str, usual: str | Path, where_from: str, path: Path | None, *, option: str = "weights"
 ) -> Path:
-    """The weights file of a network: the one named, else its usual one in the weights folder.
+    """The weights file of a network: `path`, which the user gave with `option`, else the usual one.
 
-    Args:
-        name: of the network, for messages.
-        usual: name of its file in the weights folder, or a path elsewhere.
-        where_from: where to get the file, for messages.
-        path: given by the user.
-        option: by which the user gives it.
+    `usual` is a name in the weights folder, or a path elsewhere.
 
     Raises:
-        InputError: there is no such file; the message says where it comes from and where to put
-            it.
+        InputError: there is no such file; the message says where to get and where to put it.
     """
     place = cache_folder("weights") / usual
     chosen = path or place
@@ -45,11 +39,7 @@ def locate_weights(
 
 @contextmanager
 def explain_memory(what: str) -> Iterator[None]:
-    """Turn torch's failure of memory into one line, `what`.
-
-    Raises:
-        InputError: something did not fit into the memory of a device.
-    """
+    """Turn torch's failure of memory into an InputError that says `what`."""
     try:
         yield
     except RuntimeError as error:

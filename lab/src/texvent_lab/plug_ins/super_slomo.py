@@ -8,15 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.extending import require
-from texvent.interpolate.rife.interpolator import (
-    RifeInterpolator,
-    image_tensors,
-    pad_to_multiple,
-)
+from texvent.interpolate.rife.interpolator import RifeInterpolator, image_tensors, pad_to_multiple
 from texvent.networks.weight_files import (
     Tensor,
     describe_file,
@@ -36,13 +32,6 @@ WIDTHS, SIDES = (32, 64, 128, 256, 512, 512), (7, 5, 3, 3, 3, 3)
 PAD_TO, LEAK = 32, 0.1
 MEAN_COLOUR = (0.429, 0.431, 0.397)
 """Subtracted from the images that the networks see, as in training."""
-
-
-class _Pair(NamedTuple):
-    images: Tensor
-    """[1, 6, H, W], padded, less the mean colour."""
-    flows: Tensor
-    """[1, 4, H, W], px: from the first to the second (x, y), and back."""
 
 
 class SuperSlomoInterpolator(RifeInterpolator):
@@ -74,26 +63,27 @@ class SuperSlomoInterpolator(RifeInterpolator):
         """Longest vector of the flows both ways, px."""
         what = f"frames of {first.size} do not fit into the memory of device {self._device}"
         with explain_memory(what), require("torch", extra=EXTRA).inference_mode():
-            flows = self._prepare(image_tensors(first, second)).flows
+            _, flows = self._prepare(image_tensors(first, second))
             return float(flows.unflatten(1, (2, 2)).norm(dim=2).max())
 
     def _prepare(self, images: Sequence[Tensor]) -> Any:
+        """Both images less the mean colour, [1, 6, H, W]; flows there and back, [1, 4, H, W]."""
         torch = require("torch", extra=EXTRA)
         mean = torch.tensor(MEAN_COLOUR).reshape(1, 3, 1, 1)
         padded = [pad_to_multiple(image - mean, PAD_TO) for image in images]
         both = torch.cat(padded, 1).to(self._device)
-        return _Pair(both, _run_unet(self._nets[FLOW], both))
+        return both, _run_unet(self._nets[FLOW], both)
 
     def _luma_at(self, pair: Any, lumas: Sequence[Tensor], at: float) -> Tensor:
         """Eqs. 1, 4 and 5 of the source."""
         from texvent.interpolate.rife.network import warp  # needs torch
 
-        torch, images = require("torch", extra=EXTRA), pair.images
-        forward, backward = pair.flows[:, :2], pair.flows[:, 2:]
+        torch, (images, flows) = require("torch", extra=EXTRA), pair
+        forward, backward = flows[:, :2], flows[:, 2:]
         to_first = at * at * backward - (1 - at) * at * forward
         to_second = (1 - at) * (1 - at) * forward - at * (1 - at) * backward
         warped = warp(images[:, 3:], to_second), warp(images[:, :3], to_first)
-        known = torch.cat((images, pair.flows, to_second, to_first, *warped), 1)
+        known = torch.cat((images, flows, to_second, to_first, *warped), 1)
         correction = _run_unet(self._nets[REFINE], known)
         flows = torch.cat((to_first, to_second), 1) + correction[:, :4]
         height, width = lumas[0].shape[-2:]
@@ -121,12 +111,11 @@ def read_super_slomo(path: Path) -> Any:
         FileFormatError: the file is damaged, or a tensor is missing, unknown or of another shape.
     """
     content = read_mapping(path, WHERE_FROM, extra=EXTRA)
-    states = {key: content[key] for key in (FLOW, REFINE) if isinstance(content.get(key), Mapping)}
-    tensors = {
-        f"{key}.{name}": tensor
-        for key, state in states.items()
-        for name, tensor in named_tensors(state, path, extra=EXTRA).items()
-    }
+    tensors: dict[str, Tensor] = {}
+    for key in (FLOW, REFINE):
+        state = content.get(key)
+        inner = named_tensors(state, path, extra=EXTRA) if isinstance(state, Mapping) else {}
+        tensors |= {f"{key}.{name}": tensor for name, tensor in inner.items()}
     torch = require("torch", extra=EXTRA)
     with torch.device("meta"):
         networks = torch.nn.ModuleDict({FLOW: unet(torch, 6, 4), REFINE: unet(torch, 20, 5)})
@@ -136,19 +125,19 @@ def read_super_slomo(path: Path) -> Any:
 
 def unet(torch: Any, inputs: int, outputs: int) -> Any:
     """A U-Net with random weights: five times halved, five times doubled, joined at every size."""
-    nn = torch.nn
 
     def two(narrow: int, joined: int, wide: int, side: int) -> Any:
-        sizes = (("conv1", narrow), ("conv2", joined))
-        return nn.ModuleDict({name: nn.Conv2d(n, wide, side, padding="same") for name, n in sizes})
+        sizes = {"conv1": narrow, "conv2": joined}
+        layers = {one: torch.nn.Conv2d(n, wide, side, padding="same") for one, n in sizes.items()}
+        return torch.nn.ModuleDict(layers)
 
     net = two(inputs, WIDTHS[0], WIDTHS[0], SIDES[0])
-    steps = list(zip(WIDTHS, WIDTHS[1:], SIDES[1:], strict=False))
-    for depth, (narrow, wide, side) in enumerate(steps, start=1):
-        net[f"down{depth}"] = two(narrow, wide, wide, side)
-    for step, (wide, narrow, _) in enumerate(reversed(steps), start=1):
-        net[f"up{step}"] = two(narrow, 2 * wide, wide, 3)
-    net["conv3"] = nn.Conv2d(WIDTHS[0], outputs, 3, padding="same")
+    last = len(WIDTHS) - 1
+    for depth in range(1, last + 1):
+        net[f"down{depth}"] = two(WIDTHS[depth - 1], WIDTHS[depth], WIDTHS[depth], SIDES[depth])
+        wide = WIDTHS[last - depth]
+        net[f"up{depth}"] = two(WIDTHS[last - depth + 1], 2 * wide, wide, 3)
+    net["conv3"] = torch.nn.Conv2d(WIDTHS[0], outputs, 3, padding="same")
     return net
 
 

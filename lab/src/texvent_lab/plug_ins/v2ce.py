@@ -1,7 +1,7 @@
 """V2CE: a 3-D U-Net turns pairs of frames into voxel grids, and LDATI those into events.
 
-Source: Z. Zhang et al., "V2CE: Video to Continuous Events Simulator", ICRA 2024.
-docs/simulators/v2ce.md gives the steps, and where they depart from the program (V2CE-Toolbox).
+Source: Z. Zhang et al., "V2CE: Video to Continuous Events Simulator", ICRA 2024. Steps, and where
+they depart from the program (V2CE-Toolbox), are in docs/simulators/v2ce.md.
 """
 
 from __future__ import annotations
@@ -63,11 +63,10 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
     bytes_per_pixel: ClassVar[int] = 28_000
 
     def __init__(self, config: V2ceConfig | None = None, *, seed: int = 0) -> None:
-        """Load the network; no frame is seen yet.
+        """Load the network.
 
         Raises:
-            InputError: there are no weights.
-            FileFormatError: they are damaged or of another network.
+            InputError, FileFormatError: weights that are missing, damaged or of another network.
             MissingDependencyError: torch is not installed.
         """
         super().__init__(config, seed=seed)
@@ -124,8 +123,7 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         """Voxel grids of the recent pairs, [n, 2, 10, H, W]."""
         torch, recent = require("torch", extra=EXTRA), np.stack(self._recent)
         what = (
-            f"{len(recent)} frames of {recent.shape[2]}x{recent.shape[1]} pixels do not fit into "
-            f"the memory of device {self._device} with v2ce; give a smaller sensor"
+            f"these frames do not fit into device {self._device} with v2ce; give a smaller sensor"
         )
         with explain_memory(what), torch.inference_mode():
             pairs = torch.from_numpy(np.stack([recent[:-1], recent[1:]], axis=1))
@@ -147,10 +145,8 @@ def _normalise(intensity: IntensityArray) -> NDArray[np.float32]:
 def sample_events(voxel: NDArray[Any], interval: FrameInterval) -> UnsortedEvents:
     """Events of a voxel grid by LDATI, V2CE's local dynamic-aware timestamp inference.
 
-    An event in the sub-interval from node i to node i + 1, at the fraction τ of its length, adds
-    1 − τ to node i and τ to node i + 1. Going along the nodes undoes this. A lone event gets
-    exactly the time that made the grid; times of several are drawn from a density that rises or
-    falls as the neighbours' counts do.
+    A lone event of a sub-interval gets exactly the time that made the grid; times of several are
+    drawn from a density that rises or falls as the neighbours' counts do.
 
     Args:
         voxel: events per node, at least 0, [2, nodes, H, W], ON first.
@@ -158,9 +154,6 @@ def sample_events(voxel: NDArray[Any], interval: FrameInterval) -> UnsortedEvent
 
     Raises:
         InputError: there are more events than memory holds.
-
-    Deviation: sums are in float64, and draws are keyed by pixel, polarity, sub-interval and number;
-        the program's depend on their order.
     """
     check_event_number(float(np.sum(voxel, dtype=np.float64)))
     counts, fraction = _infer_counts(np.asarray(voxel, np.float64))
@@ -183,9 +176,10 @@ def sample_events(voxel: NDArray[Any], interval: FrameInterval) -> UnsortedEvent
 def _infer_counts(nodes: Array) -> tuple[NDArray[np.int64], Array]:
     """Events per sub-interval, and the fraction τ of a lone one, [2, nodes − 1, H, W] each.
 
-    A node, less what the events before it have added, is what those of the sub-interval after it
-    add to it; the next whole number is their count, and the difference they add to the next node.
-    Whole events that are left at the last node fall into the last sub-interval.
+    An event between nodes i and i + 1 adds 1 − τ to the one and τ to the other. A node, less what
+    the events before it have added, is what those after it add; the next whole number is their
+    count, and the difference they add to the next node. What is left at the last node falls into
+    the last sub-interval.
     """
     parts = nodes.shape[1] - 1
     counts = np.zeros((nodes.shape[0], parts, *nodes.shape[2:]), np.int64)

@@ -201,9 +201,11 @@ class ConfigEntry(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class FileEntry(Entry):
-    """A row whose events another program made of the recordings; `simulator` is its name."""
+    """A row whose events another program made of the recordings; nothing is simulated for it."""
 
+    simulator: str = "texvent"
     interpolate: str = "none"
+    program: str
     default_threshold: ClassVar[None] = None
     files: Mapping[str, Path]
     """Recording → event file, on the clock of its frames."""
@@ -226,16 +228,12 @@ class FileEntry(Entry):
                 f"{folder} has not one event file each of {', '.join(wrong)}; it needs one per "
                 f"recording, named as it, such as {wrong[0]}.h5"
             )
-        return cls(simulator=name, files={one: files[0] for one, files in found.items()})
+        return cls(program=name, files={one: files[0] for one, files in found.items()})
 
     @property
     def name(self) -> str:
         """The program's."""
-        return self.simulator
-
-    def settings(self, seed: int) -> Settings:
-        """Those of any run; none of them is the program's."""
-        return resolve("simulate", {"seed": seed})
+        return self.program
 
     def packets(self, recording: str, size: SensorSize, span_us: tuple[int, int]) -> EventPackets:
         """The events of a recording in a span of time.
