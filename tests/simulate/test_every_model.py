@@ -51,7 +51,7 @@ def texture(**options: Any):
 
 
 def test_no_model_is_forgotten():
-    assert set(SIMULATORS.names()) == set(CLEAN) == set(BRIGHTNESS)
+    assert set(SIMULATORS.builtin) == set(CLEAN) == set(BRIGHTNESS)
     assert set(CLEAN) - {"esim"} == set(NOISY)
 
 

@@ -17,7 +17,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.networks import EXTRA, Padding
+from texvent_lab.networks import EXTRA, Padding, explain_memory
 from texvent_lab.reconstruct.checkpoint import find_weights, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -203,20 +203,16 @@ class Reconstructor:
         """The network's output for a voxel grid, [H, W]."""
         torch = require("torch", extra=EXTRA)
         padding = Padding.centred(grid.shape[1:], self._network.multiple)
-        try:
-            with torch.inference_mode():
-                padded = padding.around(grid, self._published.padding)
-                voxel: Tensor = torch.from_numpy(padded)[None].to(self._device)
-                output = self._network.step(voxel)
-                image: Intensity = padding.off(output)[0, 0].cpu().numpy()
-        except RuntimeError as error:
-            if "memory" not in str(error):
-                raise
-            raise InputError(
-                f"{self.name} does not fit into the memory of device {self._device} at "
-                f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
-                "convert)"
-            ) from error
+        what = (
+            f"{self.name} does not fit into the memory of device {self._device} at "
+            f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
+            "convert)"
+        )
+        with explain_memory(what), torch.inference_mode():
+            padded = padding.around(grid, self._published.padding)
+            voxel: Tensor = torch.from_numpy(padded)[None].to(self._device)
+            output = self._network.step(voxel)
+            image: Intensity = padding.off(output)[0, 0].cpu().numpy()
         return image
 
 

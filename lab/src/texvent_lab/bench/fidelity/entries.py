@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from texvent.errors import ConfigError, InputError
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.extending import SIMULATORS
+from texvent.io.files import is_event_path, open_events
 from texvent.run.prepare import prepare_video
+from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
@@ -163,6 +166,8 @@ class ConfigEntry(Entry):
 
     path: Path
     """TOML or YAML file."""
+    options: tuple[tuple[str, Any], ...] = ()
+    """(name, value) of options that replace those of the file."""
 
     @classmethod
     def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
@@ -191,7 +196,58 @@ class ConfigEntry(Entry):
         Raises:
             ConfigError: the file holds an unknown option, or a value out of range.
         """
-        return resolve("simulate", {"seed": seed}, config=self.path)
+        return resolve("simulate", {**dict(self.options), "seed": seed}, config=self.path)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileEntry(Entry):
+    """A row whose events another program made of the recordings; nothing is simulated for it."""
+
+    simulator: str = "texvent"
+    interpolate: str = "none"
+    program: str
+    default_threshold: ClassVar[None] = None
+    files: Mapping[str, Path]
+    """Recording → event file, on the clock of its frames."""
+
+    @classmethod
+    def find(cls, name: str, folder: Path, recordings: Sequence[str]) -> FileEntry:
+        """The row of a folder with an event file per recording, named as it.
+
+        Raises:
+            InputError: a recording has none there, or several.
+        """
+        events = [one for one in sorted(folder.iterdir()) if is_event_path(one)]
+        found = {
+            recording: [one for one in events if f"{one.name}.".startswith(f"{recording}.")]
+            for recording in recordings
+        }
+        wrong = [recording for recording, files in found.items() if len(files) != 1]
+        if wrong:
+            raise InputError(
+                f"{folder} has not one event file each of {', '.join(wrong)}; it needs one per "
+                f"recording, named as it, such as {wrong[0]}.h5"
+            )
+        return cls(program=name, files={one: files[0] for one, files in found.items()})
+
+    @property
+    def name(self) -> str:
+        """The program's."""
+        return self.program
+
+    def packets(self, recording: str, size: SensorSize, span_us: tuple[int, int]) -> EventPackets:
+        """The events of a recording in a span of time.
+
+        Raises:
+            InputError: there are none, or they have another size.
+        """
+        packets = open_events(self.files[recording], size=size).cut(*span_us)
+        if not any(map(len, packets)):
+            raise InputError(
+                f"{self.files[recording]} has no event from {span_us[0]} to {span_us[1]} µs; times "
+                f"must be on the clock of the frames of {recording}"
+            )
+        return packets
 
 
 def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:

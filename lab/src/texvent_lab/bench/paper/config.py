@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.sensor import as_size
 from texvent_lab.bench.paper.published_tables import FIGURES, TABLES
 from texvent_lab.bench.real.recording import (
@@ -16,6 +17,7 @@ from texvent_lab.bench.real.recording import (
     FrameRecording,
     locate_source,
     open_recording,
+    recording_name,
 )
 from texvent_lab.reconstruct.reconstructor import find_network
 from texvent_lab.registries import RECONSTRUCTORS
@@ -23,6 +25,8 @@ from texvent_lab.registries import RECONSTRUCTORS
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
 """Tables of configs/paper."""
+FROM_FILES = (1, 2, 8, 9)
+"""Tables whose columns other programs may fill."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +76,12 @@ class PaperConfig:
     """Table 6: size that coordinates are scaled to."""
     work: Path | None = None
     """Table 6: folder that keeps the trainings, so that a run that was stopped goes on."""
+    events: tuple[str, ...] = ()
+    """Tables 1, 2, 8, 9: NAME=FOLDER of a column that another program filled: an event file per
+    recording, named as it and on the clock of its frames; for table 9 a sub-folder per class."""
+    slomo_weights: Path | None = None
+    """Table 4: SuperSloMo.ckpt, for E8; default: that in the weights folder. Without one, E8 takes
+    optical flow."""
     jobs: int = 2
     """Processes for simulating on recordings and scenes."""
 
@@ -87,6 +97,11 @@ class PaperConfig:
         check_range("jobs", self.jobs, 1)
         check_range("epochs", self.epochs, 1, 1_000_000)
         as_size(self.image_size)
+        if self.events and self.table not in FROM_FILES:
+            tables = ", ".join(map(str, FROM_FILES))
+            raise ConfigError(f"events fills columns of tables {tables}; name one with --table")
+        if len(self.event_folders) < len(self.events):
+            raise ConfigError(f"events names a column twice: {' '.join(self.events)}")
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
 
@@ -102,6 +117,24 @@ class PaperConfig:
             raise ConfigError(f"recordings is {self.recordings}; a figure shows one recording")
 
     @property
+    def event_folders(self) -> Mapping[str, Path]:
+        """Column → folder of its events; a name that the table has not is a column of its own.
+
+        Raises:
+            ConfigError: a text is not NAME=FOLDER, or there is no such folder.
+        """
+        folders: dict[str, Path] = {}
+        for text in self.events:
+            name, _, place = text.partition("=")
+            folder = Path(place).expanduser()
+            if not (name and place and folder.is_dir()):
+                allowed = "it must be NAME=FOLDER, a folder that exists"
+                raise ConfigError(f"events is {shown(text)}; {allowed}")
+            columns = {one.lower(): one for one in TABLES[self.table or 1].columns}
+            folders[columns.get(name.lower(), name)] = folder
+        return folders
+
+    @property
     def named_recordings(self) -> tuple[str, ...]:
         """Those of the option."""
         return tuple(self.recordings.split(",")) if self.recordings else ()
@@ -114,4 +147,7 @@ class PaperConfig:
 
     def whole_recordings(self) -> list[FrameRecording]:
         """The recordings, to be read through."""
-        return [open_recording(locate_source(source)[0]) for source in self.sources]
+        return [
+            replace(open_recording(locate_source(source)[0]), name=recording_name(source))
+            for source in self.sources
+        ]

@@ -143,15 +143,19 @@ def join_measured(parts: Sequence[Measured]) -> Measured:
 def compare_with_paper(table: PaperTable, ours: Measured) -> str:
     """A Markdown table with the paper's values and ours, row by row."""
     rows: list[list[str]] = []
+    found = (column for cells in ours.rows.values() for column in cells)
+    columns = tuple(dict.fromkeys((*table.columns, *found)))
+    unpublished = ["–"] * (len(columns) - len(table.columns))
     for name in dict.fromkeys((*table.rows, *ours.rows)):
         is_published = name in table.rows
         if is_published:
-            rows.append([name, "paper", *(f"{one:.{table.digits}f}" for one in table.rows[name])])
-        found = ours.rows.get(name, {})
-        if found or not is_published:
+            published = [f"{one:.{table.digits}f}" for one in table.rows[name]]
+            rows.append([name, "paper", *published, *unpublished])
+        here = ours.rows.get(name, {})
+        if here or not is_published:
             label = "" if is_published else name
-            rows.append([label, "here", *(found.get(one, "–") for one in table.columns)])
-    shown = markdown_table(["", "", *table.columns], rows)
+            rows.append([label, "here", *(here.get(one, "–") for one in columns)])
+    shown = markdown_table(["", "", *columns], rows)
     remarks = [f"- {note}" for note in ours.notes]
     remarks += [f"- Not measured: {need}" for need in ours.needs]
     lines = "\n".join(["", *remarks])

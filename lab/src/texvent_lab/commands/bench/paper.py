@@ -19,7 +19,8 @@ from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.figures import ABLATED, ABLATION_FIGURE, draw_figure
 from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
 from texvent_lab.bench.paper.run import (
-    ENTRIES,
+    choose_e8,
+    find_columns,
     leave_out_other_tables,
     measure_ablations,
     measure_table,
@@ -60,7 +61,7 @@ def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
         raise ConfigError(f"out is {output.out}; a figure needs -o FILE.png")
     if not config.sources:
         raise InputError("there is no recording; texvent data pull slider_depth, or --recordings")
-    entries: Mapping[str, Entry | ConfigEntry] = ENTRIES
+    entries: Mapping[str, Entry | ConfigEntry] = find_columns(config)
     if config.figure == ABLATION_FIGURE:
         read = read_ablations(config.configs, is_rate_matched=config.match_rate)
         entries = {one.name: one for one in read if one.name in ABLATED}
@@ -76,6 +77,7 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
     entries = read_ablations(config.configs, is_rate_matched=config.match_rate)
     if config.table is not None:
         entries = leave_out_other_tables(config.table, entries)
+    entries, e8 = choose_e8(entries, config.slomo_weights)
     check_baseline(config.baseline, [one.name for one in entries], default=BASELINE)
     recordings = [open_scene(source) for source in config.named_recordings]
     reports = []
@@ -88,7 +90,8 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
         reports.append(run_real(recordings, entries, jobs=config.jobs, progress=progress))
     tables: dict[str, Any] = {}
     for number in ABLATIONS if config.table is None else (config.table,):
-        measured = join_measured([measure_ablations(number, report) for report in reports])
+        parts = [measure_ablations(number, report) for report in reports]
+        measured = join_measured([*parts, e8] if number == 4 else parts)
         write_out(f"{compare_with_paper(TABLES[number], measured)}\n")
         tables[f"table {number}"] = asdict(measured)
     for report in reports:
