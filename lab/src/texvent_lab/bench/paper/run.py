@@ -49,6 +49,7 @@ ENTRIES: Mapping[str, Entry] = {
     "VID2E": Entry(simulator="esim", interpolate="flow"),
     "V2E": Entry(simulator="v2e", interpolate="flow"),
     "DVS-Voltmeter": Entry(simulator="voltmeter", interpolate="none"),
+    "SENPI": Entry(simulator="senpi", interpolate="none"),
     "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
 }
 """Column of the paper → its counterpart here. Those that come with a network for interpolation
