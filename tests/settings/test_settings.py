@@ -3,6 +3,7 @@
 import pytest
 import tomli_w
 
+from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError, TexventWarning
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
@@ -33,6 +34,17 @@ def test_a_sensor_with_measured_constants_chooses_its_preset():
 )
 def test_a_sensor_may_be_given_as_numbers_or_as_an_object(sensor, name):
     assert resolve("simulate", {"sensor": sensor}).run.sensor == name
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_the_fill_factor_of_a_sensor_scales_the_noise_of_texvent_alone(sensor):
+    scale = 0.22 / (SENSORS[sensor].fill_factor or 0.22)
+    for preset in ("accurate", "paper"):
+        options = {"sensor": sensor.upper(), "preset": preset}
+        assert resolve("simulate", options).simulate.noise_scale == pytest.approx(scale, abs=5e-4)
+        assert resolve("simulate", {**options, "noise_scale": 3.0}).simulate.noise_scale == 3.0
+    physical = resolve("simulate", {"sensor": sensor, "simulator": "physical"})
+    assert physical.simulate == SIMULATORS.load("physical").presets[physical.run.preset]
 
 
 def test_a_sensor_without_measured_constants_is_said_to_have_none():
