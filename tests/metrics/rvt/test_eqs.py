@@ -123,7 +123,10 @@ def test_weights_trained_here_see_cells_and_windows_as_in_their_training():
     ("change", "complaint"),
     [
         (lambda c: c["state_dict"].pop(GAMMA_OWN), f"Missing key.*{GAMMA_HERE}"),
-        (lambda c: c["state_dict"].update({f"{GAMMA_OWN}.x": torch.ones(1)}), r"Unexpected.*ls2\.x"),
+        (
+            lambda c: c["state_dict"].update({f"{GAMMA_OWN}.x": torch.ones(1)}),
+            r"Unexpected.*ls2\.x",
+        ),
         (lambda c: c.pop("binning"), "None as binning, 1 to 4 px; give the weights.pt"),
         (lambda c: c.update(binning=True), "True as binning"),
     ],

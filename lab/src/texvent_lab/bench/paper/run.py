@@ -12,7 +12,8 @@ import numpy as np
 from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.latent_similarity import load_eqs
+from texvent.metrics.controls import CONTROLS, run_controls
+from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
 from texvent.video import Video
@@ -156,12 +157,12 @@ def measure_event_frames(
 
 
 def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
-    """Table 2, first row: EQS against the recording of the same scene."""
+    """Table 2, first row: EQS against the recording of the same scene, with its controls."""
     if config.rvt_weights is None or not config.sources:
         return Measured(
             needs=[
-                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
-                "recording, such as texvent data pull slider_depth"
+                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from, and how one is "
+                "trained here) and a recording, such as texvent data pull slider_depth"
             ]
         )
     eqs = load_eqs(config.rvt_weights)
@@ -170,9 +171,17 @@ def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
     notes = [
         f"EQS against recordings of the same scene ({', '.join(one.scene for one in scenes)}); the "
         "paper compares with other recordings of the same class",
+        *(f"{eqs.name} of {scene.scene}'s own events: {_controls(eqs, scene)}" for scene in scenes),
         OWN_MODELS,
     ]
-    return Measured({"EQS ↑": _means(report, "eqs")}, notes, _reasons(report.skipped))
+    title = "EQS ↑" if type(eqs) is EventQualityScore else f"{eqs.name} ↑"
+    return Measured({title: _means(report, eqs.name)}, notes, _reasons(report.skipped))
+
+
+def _controls(eqs: Metric, scene: RealScene) -> str:
+    """Controls over all scored spans: a value is worth nothing outside of them."""
+    found = [run_controls(eqs, events) for events in scene.references]
+    return ", ".join(f"{name} {np.mean([one[name] for one in found]):.3f}" for name in CONTROLS)
 
 
 def measure_times(progress: Progress) -> Measured:
