@@ -158,30 +158,58 @@ def _retrieval(values: NDArray[np.float64]) -> Retrieval:
     )
 
 
-def align(
+@dataclass(frozen=True, kw_only=True)
+class Similarities:
+    """Similarity of every recording of a source with every different text of it."""
+
+    recordings: Sequence[Recording]
+    matrix: NDArray[Any]
+    """[recordings, texts]."""
+    own: NDArray[np.int64]
+    """Number of the text that belongs to each recording."""
+
+    def misfits(self, margin: float) -> list[dict[str, Any]]:
+        """Recordings whose own text is less than `margin` above the mean of the others.
+
+        The worst come first. There are at least two texts.
+        """
+        matrix = np.asarray(self.matrix, np.float64)
+        own = matrix[np.arange(len(matrix)), self.own]
+        others = (matrix.sum(axis=1) - own) / (matrix.shape[1] - 1)
+        return [
+            {
+                "id": self.recordings[n].id,
+                "sample": self.recordings[n].key,
+                "own": float(own[n]),
+                "others": float(others[n]),
+                "text": self.recordings[n].text,
+            }
+            for n in np.argsort(own - others, kind="stable")
+            if own[n] - others[n] < margin
+        ]
+
+
+def measure_similarities(
     sources: Mapping[str, Sequence[Recording]],
     draw: View,
     clip: ClipModel,
     *,
-    seed: int = 0,
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
-) -> dict[str, RetrievalReport]:
-    """Score every source.
+) -> dict[str, Similarities]:
+    """Similarities by source.
 
-    The vector of a recording is the mean of those of its images, at unit length. Its text is
-    ranked among all different texts of its source.
+    The vector of a recording is the mean of those of its images, at unit length.
 
     Args:
         sources: name → recordings.
         draw: how events become images.
         clip: the model.
-        seed: of the bootstrap and of the control.
         progress: told of (source, done, total).
 
     Raises:
         InputError, FileFormatError: a recording cannot be read.
     """
-    reports = {}
+    found = {}
     for source, recordings in sources.items():
         texts = list(dict.fromkeys(recording.text for recording in recordings))
         place = {text: number for number, text in enumerate(texts)}
@@ -190,15 +218,25 @@ def align(
         for done, recording in enumerate(recordings):
             progress(source, done, len(recordings))
             vectors.append(_mean(clip.embed_images(draw(recording.load()))))
-        similarity = np.concatenate(vectors) @ clip.embed_texts(texts).T
-        reports[source] = score_retrieval(similarity, own, seed=seed)
-    return reports
+        matrix = np.concatenate(vectors) @ clip.embed_texts(texts).T
+        found[source] = Similarities(recordings=recordings, matrix=matrix, own=own)
+    return found
 
 
 def _mean(vectors: Vectors) -> Vectors:
     """Mean of vectors at unit length, [1, d]."""
     mean = vectors.mean(axis=0, keepdims=True)
     return np.asarray(mean / max(float(np.linalg.norm(mean)), 1e-12), np.float32)
+
+
+def misfit_lines(misfits: Mapping[str, Sequence[Mapping[str, Any]]]) -> str:
+    """A line per misfit: source, sample, both similarities, the text."""
+    return "".join(
+        f"{source}  {one['sample'] or one['id']}  own {one['own']:.4f}, "
+        f"others {one['others']:.4f}  {one['text']}\n"
+        for source, found in misfits.items()
+        for one in found
+    )
 
 
 COLUMNS = ("events", "n", "texts", *(f"R@{k}" for k in RECALL_AT), "median rank", "cosine", "p")

@@ -13,7 +13,12 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent_lab.alignment.align import align, alignment_table
+from texvent_lab.alignment.align import (
+    alignment_table,
+    measure_similarities,
+    misfit_lines,
+    score_retrieval,
+)
 from texvent_lab.alignment.clip_model import ClipModel
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
@@ -46,8 +51,8 @@ class AlignOptions:
     input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images", "seed"),
-        *("device", "out", "overwrite"),
+        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images"),
+        *("least_similarity", "seed", "device", "out", "overwrite"),
     )
 
     folder: Path | None = None
@@ -66,6 +71,9 @@ class AlignOptions:
     """Most images of a recording."""
     events_per_image: int | None = None
     """Events in a drawn image; default: 70,000 at 640x480, in proportion for other sensors."""
+    least_similarity: float | None = None
+    """List the samples whose similarity with their own text is not this much above the mean of that
+    with the other texts; 0: those that fit them better. A video model has failed there, or CLIP."""
     seed: int = 0
     """Of the bootstrap and of the exchanged captions."""
     device: str = "auto"
@@ -75,12 +83,13 @@ class AlignOptions:
         check_range("limit", self.limit, 2)
         check_range("images", self.images, 1, 64)
         check_range("events_per_image", self.events_per_image, 1)
+        check_range("least_similarity", self.least_similarity, -2, 2)
 
     def sources(self) -> dict[str, list[Recording]]:
         """The recordings by source.
 
         Raises:
-            ConfigError: nothing to score, or N-ImageNet without captions.
+            ConfigError: nothing to score, N-ImageNet without captions, or one text alone.
             InputError, FileFormatError: they cannot be read.
         """
         if self.folder is None and self.n_imagenet is None:
@@ -94,7 +103,13 @@ class AlignOptions:
             found |= list_samples(self.folder, split=self.split, ids=ids)
         if self.n_imagenet is not None:
             found[RECORDED] = list_streams(self.n_imagenet, captioned or [])
-        return keep_common(found, limit=self.limit)
+        kept = keep_common(found, limit=self.limit)
+        for name, one in kept.items():
+            if self.least_similarity is not None and len({each.text for each in one}) < 2:
+                raise ConfigError(
+                    f"{name} has one text alone; least_similarity compares with others"
+                )
+        return kept
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -110,7 +125,12 @@ def run(arguments: Sequence[str]) -> int:
     clip = ClipModel(options.clip, device=options.device)
     draw = DrawnEvents(options.images, options.events_per_image)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        reports = align(sources, draw, clip, seed=options.seed, progress=progress.advance)
+        found = measure_similarities(sources, draw, clip, progress=progress.advance)
+    reports = {
+        name: score_retrieval(one.matrix, one.own, seed=options.seed) for name, one in found.items()
+    }
+    margin = options.least_similarity
+    misfits = {} if margin is None else {name: one.misfits(margin) for name, one in found.items()}
     texts = {recording.text for one in sources.values() for recording in one}
     cut = sum(clip.count_tokens(text) > clip.most_tokens for text in texts)
     output.write(
@@ -123,9 +143,17 @@ def run(arguments: Sequence[str]) -> int:
             "seed": options.seed,
             "texts_cut": cut,
             "rows": [{"source": name, **asdict(one)} for name, one in reports.items()],
+            "least_similarity": margin,
+            "misfits": misfits,
         }
     )
     write_out(alignment_table(reports))
+    if margin is not None:
+        count, total = (sum(map(len, one.values())) for one in (misfits, sources))
+        write_out(
+            f"{count:,} of {total:,} recordings are less than {margin:g} above the mean of other "
+            f"texts\n{misfit_lines(misfits)}"
+        )
     if cut:
         write_out(
             f"{cut:,} of {len(texts):,} texts are longer than the {clip.most_tokens} tokens that "
