@@ -101,11 +101,13 @@ class ClipModel:
         return np.asarray(found, np.float32)
 
 
-def find_model(model: str | Path) -> Path:
+def find_model(model: str | Path, kind: str = "CLIP model", example: str = EXAMPLE) -> Path:
     """Folder of a model that transformers saved, fetched first where the model hub is named.
 
     Args:
         model: a folder, or `hub:org/name`.
+        kind: of model, for messages.
+        example: one of that kind on the hub.
 
     Raises:
         InputError: the folder has no `config.json`.
@@ -116,8 +118,8 @@ def find_model(model: str | Path) -> Path:
         folder = Path(model).expanduser()
         if not (folder / CONFIG).is_file():
             raise InputError(
-                f"there is no CLIP model in {folder} (no config.json); give the folder of one "
-                f"saved by transformers, or hub:org/name, such as hub:{EXAMPLE}"
+                f"there is no {kind} in {folder} (no config.json); give the folder of one "
+                f"saved by transformers, or hub:org/name, such as hub:{example}"
             )
         return folder
     hub = require("huggingface_hub", extra=EXTRA)

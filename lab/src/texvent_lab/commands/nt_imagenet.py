@@ -11,27 +11,37 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.errors import ConfigError, InputError, TexventError, shown
-from texvent.extending import suggest
+from texvent.errors import ConfigError, InputError, TexventError, few, shown, warn
+from texvent.extending import full_version, suggest
+from texvent.metrics.compare import load_metric, plain_values, score_text
+from texvent.metrics.controls import CONTROLLED, run_controls
+from texvent.metrics.latent_similarity import load_eqs
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent_lab.alignment.recordings import ids_of_clips, list_samples, list_streams
 from texvent_lab.nt_imagenet import files
 from texvent_lab.nt_imagenet.captions import CHECKS, check_captions, read_captions
 from texvent_lab.nt_imagenet.files import Captioned
+from texvent_lab.nt_imagenet.images import find_images, make_captions, mean_levels
+from texvent_lab.nt_imagenet.pairs import pairs_csv, pairs_table, score_pairs, summarise_pairs
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
     PER_CLASS,
+    STREAM_EXTENSION,
     Selection,
     choose_classes,
     select_streams,
     validation_folder,
 )
 
-DESCRIPTION = """The paper's NT-ImageNet from your copy of N-ImageNet and captions of ImageNet's
-images: streams are chosen, their captions checked, and written as prompts.
+DESCRIPTION = """The paper's NT-ImageNet from your copies of N-ImageNet and ImageNet: streams are
+chosen, their captions made by LLaVA or read, checked, and written as prompts; then simulated events
+are scored beside the recorded ones.
 
-  texvent nt-imagenet --n-imagenet N_Imagenet --captions captions.csv -o nt
+  texvent nt-imagenet --n-imagenet N_Imagenet --imagenet val --model hub:llava-hf/llava-1.5-13b-hf \\
+      -o nt
   texvent dataset make nt/specification.toml -o nt-events
+  texvent nt-imagenet --n-imagenet N_Imagenet -o nt --events nt-events --rvt-weights rvt-t.ckpt
 
 docs/datasets.md explains it."""
 
@@ -40,14 +50,26 @@ docs/datasets.md explains it."""
 class NtImagenetOptions:
     """Which streams, and where their captions come from."""
 
+    input_texts: ClassVar[tuple[str, ...]] = ("model",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     n_imagenet: Path = REQUIRED
     """Folder of N-ImageNet (with extracted_val), or of its classes."""
     out: Path = REQUIRED
     """Folder for captions, report and specification."""
-    captions: Path = REQUIRED
+    captions: Path | None = None
     """Captions: .csv or .jsonl with id (name of the image without extension) and caption."""
+    imagenet: Path | None = None
+    """Folder of ImageNet's validation images, for --model and for the report's light."""
+    model: str | None = None
+    """LLaVA, or another model that makes the captions that are missing: folder saved by
+    transformers, or hub:org/name."""
+    device: str = "auto"
+    """Where the model runs: auto, cpu, cuda, cuda:1."""
+    events: Path | None = None
+    """Data set made from the captions in --out: score its samples beside the recorded streams."""
+    rvt_weights: Path | None = None
+    """With --events: weights for EQS, as texvent compare takes them."""
     classes: Path | None = None
     """Text file with one WordNet id per line; without it, the first --class-count classes."""
     class_count: int = CLASSES
@@ -67,6 +89,27 @@ class NtImagenetOptions:
             if name not in CHECKS:
                 raise ConfigError(f"leave_out names {shown(name)}; {suggest(name, CHECKS)}")
 
+    def check(self) -> None:
+        """Refuse to begin without what is needed.
+
+        Raises:
+            ConfigError: captions or images are not named, or lie in the folder that is written.
+        """
+        if self.events is not None and (self.captions or self.model):
+            raise ConfigError(
+                "events scores the captions in --out; leave out --captions and --model"
+            )
+        if self.events is None and self.rvt_weights is not None:
+            raise ConfigError("rvt_weights scores events; name the data set with --events")
+        if not (self.events or self.captions or self.model):
+            raise ConfigError("no captions; give --captions, or --imagenet and --model")
+        if self.model is not None and self.imagenet is None:
+            raise ConfigError("the model describes images; give their folder with --imagenet")
+        if self.captions and self.captions.resolve().parent == self.out.resolve():
+            raise ConfigError(
+                f"{self.captions} lies in the folder that is written; name another folder with -o"
+            )
+
     @property
     def leaving_out(self) -> tuple[str, ...]:
         """Names of checks."""
@@ -77,7 +120,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run the command; returns 0.
 
     Raises:
-        ConfigError: the captions lie in the folder that is written.
+        ConfigError: options lack each other, or captions lie in the folder that is written.
         TexventError: some streams have no caption; all else is written.
     """
     (options,) = parse_configs(
@@ -86,10 +129,14 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent nt-imagenet",
         description=DESCRIPTION,
     )
-    if options.captions.resolve().parent == options.out.resolve():
-        raise ConfigError(
-            f"{options.captions} lies in the folder that is written; name another folder with -o"
-        )
+    options.check()
+    if options.events is not None:
+        return _score(options, options.events)
+    root = validation_folder(options.n_imagenet)
+    given = {} if options.captions is None else read_captions(options.captions)
+    strange = sorted(set(given) - {one.stem for one in root.glob(f"*/*{STREAM_EXTENSION}")})
+    if strange:
+        warn(f"{options.captions} has captions of no stream in {root}: {few(strange)}")
     classes = choose_classes(options.n_imagenet, options.class_count, options.classes)
     files.prepare_folder(options.out)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
@@ -99,9 +146,11 @@ def run(arguments: Sequence[str]) -> int:
             per_class=options.per_class,
             progress=lambda done, total: progress.advance("reading streams", done, total),
         )
-    captions, failures = _captions(options, selection)
-    report = _report(options, selection, captions, failures)
-    _write(options, report, validation_folder(options.n_imagenet))
+        folder, streams = options.imagenet, selection.streams
+        images = {} if folder is None else find_images(folder, streams)
+        captions, failures = _captions(options, selection, given, images, progress)
+    report = _report(options, selection, captions, failures, mean_levels(images))
+    _write(options, report, root)
     if failures:
         raise TexventError(
             f"{len(failures)} of {len(selection.streams)} streams have no caption, such as "
@@ -111,15 +160,29 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _captions(
-    options: NtImagenetOptions, selection: Selection
+    options: NtImagenetOptions,
+    selection: Selection,
+    given: Mapping[str, str],
+    images: Mapping[str, Path],
+    progress: ConsoleProgress,
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Captions by id, and why others are missing."""
     ids, path = [stream.id for stream in selection.streams], options.captions
-    found = read_captions(path)
-    captions = {id: found[id] for id in ids if id in found}
+    captions = {id: given[id] for id in ids if id in given}
+    missing = [id for id in ids if id not in captions]
+    if options.model is not None:
+        made, failures = make_captions(
+            {id: images[id] for id in missing},
+            options.model,
+            options.out / files.MADE,
+            device=options.device,
+            progress=progress.advance,
+        )
+        both = captions | made
+        return {id: both[id] for id in ids if id in both}, failures
     if not captions:
         raise InputError(f"{path} has no caption of these streams, such as {ids[0]}")
-    return captions, {id: f"{id} is not in {path}" for id in ids if id not in captions}
+    return captions, {id: f"{id} is not in {path}" for id in missing}
 
 
 def _report(
@@ -127,6 +190,7 @@ def _report(
     selection: Selection,
     captions: Mapping[str, str],
     failures: Mapping[str, str],
+    levels: Sequence[float],
 ) -> Report:
     checks = check_captions(captions)
     left_out = [
@@ -139,7 +203,9 @@ def _report(
         checks=checks,
         failures=failures,
         left_out=left_out,
-        captions_file=str(options.captions),
+        levels=levels,
+        captions_file=None if options.captions is None else str(options.captions),
+        captions_model=options.model,
     )
 
 
@@ -154,9 +220,37 @@ def _write(options: NtImagenetOptions, report: Report, root: Path) -> None:
         raise InputError("every caption is left out; name fewer problems with --leave-out")
     files.write_streams(out, streams, root)
     files.write_captions(out, captioned)
-    files.write_report(out, report.facts)
+    files.write_facts(out / files.REPORT, report.facts)
     is_new = files.write_specification(out)
     write_out(report.text)
     write_out(f"{out}: {len(captioned):,} captions in {files.CAPTIONS}\n")
     if not is_new:
         write_out(f"{files.SPECIFICATION} was there already and is kept\n")
+
+
+def _score(options: NtImagenetOptions, events: Path) -> int:
+    """Score a data set of the captions beside the recorded streams, id by id."""
+    out = options.out
+    captioned = files.read_captioned(out / files.CAPTIONS)
+    metrics = [load_metric("stpp")]
+    if options.rvt_weights is not None:
+        metrics.append(load_eqs(options.rvt_weights))
+    samples = list_samples(events, ids=ids_of_clips(events, captioned))
+    streams = list_streams(options.n_imagenet, captioned)
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        rows = score_pairs(samples, streams, metrics, progress.advance)
+    summary = summarise_pairs(rows, metrics)
+    controls = {
+        one.name: run_controls(one, streams[0].load()) for one in metrics if one.name in CONTROLLED
+    }
+    means = {name: {column: one.document() for column, one in row.items()}
+             for name, row in summary.items()}  # fmt: skip
+    facts = {"texvent_version": full_version(), "pairs": means, "controls": controls}
+    files.write_text(out / files.PAIRS, pairs_csv(rows))
+    files.write_facts(out / files.PAIRS_SUMMARY, plain_values(facts))
+    write_out(pairs_table(summary))
+    for name, found in controls.items():
+        values = ", ".join(f"{control} {score_text(value)}" for control, value in found.items())
+        write_out(f"{name} of {streams[0].id}'s own events: {values}\n")
+    write_out(f"{out}: {len(rows):,} pairs in {files.PAIRS}\n")
+    return 0

@@ -21,7 +21,8 @@ from texvent_lab.nt_imagenet.selection import Stream
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
 REPORT, SPECIFICATION = "report.json", "specification.toml"
-OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION})
+PAIRS, PAIRS_SUMMARY, MADE = "pairs.csv", "pairs.json", "made_captions.json"
+OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, PAIRS, PAIRS_SUMMARY, MADE})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +63,7 @@ def prepare_folder(folder: Path) -> None:
 
 def write_captions(folder: Path, captioned: Iterable[Captioned]) -> None:
     """Write the list of prompts."""
-    _write(folder / CAPTIONS, "".join(_line(asdict(one)) for one in captioned))
+    write_text(folder / CAPTIONS, "".join(_line(asdict(one)) for one in captioned))
 
 
 def read_captioned(path: Path) -> list[Captioned]:
@@ -95,9 +96,9 @@ def write_streams(folder: Path, streams: Sequence[Stream], root: Path) -> None:
         csv.writer(file, lineterminator="\n").writerows([names, *rows])
 
 
-def write_report(folder: Path, facts: Mapping[str, Any]) -> None:
-    """Write the report as JSON."""
-    _write(folder / REPORT, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
+def write_facts(path: Path, facts: Mapping[str, Any]) -> None:
+    """Write a report as JSON."""
+    write_text(path, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
 
 
 def write_specification(folder: Path) -> bool:
@@ -109,7 +110,7 @@ def write_specification(folder: Path) -> bool:
     path = folder / SPECIFICATION
     if path.exists():
         return False
-    _write(path, _SPECIFICATION.format(captions=CAPTIONS))
+    write_text(path, _SPECIFICATION.format(captions=CAPTIONS))
     return True
 
 
@@ -131,14 +132,15 @@ file = "{captions}"
 [options]
 sensor = "640x480"      # that of N-ImageNet's recordings
 # Without a generator the embedded one draws what it knows of a caption, which is little: name a
-# learned one (texvent generators).
-# generator = "wan-1.3b"
+# learned one (texvent generators), such as the paper's.
+# generator = "cosmos-7b"
 
 [variants.texvent]
 """
 
 
-def _write(path: Path, text: str) -> None:
+def write_text(path: Path, text: str) -> None:
+    """Write a file of the folder."""
     with atomic_file(path, overwrite=True) as part:
         part.write_text(text, encoding="utf-8")
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import statistics
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -33,8 +35,12 @@ class Report:
     """Id → why it has no caption."""
     left_out: Sequence[str] = ()
     """Ids whose caption failed a check that leaves it out."""
-    captions_file: str = ""
+    levels: Sequence[float] = ()
+    """Mean level of each image, 0..255; empty without the images."""
+    captions_file: str | None = None
     """Where the captions are from."""
+    captions_model: str | None = None
+    """Made the captions that the file lacks, as answers to the paper's question."""
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -42,6 +48,7 @@ class Report:
         return {
             "texvent_version": full_version(),
             "captions_file": self.captions_file,
+            "captions_model": self.captions_model,
             "streams": self._stream_facts(),
             "captions": self._caption_facts(),
             "left_out": list(self.left_out),
@@ -57,6 +64,8 @@ class Report:
             "incomplete_classes": selection.incomplete(self.per_class),
             "events": _spread([stream.events for stream in selection.streams]),
             "duration_us": _spread(durations),
+            "median_speed_px_s": _spread([one.speed_px_s for one in selection.streams]),
+            "image_level": _spread(self.levels),
             "longer_than_55_ms": sum(one > LONGEST_US for one in durations),
             "too_few_events": list(selection.too_few),
             "too_many_events": list(selection.too_many),
@@ -77,7 +86,7 @@ class Report:
 
     @property
     def text(self) -> str:
-        """Counts, in three lines."""
+        """Counts, then the rows of the paper's Table 10."""
         streams, captions = self._stream_facts(), self._caption_facts()
         problems = (f"{name} {len(ids)}" for name, ids in captions["problems"].items())
         return (
@@ -88,10 +97,33 @@ class Report:
             f"{captions['count']:,} captions, {len(captions['missing'])} missing, "
             f"{len(self.left_out)} left out\n"
             f"captions with problems: {', '.join(problems)}\n"
+            + "".join(f"{name}: {_spread_text(found)}\n" for name, found in self.table_10.items())
         )
 
+    @property
+    def table_10(self) -> dict[str, dict[str, float] | None]:
+        """Least, median and most of what the paper's Table 10 says in words and numbers."""
+        streams, captions = self._stream_facts(), self._caption_facts()
+        counts = Counter(one.wnid for one in self.selection.streams)
+        return {
+            "streams per class": _spread(list(counts.values())),
+            "events per stream": streams["events"],
+            "words per caption": captions["words"],
+            "mean level of an image (0 to 255)": streams["image_level"],
+            "median speed of edges (px/s)": streams["median_speed_px_s"],
+        }
 
-def _spread(values: Sequence[int]) -> dict[str, float] | None:
-    if not values:
+
+def _spread(values: Sequence[float]) -> dict[str, float] | None:
+    known = [one for one in values if not math.isnan(one)]
+    if not known:
         return None
-    return {"least": min(values), "median": statistics.median(values), "most": max(values)}
+    return {"least": min(known), "median": statistics.median(known), "most": max(known)}
+
+
+def _spread_text(found: Mapping[str, float] | None) -> str:
+    return (
+        "not known"
+        if found is None
+        else (f"{found['least']:,.0f} to {found['most']:,.0f}, median {found['median']:,.0f}")
+    )
