@@ -22,7 +22,7 @@ from texvent_lab.nt_imagenet import files
 from texvent_lab.nt_imagenet.captions import CHECKS, check_captions, read_captions
 from texvent_lab.nt_imagenet.files import Captioned
 from texvent_lab.nt_imagenet.images import find_images, make_captions, mean_levels
-from texvent_lab.nt_imagenet.pairs import pairs_csv, pairs_table, score_pairs, summarise_pairs
+from texvent_lab.nt_imagenet.pairs import pairs_table, score_pairs
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
@@ -38,8 +38,8 @@ DESCRIPTION = """The paper's NT-ImageNet from your copies of N-ImageNet and Imag
 chosen, their captions made by LLaVA or read, checked, and written as prompts; then simulated events
 are scored beside the recorded ones.
 
-  texvent nt-imagenet --n-imagenet N_Imagenet --imagenet val --model hub:llava-hf/llava-1.5-13b-hf \\
-      -o nt
+  texvent nt-imagenet --n-imagenet N_Imagenet --imagenet val -o nt \\
+      --model hub:llava-hf/llava-1.5-13b-hf
   texvent dataset make nt/specification.toml -o nt-events
   texvent nt-imagenet --n-imagenet N_Imagenet -o nt --events nt-events --rvt-weights rvt-t.ckpt
 
@@ -146,9 +146,9 @@ def run(arguments: Sequence[str]) -> int:
             per_class=options.per_class,
             progress=lambda done, total: progress.advance("reading streams", done, total),
         )
-        folder, streams = options.imagenet, selection.streams
-        images = {} if folder is None else find_images(folder, streams)
-        captions, failures = _captions(options, selection, given, images, progress)
+        ids, folder = [stream.id for stream in selection.streams], options.imagenet
+        images = {} if folder is None else find_images(folder, ids)
+        captions, failures = _captions(options, ids, given, images, progress)
     report = _report(options, selection, captions, failures, mean_levels(images))
     _write(options, report, root)
     if failures:
@@ -161,28 +161,26 @@ def run(arguments: Sequence[str]) -> int:
 
 def _captions(
     options: NtImagenetOptions,
-    selection: Selection,
+    ids: Sequence[str],
     given: Mapping[str, str],
     images: Mapping[str, Path],
     progress: ConsoleProgress,
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Captions by id, and why others are missing."""
-    ids, path = [stream.id for stream in selection.streams], options.captions
-    captions = {id: given[id] for id in ids if id in given}
-    missing = [id for id in ids if id not in captions]
+    failures = {id: f"{id} is not in {options.captions}" for id in ids if id not in given}
+    found = dict(given)
     if options.model is not None:
         made, failures = make_captions(
-            {id: images[id] for id in missing},
+            {id: images[id] for id in failures},
             options.model,
             options.out / files.MADE,
             device=options.device,
             progress=progress.advance,
         )
-        both = captions | made
-        return {id: both[id] for id in ids if id in both}, failures
-    if not captions:
-        raise InputError(f"{path} has no caption of these streams, such as {ids[0]}")
-    return captions, {id: f"{id} is not in {path}" for id in missing}
+        found |= made
+    if len(failures) == len(ids):
+        raise InputError(f"no stream has a caption: {failures[ids[0]]}")
+    return {id: found[id] for id in ids if id in found}, failures
 
 
 def _report(
@@ -239,18 +237,15 @@ def _score(options: NtImagenetOptions, events: Path) -> int:
     streams = list_streams(options.n_imagenet, captioned)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         rows = score_pairs(samples, streams, metrics, progress.advance)
-    summary = summarise_pairs(rows, metrics)
+    recorded = streams[0]
     controls = {
-        one.name: run_controls(one, streams[0].load()) for one in metrics if one.name in CONTROLLED
+        one.name: run_controls(one, recorded.load()) for one in metrics if one.name in CONTROLLED
     }
-    means = {name: {column: one.document() for column, one in row.items()}
-             for name, row in summary.items()}  # fmt: skip
-    facts = {"texvent_version": full_version(), "pairs": means, "controls": controls}
-    files.write_text(out / files.PAIRS, pairs_csv(rows))
-    files.write_facts(out / files.PAIRS_SUMMARY, plain_values(facts))
-    write_out(pairs_table(summary))
+    facts = {"texvent_version": full_version(), "pairs": rows, "controls": controls}
+    files.write_facts(out / files.PAIRS, plain_values(facts))
+    write_out(pairs_table(rows, metrics))
     for name, found in controls.items():
         values = ", ".join(f"{control} {score_text(value)}" for control, value in found.items())
-        write_out(f"{name} of {streams[0].id}'s own events: {values}\n")
+        write_out(f"{name} of {recorded.id}'s own events: {values}\n")
     write_out(f"{out}: {len(rows):,} pairs in {files.PAIRS}\n")
     return 0

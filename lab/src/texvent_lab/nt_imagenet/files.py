@@ -21,8 +21,8 @@ from texvent_lab.nt_imagenet.selection import Stream
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
 REPORT, SPECIFICATION = "report.json", "specification.toml"
-PAIRS, PAIRS_SUMMARY, MADE = "pairs.csv", "pairs.json", "made_captions.json"
-OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, PAIRS, PAIRS_SUMMARY, MADE})
+PAIRS, MADE = "pairs.json", "made_captions.json"
+OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, PAIRS, MADE})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ def prepare_folder(folder: Path) -> None:
 
 def write_captions(folder: Path, captioned: Iterable[Captioned]) -> None:
     """Write the list of prompts."""
-    write_text(folder / CAPTIONS, "".join(_line(asdict(one)) for one in captioned))
+    _write(folder / CAPTIONS, "".join(_line(asdict(one)) for one in captioned))
 
 
 def read_captioned(path: Path) -> list[Captioned]:
@@ -98,7 +98,7 @@ def write_streams(folder: Path, streams: Sequence[Stream], root: Path) -> None:
 
 def write_facts(path: Path, facts: Mapping[str, Any]) -> None:
     """Write a report as JSON."""
-    write_text(path, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
+    _write(path, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
 
 
 def write_specification(folder: Path) -> bool:
@@ -110,7 +110,7 @@ def write_specification(folder: Path) -> bool:
     path = folder / SPECIFICATION
     if path.exists():
         return False
-    write_text(path, _SPECIFICATION.format(captions=CAPTIONS))
+    _write(path, _SPECIFICATION.format(captions=CAPTIONS))
     return True
 
 
@@ -139,8 +139,7 @@ sensor = "640x480"      # that of N-ImageNet's recordings
 """
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file of the folder."""
+def _write(path: Path, text: str) -> None:
     with atomic_file(path, overwrite=True) as part:
         part.write_text(text, encoding="utf-8")
 

@@ -13,7 +13,6 @@ from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.model_files import EXTRA, loading
 from texvent.io.atomic import atomic_file
 from texvent_lab.alignment.clip_model import find_model
-from texvent_lab.nt_imagenet.selection import Stream
 
 QUESTION = "Caption the image in detail."
 """The paper's, to LLaVA-v1.5-13B."""
@@ -23,13 +22,13 @@ MOST_TOKENS = 256
 EXTENSIONS = (".jpeg", ".jpg", ".png")
 
 
-def find_images(folder: Path, streams: Sequence[Stream]) -> dict[str, Path]:
+def find_images(folder: Path, ids: Sequence[str]) -> dict[str, Path]:
     """Id → image, in any folder below `folder`.
 
     Raises:
         InputError: some are missing.
     """
-    wanted = {stream.id for stream in streams}
+    wanted = set(ids)
     found = {
         one.stem: one
         for one in sorted(folder.rglob("*.*"))

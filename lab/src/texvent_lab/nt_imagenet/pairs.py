@@ -1,14 +1,12 @@
 """Simulated events beside the recorded stream of the same caption: scores, id by id.
 
-The paper scores such pairs by EQS (Table 2) and does not say which part of a simulated clip, which
-is longer than a stream, is compared. Here parts of the stream's length, evenly spread, are averaged.
+The paper scores such pairs by EQS (Table 2), and does not say which part of a simulated clip it
+takes. Here it is the mean over parts as long as the stream, evenly spread.
 """
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping, Sequence
-from io import StringIO
 from typing import Any
 
 import numpy as np
@@ -22,10 +20,8 @@ from texvent_lab.bench.uncertainty import Mean
 
 PARTS = 4
 """Parts of a clip, at most."""
-OTHER = " with another stream"
-"""Column of the control: the score with the stream of another caption."""
-
-Row = dict[str, Any]
+OTHER = ", other stream"
+"""After the name of a metric: its control, the score with the stream of another caption."""
 
 
 def score_pairs(
@@ -33,12 +29,12 @@ def score_pairs(
     streams: Sequence[Recording],
     metrics: Sequence[Metric],
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
-) -> list[Row]:
-    """A row per sample: its scores against the stream of its id, and against that of another.
+) -> list[dict[str, Any]]:
+    """A row per sample: its scores against the stream of its id, and against the next one.
 
     Args:
         samples: variant → simulated recordings.
-        streams: recorded, each of another id; the next one in this order is the control.
+        streams: recorded, each of another id, among them those of the samples.
         metrics: to compute.
         progress: told of (variant, done, total).
 
@@ -46,71 +42,49 @@ def score_pairs(
         InputError: the sensors differ in size.
     """
     place = {stream.id: number for number, stream in enumerate(streams)}
-    rows: list[Row] = []
+    rows = []
     for variant, recordings in samples.items():
         for done, sample in enumerate(recordings):
             progress(variant, done, len(recordings))
-            own, events = streams[place[sample.id]].load(), sample.load()
-            row = {"variant": variant, "id": sample.id, "sample": sample.key}
-            row |= {"recorded": len(own), "simulated": len(events), **_scores(events, own, metrics)}
+            events, number = sample.load(), place[sample.id]
+            row = {"variant": variant, "id": sample.id, "sample": sample.key, "events": len(events)}
+            row |= _scores(events, streams[number].load(), metrics, "")
             if len(streams) > 1:
-                other = streams[(place[sample.id] + 1) % len(streams)].load()
-                scores = _scores(events, other, metrics)
-                row |= {name + OTHER: value for name, value in scores.items()}
+                other = streams[(number + 1) % len(streams)].load()
+                row |= _scores(events, other, metrics, OTHER)
             rows.append(row)
     return rows
 
 
 def _scores(
-    events: EventStream, recorded: EventStream, metrics: Sequence[Metric]
+    events: EventStream, recorded: EventStream, metrics: Sequence[Metric], kind: str
 ) -> dict[str, float]:
-    """Means over parts of the events as long as the recording; clocks begin at 0."""
-    first, stop = recorded.time_range or (0, 1)
-    truth = _part(recorded, first, stop)
     begin, end = events.time_range or (0, 1)
-    starts = np.linspace(begin, max(begin, end - (stop - first)), PARTS).astype(int)
-    parts = [_part(events, start, start + stop - first) for start in dict.fromkeys(starts.tolist())]
-    found = [compare(part, truth, metrics) for part in parts]
-    return {one.name: float(np.mean([each[one.name] for each in found])) for one in metrics}
+    first, stop = recorded.time_range or (0, 1)
+    starts = np.linspace(begin, max(begin, end - (stop - first)), PARTS).astype(int).tolist()
+    truth = _part(recorded, first, stop)
+    found = [
+        compare(_part(events, start, start + stop - first), truth, metrics)
+        for start in dict.fromkeys(starts)
+    ]
+    return {f"{m.name}{kind}": float(np.mean([one[m.name] for one in found])) for m in metrics}
 
 
 def _part(events: EventStream, start: int, stop: int) -> EventStream:
+    """Events on a clock that begins at `start`."""
     part = events.cut(start, stop)
     return EventStream.from_columns(part.x, part.y, part.t - start, part.p, size=events.size)
 
 
-def summarise_pairs(rows: Sequence[Row], metrics: Sequence[Metric]) -> dict[str, dict[str, Mean]]:
-    """Variant → column → mean over pairs with its interval."""
-    columns = [name + kind for name in (one.name for one in metrics) for kind in ("", OTHER)]
-    return {
-        variant: {
-            column: Mean.of(
-                [row.get(column, np.nan) for row in rows if row["variant"] == variant],
-                is_in_sequence=False,
-            )
-            for column in columns
-        }
-        for variant in dict.fromkeys(row["variant"] for row in rows)
-    }
-
-
-def pairs_table(summary: Mapping[str, Mapping[str, Mean]]) -> str:
-    """Markdown: a row per variant, means with 95 % intervals."""
-    columns = list(next(iter(summary.values())))
-    body = [
-        [
-            name,
-            *(f"{m.mean:.4f} [{m.interval.low:.4f}, {m.interval.high:.4f}]" for m in row.values()),
+def pairs_table(rows: Sequence[Mapping[str, Any]], metrics: Sequence[Metric]) -> str:
+    """Markdown: a row per variant, means over its pairs with 95 % intervals."""
+    columns = [f"{one.name}{kind}" for one in metrics for kind in ("", OTHER)]
+    body = []
+    for variant in dict.fromkeys(row["variant"] for row in rows):
+        own = [row for row in rows if row["variant"] == variant]
+        means = [
+            Mean.of([row.get(c, np.nan) for row in own], is_in_sequence=False) for c in columns
         ]
-        for name, row in summary.items()
-    ]
-    return markdown_table(["events", *columns], body)
-
-
-def pairs_csv(rows: Sequence[Row]) -> str:
-    """Comma-separated values."""
-    text = StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+        ends = (f"{m.mean:.4f} [{m.interval.low:.4f}, {m.interval.high:.4f}]" for m in means)
+        body.append([variant, str(len(own)), *ends])
+    return markdown_table(["variant", "pairs", *columns], body)
