@@ -21,7 +21,7 @@ from tests.generate import tiny_pipelines  # noqa: E402
 from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
-from texvent_lab.alignment.align import measure_similarities, score_retrieval  # noqa: E402
+from texvent_lab.alignment.align import align  # noqa: E402
 from texvent_lab.alignment.clip_model import ClipModel  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
@@ -90,8 +90,7 @@ def test_vectors_are_those_of_the_whole_model(clip: Path) -> None:
 def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
     samples = list_samples(data / "events")["texvent"]
     draw = DrawnEvents(images=2, events_per_image=15)
-    (found,) = measure_similarities({"ours": samples}, draw, ClipModel(clip)).values()
-    report = score_retrieval(found.matrix, found.own)
+    report = align({"ours": samples}, draw, ClipModel(clip))["ours"]
     whole = transformers.CLIPModel.from_pretrained(clip).eval()
     tokenizer = transformers.AutoTokenizer.from_pretrained(clip)
     processor = transformers.CLIPImageProcessorPil(
@@ -119,8 +118,7 @@ def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None
     x, y, t = rng.integers(0, 32, 200), rng.integers(0, 32, 200), np.arange(200)
     events = EventStream(x, y, t, rng.integers(0, 2, 200), size)
     same = recordings([events] * 4, ["a cat", "a cat", "a dog", "a dog"])
-    (found,) = measure_similarities({"same": same}, DrawnEvents(), model).values()
-    report = score_retrieval(found.matrix, found.own)
+    report = align({"same": same}, DrawnEvents(), model)["same"]
     # One image is nearer to one of two texts, whatever the model: half of them are right.
     assert report.texts == 2
     assert report.measured.recall[1] == 0.5
@@ -149,9 +147,9 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     assert ours["texts_cut"] == 0
     capsys.readouterr()
     every = run(clip, tmp_path / "all.json", str(data / "events"), "--least-similarity", "2")
-    assert len(every["misfits"]["texvent"]) == 3
+    assert len(every["rows"][0]["misfits"]) == 3
     said = capsys.readouterr().out
-    assert "3 of 3 recordings are less than 2 above the mean of other texts" in said
+    assert "texvent: 3 of 3 fit other texts better" in said
     keys = {f"{one.key}  own" for one in list_samples(data / "events")["texvent"]}
     assert len(keys) == 3
     assert all(key in said for key in keys)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent_lab.alignment.align import RetrievalReport, Similarities, score_retrieval
+from texvent_lab.alignment.align import RetrievalReport, find_misfits, score_retrieval
 from texvent_lab.alignment.recordings import Recording
 
 EMPTY = EventStream.empty(SensorSize(1, 1))
@@ -51,12 +51,15 @@ def test_ranks_by_hand() -> None:
 
 def test_misfits_are_nearer_to_other_texts_than_to_their_own_and_the_worst_come_first() -> None:
     recordings = [Recording(str(n), f"text {n}", lambda: EMPTY, f"key {n}") for n in range(4)]
-    found = Similarities(recordings=recordings, matrix=BY_HAND, own=np.arange(4))
+
+    def misfits(margin: float) -> list[dict[str, Any]]:
+        return find_misfits(recordings, BY_HAND, np.arange(4), margin)
+
     # Own text minus mean of the others: .7, .07, -.2, 0.
-    assert [one["id"] for one in found.misfits(0.1)] == ["2", "3", "1"]
-    assert len(found.misfits(1)) == 4
-    (worst,) = found.misfits(-0.1)
-    assert (worst["sample"], worst["text"]) == ("key 2", "text 2")
+    assert [one["sample"] for one in misfits(0.1)] == ["key 2", "key 3", "key 1"]
+    assert len(misfits(1)) == 4
+    (worst,) = misfits(-0.1)
+    assert worst["text"] == "text 2"
     assert (worst["own"], worst["others"]) == pytest.approx((0.1, 0.3))
 
 

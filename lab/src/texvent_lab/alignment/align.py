@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,8 @@ class RetrievalReport:
     """What an exchange of the texts gives in the long run, computed."""
     p_value: float
     """Share of the exchanges whose mean similarity is at least the measured one; never 0."""
+    misfits: Sequence[Mapping[str, Any]] = ()
+    """See `find_misfits`."""
 
 
 def score_retrieval(
@@ -158,58 +160,32 @@ def _retrieval(values: NDArray[np.float64]) -> Retrieval:
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Similarities:
-    """Similarity of every recording of a source with every different text of it."""
-
-    recordings: Sequence[Recording]
-    matrix: NDArray[Any]
-    """[recordings, texts]."""
-    own: NDArray[np.int64]
-    """Number of the text that belongs to each recording."""
-
-    def misfits(self, margin: float) -> list[dict[str, Any]]:
-        """Recordings whose own text is less than `margin` above the mean of the others.
-
-        The worst come first. There are at least two texts.
-        """
-        matrix = np.asarray(self.matrix, np.float64)
-        own = matrix[np.arange(len(matrix)), self.own]
-        others = (matrix.sum(axis=1) - own) / (matrix.shape[1] - 1)
-        return [
-            {
-                "id": self.recordings[n].id,
-                "sample": self.recordings[n].key,
-                "own": float(own[n]),
-                "others": float(others[n]),
-                "text": self.recordings[n].text,
-            }
-            for n in np.argsort(own - others, kind="stable")
-            if own[n] - others[n] < margin
-        ]
-
-
-def measure_similarities(
+def align(
     sources: Mapping[str, Sequence[Recording]],
     draw: View,
     clip: ClipModel,
     *,
+    seed: int = 0,
+    margin: float | None = None,
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
-) -> dict[str, Similarities]:
-    """Similarities by source.
+) -> dict[str, RetrievalReport]:
+    """Score every source.
 
-    The vector of a recording is the mean of those of its images, at unit length.
+    The vector of a recording is the mean of those of its images, at unit length. Its text is
+    ranked among all different texts of its source.
 
     Args:
         sources: name → recordings.
         draw: how events become images.
         clip: the model.
+        seed: of the bootstrap and of the control.
+        margin: of misfits; None finds none.
         progress: told of (source, done, total).
 
     Raises:
         InputError, FileFormatError: a recording cannot be read.
     """
-    found = {}
+    reports = {}
     for source, recordings in sources.items():
         texts = list(dict.fromkeys(recording.text for recording in recordings))
         place = {text: number for number, text in enumerate(texts)}
@@ -218,25 +194,34 @@ def measure_similarities(
         for done, recording in enumerate(recordings):
             progress(source, done, len(recordings))
             vectors.append(_mean(clip.embed_images(draw(recording.load()))))
-        matrix = np.concatenate(vectors) @ clip.embed_texts(texts).T
-        found[source] = Similarities(recordings=recordings, matrix=matrix, own=own)
-    return found
+        similarity = np.concatenate(vectors) @ clip.embed_texts(texts).T
+        report = score_retrieval(similarity, own, seed=seed)
+        found = [] if margin is None else find_misfits(recordings, similarity, own, margin)
+        reports[source] = replace(report, misfits=found)
+    return reports
+
+
+def find_misfits(
+    recordings: Sequence[Recording], similarity: NDArray[Any], own: NDArray[Any], margin: float
+) -> list[dict[str, Any]]:
+    """Recordings less similar to their own text than `margin` above the mean of the other texts.
+
+    The worst come first. There are at least two texts.
+    """
+    fitting = similarity[np.arange(len(own)), own].astype(np.float64)
+    others = (similarity.sum(axis=1, dtype=np.float64) - fitting) / (similarity.shape[1] - 1)
+    places = [n for n in np.argsort(fitting - others) if fitting[n] - others[n] < margin]
+    return [
+        {"sample": one.key or one.id, "own": float(fitting[n]), "others": float(others[n]),
+         "text": one.text}
+        for n in places for one in [recordings[n]]
+    ]  # fmt: skip
 
 
 def _mean(vectors: Vectors) -> Vectors:
     """Mean of vectors at unit length, [1, d]."""
     mean = vectors.mean(axis=0, keepdims=True)
     return np.asarray(mean / max(float(np.linalg.norm(mean)), 1e-12), np.float32)
-
-
-def misfit_lines(misfits: Mapping[str, Sequence[Mapping[str, Any]]]) -> str:
-    """A line per misfit: source, sample, both similarities, the text."""
-    return "".join(
-        f"{source}  {one['sample'] or one['id']}  own {one['own']:.4f}, "
-        f"others {one['others']:.4f}  {one['text']}\n"
-        for source, found in misfits.items()
-        for one in found
-    )
 
 
 COLUMNS = ("events", "n", "texts", *(f"R@{k}" for k in RECALL_AT), "median rank", "cosine", "p")

@@ -13,12 +13,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent_lab.alignment.align import (
-    alignment_table,
-    measure_similarities,
-    misfit_lines,
-    score_retrieval,
-)
+from texvent_lab.alignment.align import align, alignment_table
 from texvent_lab.alignment.clip_model import ClipModel
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
@@ -72,8 +67,8 @@ class AlignOptions:
     events_per_image: int | None = None
     """Events in a drawn image; default: 70,000 at 640x480, in proportion for other sensors."""
     least_similarity: float | None = None
-    """List the samples whose similarity with their own text is not this much above the mean of that
-    with the other texts; 0: those that fit them better. A video model has failed there, or CLIP."""
+    """List recordings whose similarity with their own text is less than this above the mean of that
+    with the others; 0: those that fit the others better, where a video model may have failed."""
     seed: int = 0
     """Of the bootstrap and of the exchanged captions."""
     device: str = "auto"
@@ -123,14 +118,11 @@ def run(arguments: Sequence[str]) -> int:
     output.check()
     sources = options.sources()
     clip = ClipModel(options.clip, device=options.device)
-    draw = DrawnEvents(options.images, options.events_per_image)
+    draw, margin = DrawnEvents(options.images, options.events_per_image), options.least_similarity
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        found = measure_similarities(sources, draw, clip, progress=progress.advance)
-    reports = {
-        name: score_retrieval(one.matrix, one.own, seed=options.seed) for name, one in found.items()
-    }
-    margin = options.least_similarity
-    misfits = {} if margin is None else {name: one.misfits(margin) for name, one in found.items()}
+        reports = align(
+            sources, draw, clip, seed=options.seed, margin=margin, progress=progress.advance
+        )
     texts = {recording.text for one in sources.values() for recording in one}
     cut = sum(clip.count_tokens(text) > clip.most_tokens for text in texts)
     output.write(
@@ -141,19 +133,16 @@ def run(arguments: Sequence[str]) -> int:
             "images": options.images,
             "events_per_image": options.events_per_image,
             "seed": options.seed,
+            "least_similarity": margin,
             "texts_cut": cut,
             "rows": [{"source": name, **asdict(one)} for name, one in reports.items()],
-            "least_similarity": margin,
-            "misfits": misfits,
         }
     )
     write_out(alignment_table(reports))
-    if margin is not None:
-        count, total = (sum(map(len, one.values())) for one in (misfits, sources))
-        write_out(
-            f"{count:,} of {total:,} recordings are less than {margin:g} above the mean of other "
-            f"texts\n{misfit_lines(misfits)}"
-        )
+    for name, one in reports.items() if margin is not None else ():
+        write_out(f"{name}: {len(one.misfits):,} of {one.recordings:,} fit other texts better\n")
+        for misfit in one.misfits:
+            write_out("  {sample}  own {own:.4f}, others {others:.4f}  {text}\n".format(**misfit))
     if cut:
         write_out(
             f"{cut:,} of {len(texts):,} texts are longer than the {clip.most_tokens} tokens that "
