@@ -149,7 +149,7 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     every = run(clip, tmp_path / "all.json", str(data / "events"), "--least-similarity", "2")
     assert len(every["rows"][0]["misfits"]) == 3
     said = capsys.readouterr().out
-    assert "texvent: 3 of 3 fit other texts better" in said
+    assert "texvent: 3 of 3 fit their text too little" in said
     keys = {f"{one.key}  own" for one in list_samples(data / "events")["texvent"]}
     assert len(keys) == 3
     assert all(key in said for key in keys)

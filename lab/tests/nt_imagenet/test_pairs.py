@@ -119,7 +119,10 @@ def test_eqs_of_own_weights_is_printed_and_kept_with_its_controls(
         (["--events", "{}/small"], "cannot compare a 32x24 sensor with a 640x480 one"),
         (["--events", "{}/N"], "no data set"),
         (["--events", "{}/whole", "--rvt-weights", "{}/c.jsonl"], "cannot be read as network"),
-        (["--events", "{}/whole", "--captions", "{}/c.jsonl"], "leave out --captions and --model"),
+        (
+            ["--events", "{}/whole", "--captions", "{}/c.jsonl"],
+            "events are scored by the captions in --out",
+        ),
         (["--captions", "{}/c.jsonl", "--rvt-weights", "{}/c.jsonl"], "with --events"),
         (["--model", "x"], "with --imagenet"),
         ([], "no captions; give --captions, or --imagenet and --model"),

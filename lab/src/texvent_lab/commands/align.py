@@ -140,7 +140,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     write_out(alignment_table(reports))
     for name, one in reports.items() if margin is not None else ():
-        write_out(f"{name}: {len(one.misfits):,} of {one.recordings:,} fit other texts better\n")
+        write_out(f"{name}: {len(one.misfits):,} of {one.recordings:,} fit their text too little\n")
         for misfit in one.misfits:
             write_out("  {sample}  own {own:.4f}, others {others:.4f}  {text}\n".format(**misfit))
     if cut:

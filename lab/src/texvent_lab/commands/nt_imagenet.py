@@ -90,20 +90,18 @@ class NtImagenetOptions:
                 raise ConfigError(f"leave_out names {shown(name)}; {suggest(name, CHECKS)}")
 
     def check(self) -> None:
-        """Refuse to begin without what is needed.
+        """Refuse options that lack others, and captions in the folder that is written.
 
         Raises:
-            ConfigError: captions or images are not named, or lie in the folder that is written.
+            ConfigError: see above.
         """
-        if self.events is not None and (self.captions or self.model):
-            raise ConfigError(
-                "events scores the captions in --out; leave out --captions and --model"
-            )
-        if self.events is None and self.rvt_weights is not None:
-            raise ConfigError("rvt_weights scores events; name the data set with --events")
+        if self.events and (self.captions or self.model):
+            raise ConfigError("events are scored by the captions in --out; name no others")
+        if self.rvt_weights and not self.events:
+            raise ConfigError("rvt_weights score events; name the data set with --events")
         if not (self.events or self.captions or self.model):
             raise ConfigError("no captions; give --captions, or --imagenet and --model")
-        if self.model is not None and self.imagenet is None:
+        if self.model and not self.imagenet:
             raise ConfigError("the model describes images; give their folder with --imagenet")
         if self.captions and self.captions.resolve().parent == self.out.resolve():
             raise ConfigError(

@@ -28,19 +28,15 @@ def find_images(folder: Path, ids: Sequence[str]) -> dict[str, Path]:
     Raises:
         InputError: some are missing.
     """
-    wanted = set(ids)
-    found = {
-        one.stem: one
-        for one in sorted(folder.rglob("*.*"))
-        if one.stem in wanted and one.suffix.lower() in EXTENSIONS
-    }
+    wanted, files = set(ids), sorted(folder.rglob("*.*"))
+    found = {one.stem: one for one in files if one.suffix.lower() in EXTENSIONS}
     missing = sorted(wanted - set(found))
     if missing:
         raise InputError(
             f"{folder} lacks {len(missing)} of {len(wanted)} images, such as {missing[0]}.JPEG; "
             "give the folder of ImageNet's validation images"
         )
-    return found
+    return {id: found[id] for id in ids}
 
 
 def mean_levels(images: Mapping[str, Path]) -> list[float]:
@@ -59,21 +55,17 @@ def make_captions(
     device: str = "auto",
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
 ) -> tuple[dict[str, str], dict[str, str]]:
-    """Captions of images by an image-text-to-text model; decoding is greedy, so each has one.
+    """Captions of images by an image-text-to-text model, and why others are missing, by id.
 
     Args:
         images: id → file.
         model: folder of a model saved by transformers, or `hub:org/name`.
-        kept: holds each caption by model and id as soon as it is made: a stopped run goes on.
+        kept: holds captions by model and id as soon as they are made: a stopped run goes on.
         device: "auto", or a torch device.
         progress: told of ("captions", done, total).
 
-    Returns:
-        Captions by id, and why others are missing.
-
     Raises:
-        InputError: there is no such model.
-        FileFormatError: it cannot be loaded as one, or the kept captions are damaged.
+        InputError, FileFormatError: the model is not there, cannot be loaded, or `kept` is damaged.
         MissingDependencyError: torch, transformers or Pillow is not installed.
     """
     try:
@@ -82,13 +74,11 @@ def make_captions(
     except (OSError, ValueError, AttributeError) as error:
         raise FileFormatError(f"{kept} is damaged ({one_line(error)}); delete it") from error
     todo, failures = [id for id in images if id not in own], dict[str, str]()
-    if not todo:
-        return {id: own[id] for id in images}, {}
-    ask = _load(model, device)
+    pipeline = _load(model, device) if todo else None
     for done, id in enumerate(todo):
         progress("captions", done, len(todo))
         try:
-            own[id] = ask(images[id])
+            own[id] = _describe(images[id], pipeline)
         except InputError as error:
             failures[id] = str(error)
             continue
@@ -98,18 +88,12 @@ def make_captions(
     return {id: own[id] for id in images if id in own}, failures
 
 
-def _load(model: str, device: str) -> Callable[[Path], str]:
-    """A function that describes an image.
-
-    Raises:
-        As `make_captions`; the function: InputError.
-    """
-    place, free = resolve_device(device, "device")
+def _load(model: str, device: str) -> Any:
+    place, free = resolve_device(device)
     folder = find_model(model, "image-and-text model", EXAMPLE)
     transformers = require("transformers", extra=EXTRA)
-    pil_image = require("PIL.Image", extra=EXTRA)
     with loading(folder, "an image-and-text model"):
-        pipeline: Any = transformers.pipeline(
+        pipeline = transformers.pipeline(
             "image-text-to-text",
             model=str(folder),
             device=place,
@@ -118,19 +102,22 @@ def _load(model: str, device: str) -> Callable[[Path], str]:
         )
     if pipeline.processor.chat_template is None:
         raise FileFormatError(f"{folder} has no chat template; give a model that answers questions")
+    return pipeline
 
-    def ask(image: Path) -> str:
-        try:
-            with pil_image.open(image) as opened:
-                shown = {"type": "image", "image": opened.convert("RGB")}
-        except OSError as error:
-            raise InputError(f"{image} cannot be read as an image ({one_line(error)})") from error
-        said = {"role": "user", "content": [shown, {"type": "text", "text": QUESTION}]}
-        limits = {"do_sample": False, "max_new_tokens": MOST_TOKENS}
-        (answer,) = pipeline(text=[said], return_full_text=False, generate_kwargs=limits)
-        caption = " ".join(str(answer["generated_text"]).split())
-        if not caption:
-            raise InputError(f"the model says nothing about {image}")
-        return caption
 
-    return ask
+def _describe(path: Path, pipeline: Any) -> str:
+    """Answer in one line; decoding is greedy, so an image has one."""
+    pil_image = require("PIL.Image", extra=EXTRA)
+    try:
+        with pil_image.open(path) as opened:
+            image = opened.convert("RGB")
+    except OSError as error:
+        raise InputError(f"{path} cannot be read as an image ({one_line(error)})") from error
+    content = [{"type": "image", "image": image}, {"type": "text", "text": QUESTION}]
+    limits = {"do_sample": False, "max_new_tokens": MOST_TOKENS}
+    said = [{"role": "user", "content": content}]
+    (answer,) = pipeline(text=said, return_full_text=False, generate_kwargs=limits)
+    caption = " ".join(str(answer["generated_text"]).split())
+    if not caption:
+        raise InputError(f"the model says nothing about {path}")
+    return caption

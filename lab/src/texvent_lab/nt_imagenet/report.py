@@ -62,6 +62,7 @@ class Report:
             "count": len(durations),
             "classes": list(selection.classes),
             "incomplete_classes": selection.incomplete(self.per_class),
+            "per_class": _spread(list(Counter(one.wnid for one in selection.streams).values())),
             "events": _spread([stream.events for stream in selection.streams]),
             "duration_us": _spread(durations),
             "median_speed_px_s": _spread([one.speed_px_s for one in selection.streams]),
@@ -86,9 +87,17 @@ class Report:
 
     @property
     def text(self) -> str:
-        """Counts, then the rows of the paper's Table 10."""
+        """Counts, and the rows of the paper's Table 10."""
         streams, captions = self._stream_facts(), self._caption_facts()
         problems = (f"{name} {len(ids)}" for name, ids in captions["problems"].items())
+        rows = {
+            "streams per class": streams["per_class"],
+            "events per stream": streams["events"],
+            "words per caption": captions["words"],
+            "mean level of an image, 0 to 255": streams["image_level"],
+            "median speed of edges, px/s": streams["median_speed_px_s"],
+        }
+        spreads = (f"{name}: {_spread_text(one)}\n" for name, one in rows.items())
         return (
             f"{streams['count']:,} streams of {len(streams['classes'])} classes; left out: "
             f"{len(streams['too_few_events'])} with too few events, "
@@ -96,22 +105,8 @@ class Report:
             "unreadable\n"
             f"{captions['count']:,} captions, {len(captions['missing'])} missing, "
             f"{len(self.left_out)} left out\n"
-            f"captions with problems: {', '.join(problems)}\n"
-            + "".join(f"{name}: {_spread_text(found)}\n" for name, found in self.table_10.items())
+            f"captions with problems: {', '.join(problems)}\n{''.join(spreads)}"
         )
-
-    @property
-    def table_10(self) -> dict[str, dict[str, float] | None]:
-        """Least, median and most of what the paper's Table 10 says in words and numbers."""
-        streams, captions = self._stream_facts(), self._caption_facts()
-        counts = Counter(one.wnid for one in self.selection.streams)
-        return {
-            "streams per class": _spread(list(counts.values())),
-            "events per stream": streams["events"],
-            "words per caption": captions["words"],
-            "mean level of an image (0 to 255)": streams["image_level"],
-            "median speed of edges (px/s)": streams["median_speed_px_s"],
-        }
 
 
 def _spread(values: Sequence[float]) -> dict[str, float] | None:
@@ -122,8 +117,6 @@ def _spread(values: Sequence[float]) -> dict[str, float] | None:
 
 
 def _spread_text(found: Mapping[str, float] | None) -> str:
-    return (
-        "not known"
-        if found is None
-        else (f"{found['least']:,.0f} to {found['most']:,.0f}, median {found['median']:,.0f}")
-    )
+    if found is None:
+        return "not known"
+    return "{least:,.0f} to {most:,.0f}, median {median:,.0f}".format(**found)
