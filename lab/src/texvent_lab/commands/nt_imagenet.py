@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
+
+import numpy as np
 
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -16,13 +18,16 @@ from texvent.extending import full_version, suggest
 from texvent.metrics.compare import load_metric, plain_values, score_text
 from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import load_eqs
+from texvent.metrics.protocol import Metric
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent_lab.alignment.pairs import OTHER, score_pairs
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples, list_streams
+from texvent_lab.bench.document import markdown_table
+from texvent_lab.bench.uncertainty import Mean
 from texvent_lab.nt_imagenet import files
 from texvent_lab.nt_imagenet.captions import CHECKS, check_captions, read_captions
 from texvent_lab.nt_imagenet.files import Captioned
 from texvent_lab.nt_imagenet.images import find_images, make_captions, mean_levels
-from texvent_lab.nt_imagenet.pairs import pairs_table, score_pairs
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
@@ -247,3 +252,17 @@ def _score(options: NtImagenetOptions, events: Path) -> int:
         write_out(f"{name} of {recorded.id}'s own events: {values}\n")
     write_out(f"{out}: {len(rows):,} pairs in {files.PAIRS}\n")
     return 0
+
+
+def pairs_table(rows: Sequence[Mapping[str, Any]], metrics: Sequence[Metric]) -> str:
+    """Markdown: a row per variant, means over its pairs with 95 % intervals."""
+    columns = [f"{one.name}{kind}" for one in metrics for kind in ("", OTHER)]
+    body = []
+    for variant in dict.fromkeys(row["variant"] for row in rows):
+        own = [row for row in rows if row["variant"] == variant]
+        means = [
+            Mean.of([row.get(c, np.nan) for row in own], is_in_sequence=False) for c in columns
+        ]
+        ends = (f"{m.mean:.4f} [{m.interval.low:.4f}, {m.interval.high:.4f}]" for m in means)
+        body.append([variant, str(len(own)), *ends])
+    return markdown_table(["variant", "pairs", *columns], body)

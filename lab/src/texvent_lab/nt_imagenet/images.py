@@ -12,7 +12,7 @@ from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.model_files import EXTRA, loading
 from texvent.io.atomic import atomic_file
-from texvent_lab.alignment.clip_model import find_model
+from texvent_lab.networks.saved_models import find_model
 
 QUESTION = "Caption the image in detail."
 """The paper's, to LLaVA-v1.5-13B."""

@@ -195,5 +195,11 @@ def median_speed(events: EventStream) -> float:
 def _read(path: Path, wnid: str) -> Stream:
     events = load_stream(path)
     duration = int(events.t[-1] - events.t[0]) if len(events) else 0
-    facts = {"events": len(events), "duration_us": duration, "speed_px_s": median_speed(events)}
-    return Stream(id=path.stem, wnid=wnid, path=path, **facts)
+    return Stream(
+        id=path.stem,
+        wnid=wnid,
+        path=path,
+        events=len(events),
+        duration_us=duration,
+        speed_px_s=median_speed(events),
+    )

@@ -12,10 +12,11 @@ from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.metrics.stpp import Stpp
 from texvent.sensor import SensorSize
+from texvent_lab.alignment.pairs import OTHER, score_pairs
 from texvent_lab.alignment.recordings import Recording
-from texvent_lab.nt_imagenet.pairs import OTHER, pairs_table, score_pairs
+from texvent_lab.commands.nt_imagenet import pairs_table
 
-from .tiny_data import WNIDS, stream_id, write_n_imagenet
+from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet
 
 SIZE = SensorSize(32, 24)
 

@@ -15,8 +15,6 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.protocol import Metric
 from texvent_lab.alignment.recordings import Recording
-from texvent_lab.bench.document import markdown_table
-from texvent_lab.bench.uncertainty import Mean
 
 PARTS = 4
 """Parts of a clip, at most."""
@@ -74,17 +72,3 @@ def _part(events: EventStream, start: int, stop: int) -> EventStream:
     """Events on a clock that begins at `start`."""
     part = events.cut(start, stop)
     return EventStream.from_columns(part.x, part.y, part.t - start, part.p, size=events.size)
-
-
-def pairs_table(rows: Sequence[Mapping[str, Any]], metrics: Sequence[Metric]) -> str:
-    """Markdown: a row per variant, means over its pairs with 95 % intervals."""
-    columns = [f"{one.name}{kind}" for one in metrics for kind in ("", OTHER)]
-    body = []
-    for variant in dict.fromkeys(row["variant"] for row in rows):
-        own = [row for row in rows if row["variant"] == variant]
-        means = [
-            Mean.of([row.get(c, np.nan) for row in own], is_in_sequence=False) for c in columns
-        ]
-        ends = (f"{m.mean:.4f} [{m.interval.low:.4f}, {m.interval.high:.4f}]" for m in means)
-        body.append([variant, str(len(own)), *ends])
-    return markdown_table(["variant", "pairs", *columns], body)
