@@ -46,7 +46,8 @@ are scored beside the recorded ones.
   texvent nt-imagenet --n-imagenet N_Imagenet --imagenet val -o nt \\
       --model hub:llava-hf/llava-1.5-13b-hf
   texvent dataset make nt/specification.toml -o nt-events
-  texvent nt-imagenet --n-imagenet N_Imagenet -o nt --events nt-events --rvt-weights rvt-t.ckpt
+  texvent nt-imagenet --n-imagenet N_Imagenet -o nt --events nt-events \\
+      --rvt-weights rvt-t.ckpt
 
 docs/datasets.md explains it."""
 
@@ -57,6 +58,9 @@ class NtImagenetOptions:
 
     input_texts: ClassVar[tuple[str, ...]] = ("model",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("n_imagenet", "imagenet", "model", "captions", "out", "events", "rvt_weights"),
+    )
 
     n_imagenet: Path = REQUIRED
     """Folder of N-ImageNet (with extracted_val), or of its classes."""
