@@ -22,6 +22,7 @@ from texvent_lab.bench.paper.run import (
     choose_e8,
     measure_ablations,
     measure_accuracy,
+    measure_eqs,
     measure_event_frames,
     measure_images,
     measure_noise,
@@ -234,6 +235,25 @@ def test_a_folder_that_lacks_a_recording_is_named_before_any_work(others, bar, m
 def test_columns_that_cannot_be_are_refused(table, events, message):
     with pytest.raises(ConfigError, match=message):
         PaperConfig(table=table, events=events)
+
+
+@pytest.mark.torch
+def test_eqs_of_a_network_trained_here_has_a_row_of_its_own_with_controls(
+    pan_folder, tmp_path, monkeypatch
+):
+    torch = pytest.importorskip("torch")
+    from tests.metrics.rvt.rvt_files import trained_here
+
+    keep_few(monkeypatch)
+    weights = tmp_path / "weights.pt"
+    torch.save(trained_here((32, 32)), weights)
+    config = PaperConfig(table=2, recordings=str(pan_folder), rvt_weights=weights, jobs=1)
+    found = measure_eqs(config, silent)
+    assert set(found.rows["eqs (own RVT) ↑"]) == {"VID2E", "Texvent"}
+    assert "EQS ↑" not in found.rows
+    (controls,) = [note for note in found.notes if "identity" in note]
+    assert "identity 1.000" in controls
+    assert all(one in controls for one in ("shuffle all times", "flip 100 %", "noise 30 %"))
 
 
 def test_noise_that_grows_makes_images_less_like_those_without(tmp_path, monkeypatch):

@@ -66,7 +66,8 @@ class PaperConfig:
     """Tables 1, 7, 8: network that reconstructs images; default: e2vid as in the
     paper, for table 8 pie-net in place of its ET-Net."""
     rvt_weights: Path | None = None
-    """Table 2: RVT's published weights, for EQS."""
+    """Table 2: RVT's published weights, for EQS; or weights.pt of train detection, for eqs (own
+    RVT)."""
     folder: Path | None = None
     """Table 9: folder with a sub-folder per column (original, texvent ...), each with a sub-folder
     of event files per class. Table 6: the same with train and test, and one per simulator."""

@@ -12,7 +12,8 @@ import numpy as np
 from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.latent_similarity import load_eqs
+from texvent.metrics.controls import CONTROLS, run_controls
+from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
 from texvent.video import Video
@@ -59,7 +60,7 @@ ENTRIES: Mapping[str, Entry] = {
     "Texvent": Entry(simulator="texvent", preset="paper", interpolate="rife", rife_flow="each"),
 }
 """Column of the paper → its counterpart here. Those that come with a network for interpolation
-get motion compensation; the others get the frames alone. `columns` has those that can run."""
+get motion compensation; the others get the frames alone. `find_columns` has those that can run."""
 CLASSIFIER = ClassNetwork(name="resnet34", representation="binary-event-image")
 """N-ImageNet's published classifier."""
 OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
@@ -217,12 +218,12 @@ def measure_event_frames(
 
 
 def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
-    """Table 2, first row: EQS against the recording of the same scene."""
+    """Table 2, first row: EQS against the recording of the same scene, with its controls."""
     if config.rvt_weights is None or not config.sources:
         return Measured(
             needs=[
-                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
-                "recording, such as texvent data pull slider_depth"
+                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from, and how one is "
+                "trained here) and a recording, such as texvent data pull slider_depth"
             ]
         )
     eqs = load_eqs(config.rvt_weights)
@@ -231,9 +232,17 @@ def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
     notes = [
         f"EQS against recordings of the same scene ({', '.join(one.scene for one in scenes)}); the "
         "paper compares with other recordings of the same class",
+        *(f"{eqs.name} of {scene.scene}'s own events: {_controls(eqs, scene)}" for scene in scenes),
         *_origins(config),
     ]
-    return Measured({"EQS ↑": _means(report, "eqs", config)}, notes, _reasons(report.skipped))
+    title = "EQS ↑" if type(eqs) is EventQualityScore else f"{eqs.name} ↑"
+    return Measured({title: _means(report, eqs.name, config)}, notes, _reasons(report.skipped))
+
+
+def _controls(eqs: Metric, scene: RealScene) -> str:
+    """Controls over all scored spans: a value is worth nothing outside of them."""
+    found = [run_controls(eqs, events) for events in scene.references]
+    return ", ".join(f"{name} {np.mean([one[name] for one in found]):.3f}" for name in CONTROLS)
 
 
 def measure_times(config: PaperConfig, progress: Progress) -> Measured:
