@@ -57,8 +57,8 @@ class RenderConfig:
     """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
     scenes that the embedded generator renders again."""
     show: Literal["events", "warped", "flow"] = "events"
-    """Events where they are; warped to the start of the image along the motion that makes them
-    sharpest, with the flow warp loss (FWL); or the flow itself, in the colours of the wheel."""
+    """Events, events warped along their motion, or this motion. Warped, they are where they were
+    when the image began; the caption has the flow warp loss (FWL)."""
     patch: int = 32
     """Side of the squares whose motion is found, px; one as large as the sensor: one motion."""
     points: int = SAMPLE_EVENTS

@@ -32,7 +32,7 @@ package brings its weights, or one whose weights you provide (docs/reconstructio
 
   texvent reconstruct out.h5 -o out.mp4
   texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth
-  texvent reconstruct out.h5 -o depth.mp4 --network e2depth --weights e2depth.pth.tar"""
+  texvent reconstruct out.h5 -o d.mp4 --network e2depth --weights e2depth.pth"""
 
 
 @dataclass(frozen=True, kw_only=True)

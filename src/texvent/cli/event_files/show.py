@@ -71,7 +71,6 @@ page (.html).
 
   texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
   texvent render out.h5 -o out.mp4 --overlay both      boxes and optical flow
-  texvent render out.h5 -o flow.png --show flow        optical flow of the events
   texvent render clip.raw -o out.mp4 --video clip.mp4  the video on the left"""
 
 
