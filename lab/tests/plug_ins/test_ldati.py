@@ -44,6 +44,11 @@ def test_lone_events_come_back_with_their_times_and_crowds_with_their_number(dat
         assert np.abs(found - true).max(initial=0) <= 2
 
 
+def test_every_event_of_a_crowd_draws_for_itself():
+    t = sample_events(np.full((2, 10, 3, 4), 3.0), interval(9)).t
+    assert len(set((t % PART_US).tolist())) > 0.99 * len(t) > 500
+
+
 @pytest.mark.parametrize(
     ("nodes", "counts"),
     [

@@ -207,6 +207,8 @@ def test_event_files_are_on_the_clock_of_the_frames_as_they_are_stored(pan_folde
     row = FileEntry.find("Mine", tmp_path, [scene.scene])
     for found, true in zip(scene.simulate(row, None), scene.references, strict=True):
         assert found == true
+    # No threshold is searched by which the file would not change.
+    assert dataclasses.replace(row, is_rate_matched=True).default_threshold is None
     late = dataclasses.replace(early, t=early.t + 10**9)
     late.save(tmp_path / f"{scene.scene}.h5", overwrite=True)
     with pytest.raises(InputError, match=r"no event from .* clock of the frames"):
