@@ -47,13 +47,7 @@ SENSORS: dict[str, Sensor] = {
     for sensor in (
         Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008", 0.081),
         Sensor("davis240c", SensorSize(240, 180), "iniLabs DAVIS240C", "Brandli 2014", 0.22),
-        Sensor(
-            "davis346",
-            SensorSize(346, 260),
-            "iniVation DAVIS346",
-            "iniVation data sheet, Gallego 2022",
-            0.22,
-        ),
+        Sensor("davis346", SensorSize(346, 260), "iniVation DAVIS346", "Gallego 2022", 0.22),
         Sensor(
             "gen3-vga",
             SensorSize(640, 480),
