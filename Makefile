@@ -118,7 +118,7 @@ test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
 
 test-detect: $(DETECT_VENV)/.detect
-	$(DETECT_VENV)/bin/python -m pytest -q -m detect tests/dataset/layouts lab/tests/bench/detection
+	$(DETECT_VENV)/bin/python -m pytest -q -m detect tests/dataset/layouts lab/tests/bench
 
 test-docs: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract

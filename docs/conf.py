@@ -118,7 +118,7 @@ html_theme_options = {
 CHILDREN = {
     "simulators": [
         f"simulators/{name}"
-        for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter")
+        for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
     # Pages of results are made by docs/site/making.py.
     "benchmark": ["results/fidelity"],

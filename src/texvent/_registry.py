@@ -157,6 +157,7 @@ SIMULATORS = Registry(
         "esim": "texvent.simulate.esim.simulator:EsimSimulator",
         "v2e": "texvent.simulate.v2e.simulator:V2eSimulator",
         "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
+        "senpi": "texvent.simulate.senpi.simulator:SenpiSimulator",
     },
 )
 CODECS = Registry(

@@ -117,8 +117,8 @@ class RunConfig:
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
-    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e or
-    voltmeter."""
+    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e,
+    voltmeter or senpi."""
     preset: str = "accurate"
     """Set of simulator options; --help run lists them. Single options override it. Without
     simulator it is that of the one that has the preset."""
@@ -226,7 +226,10 @@ class InterpolateConfig:
     """Intermediate frames: their number and their contents."""
 
     idle_with: ClassVar[IdleOptions] = {
-        "interpolator_weights": ("interpolate", ("none", "blend", "flow", "exact", "motion")),
+        **dict.fromkeys(
+            ("interpolator_weights", "rife_flow"),
+            ("interpolate", ("none", "blend", "flow", "exact", "motion")),
+        ),
         "fixed_count": ("interpolate", ("none",)),
         "max_intermediate": ("interpolate", ("none",)),
         "frames_per_pixel": ("interpolate", ("none",)),
@@ -255,8 +258,12 @@ class InterpolateConfig:
     over the frame interval."""
     interpolator_weights: Path | None = None
     """Weights of rife. Without it, those that texvent weights pull fetched."""
+    rife_flow: Literal["once", "each"] = "once"
+    """Motion that rife estimates: once per pair, or anew for each intermediate frame (each), as in
+    the paper: slower, and differences between the estimates flicker."""
 
     def __post_init__(self) -> None:
+        check_choices(self)
         if self.deflicker and self.interpolate == "exact":
             raise ConfigError(
                 "deflicker corrects the frames of a video, and exact frames are rendered; "

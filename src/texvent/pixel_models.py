@@ -9,6 +9,7 @@ packet = simulator.step(frame)  # a texvent.Frame
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
@@ -19,6 +20,8 @@ __all__ = [
     "EsimSimulator",
     "PhysicalConfig",
     "PhysicalSimulator",
+    "SenpiConfig",
+    "SenpiSimulator",
     "TexventConfig",
     "TexventSimulator",
     "V2eConfig",

@@ -37,23 +37,35 @@ class Sensor:
     size: SensorSize
     description: str
     source: str
-    """Where the numbers come from."""
+    """Where the numbers come from; Gallego 2022 is Table 1 of "Event-based vision: a survey"."""
+    fill_factor: float | None = None
+    """Share of a pixel's area that light falls on, 0..1; None: not published."""
 
 
 SENSORS: dict[str, Sensor] = {
     sensor.name: sensor
     for sensor in (
-        Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008"),
-        Sensor("davis240c", SensorSize(240, 180), "iniLabs DAVIS240C", "Brandli 2014"),
-        Sensor("davis346", SensorSize(346, 260), "iniVation DAVIS346", "iniVation data sheet"),
-        Sensor("gen3-vga", SensorSize(640, 480), "Samsung Gen3 VGA (N-ImageNet)", "Son 2017"),
-        Sensor("gen4-hd", SensorSize(1280, 720), "Prophesee Gen4 HD", "Finateu 2020"),
+        Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008", 0.081),
+        Sensor("davis240c", SensorSize(240, 180), "iniLabs DAVIS240C", "Brandli 2014", 0.22),
+        Sensor("davis346", SensorSize(346, 260), "iniVation DAVIS346", "Gallego 2022", 0.22),
+        Sensor(
+            "gen3-vga",
+            SensorSize(640, 480),
+            "Samsung Gen3 VGA (N-ImageNet)",
+            "Son 2017, Gallego 2022",
+            0.12,
+        ),
+        Sensor("gen4-hd", SensorSize(1280, 720), "Prophesee Gen4 HD", "Finateu 2020", 0.77),
         Sensor(
             "evk4", SensorSize(1280, 720), "Prophesee EVK4 (Sony IMX636)", "Prophesee data sheet"
         ),
         Sensor("genx320", SensorSize(320, 320), "Prophesee GenX320", "Prophesee product page"),
         Sensor(
-            "gen3.1", SensorSize(640, 480), "Prophesee Gen3.1 VGA (PPS3MVCD)", "Prophesee manual"
+            "gen3.1",
+            SensorSize(640, 480),
+            "Prophesee Gen3.1 VGA (PPS3MVCD)",
+            "Prophesee manual, Gallego 2022",
+            0.25,
         ),
         Sensor(
             "dvxplorer",

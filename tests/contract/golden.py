@@ -55,6 +55,7 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
     "physical": [{}, {"preset": "clean"}, {"sensor": "davis346"}],
     "v2e": [{}, {"preset": "noisy"}],
     "voltmeter": [{}],
+    "senpi": [{}],
 }
 FLOW = {"interpolate": "flow"}
 STILL = {"dtype": "still", "interpolate": "flow"}

@@ -38,6 +38,8 @@ QUIET: Mapping[str, Any] = {
 BY_DEFINITION = {
     ("texvent", "paper"),  # its cache forgets at every source frame
     ("v2e", "noisy"),  # its 30 Hz low-pass takes one Euler step per frame
+    ("senpi", "default"),  # a pixel fires once per frame, however far the light has changed
+    ("senpi", "peer-common"),
 }
 """Presets whose published definition has the frame in it; docs/simulators.md names them."""
 CASES = [

@@ -34,6 +34,7 @@ WITHOUT = {
     "interpolator_weights": "a file of several MB",
     "threshold_map": "a file",
     "interpolate=rife": "needs torch",
+    "rife_flow=each": "needs torch",
 }
 
 

@@ -21,7 +21,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulate import packets
 
-SIMULATORS = ("texvent", "esim", "v2e", "voltmeter", "physical")
+SIMULATORS = ("texvent", "esim", "v2e", "voltmeter", "senpi", "physical")
 DAY_US = 86_400 * 10**6
 DIGITS = 10**5000
 """Longer than Python converts to text."""

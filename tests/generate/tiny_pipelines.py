@@ -283,3 +283,38 @@ def save_clip(folder: Path) -> Path:
         transformers.CLIPModel(config).save_pretrained(folder)
     tokenizer.save_pretrained(folder)
     return folder
+
+
+CHAT = (
+    "{% for m in messages %}USER: {% for c in m['content'] %}"
+    "{% if c['type'] == 'image' %}<image>\n{% else %}{{ c['text'] }}{% endif %}"
+    "{% endfor %}{% endfor %} ASSISTANT:"
+)
+
+
+def save_llava(folder: Path) -> Path:
+    """Save a tiny random LLaVA model with its processor and return the folder."""
+    tokenizer = t5(folder)["tokenizer"]
+    tokenizer.add_special_tokens({"additional_special_tokens": ["<image>"]})
+    small = {**SMALL, "initializer_range": 0.5}  # large enough for the image to change the words
+    words = {"vocab_size": len(tokenizer), "pad_token_id": 0, "eos_token_id": 1}
+    config = transformers.LlavaConfig(
+        text_config=transformers.LlamaConfig(**small, **words, bos_token_id=None),
+        vision_config=transformers.CLIPVisionConfig(**small, image_size=16, patch_size=8),
+        initializer_range=0.5,
+        image_token_index=tokenizer.convert_tokens_to_ids("<image>"),
+    )
+    size = {"height": 16, "width": 16}
+    processor = transformers.LlavaProcessor(
+        image_processor=transformers.CLIPImageProcessorPil(size=size, crop_size=size),
+        tokenizer=tokenizer,
+        patch_size=8,
+        vision_feature_select_strategy="default",
+        num_additional_image_tokens=1,
+        image_token="<image>",
+        chat_template=CHAT,
+    )
+    with random_weights():
+        transformers.LlavaForConditionalGeneration(config).save_pretrained(folder)
+    processor.save_pretrained(folder)
+    return folder

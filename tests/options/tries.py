@@ -115,6 +115,7 @@ def read_tries() -> dict[str, list[Try]]:
 ELSEWHERE: dict[tuple[str, str], str] = {
     ("simulate", "keep-partial"): "tests/cli/test_nothing_lost.py",
     ("simulate", "interpolator-weights"): "tests/interpolate/rife",
+    ("simulate", "rife-flow"): "tests/interpolate/rife",
     ("convert", "frames"): "tests/capture/test_aedat4_frames.py",
     ("convert", "triggers"): "tests/io/test_side_data.py",
     ("convert", "imu"): "tests/io/test_side_data.py",

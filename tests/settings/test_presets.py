@@ -63,4 +63,4 @@ def test_help_lists_the_presets_of_each_simulator(page, capsys, monkeypatch):
     said = " ".join(capsys.readouterr().out.split())
     for simulator, presets in preset_help().items():
         assert f" {simulator}: {', '.join(presets)}" in said
-    assert " v2e: default, noisy*, peer-common, where * depends" in said
+    assert " senpi: default*, peer-common*, where * depends" in said

@@ -46,6 +46,17 @@ def test_a_sensor_may_be_given_as_numbers_or_as_an_object(sensor, name):
     assert resolve("simulate", {"sensor": sensor}).run.sensor == name
 
 
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_the_fill_factor_of_a_sensor_scales_the_noise_of_texvent_alone(sensor):
+    scale = 0.22 / (SENSORS[sensor].fill_factor or 0.22)
+    for preset in ("accurate", "paper"):
+        options = {"sensor": sensor.upper(), "preset": preset}
+        assert resolve("simulate", options).simulate.noise_scale == pytest.approx(scale, abs=5e-4)
+        assert resolve("simulate", {**options, "noise_scale": 3.0}).simulate.noise_scale == 3.0
+    physical = resolve("simulate", {"sensor": sensor, "simulator": "physical"})
+    assert physical.simulate == SIMULATORS.load("physical").presets[physical.run.preset]
+
+
 def test_a_sensor_without_measured_constants_is_said_to_have_none():
     with_constants = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis346"})
     assert unmeasured_sensor(with_constants.run) is None

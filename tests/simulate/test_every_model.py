@@ -33,6 +33,7 @@ NOISY: dict[str, dict[str, Any]] = {
     },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
     "voltmeter": {"constants": f"5.265 20 1e-4 {RATE_HZ * 1e-6} 0 1e-5"},
+    "senpi": {"noise_rate_hz": RATE_HZ},
 }
 """Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise."""
 CLEAN: dict[str, dict[str, Any]] = {
@@ -41,6 +42,7 @@ CLEAN: dict[str, dict[str, Any]] = {
     "esim": {},
     "v2e": {"preset": "peer-common"},
     "voltmeter": {"constants": "5.265 20 0 0 0 0"},
+    "senpi": {"preset": "peer-common"},
 }
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 
@@ -51,7 +53,7 @@ def texture(**options: Any):
 
 
 def test_no_model_is_forgotten():
-    assert set(SIMULATORS.names()) == set(CLEAN) == set(BRIGHTNESS)
+    assert set(SIMULATORS.builtin) == set(CLEAN) == set(BRIGHTNESS) | {"senpi"}
     assert set(CLEAN) - {"esim"} == set(NOISY)
 
 
@@ -88,7 +90,7 @@ BRIGHTNESS: dict[str, Callable[[float, float], float]] = {
     "v2e": lambda start, stop: math.log(stop / start) / 0.2,
     "voltmeter": lambda start, stop: 5.265 * (stop - start) / (20 + (start + stop) / 2),
 }
-"""Change from one level to another in thresholds, as each model publishes it."""
+"""Change from one level to another in thresholds, as each model publishes it; SENPI fires once."""
 
 
 @pytest.mark.parametrize("model", BRIGHTNESS)

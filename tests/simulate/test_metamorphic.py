@@ -14,6 +14,7 @@ import pytest
 import texvent
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.events import EventStream
+from texvent.options.values import option_names
 from texvent.runtime import threads
 
 HEIGHT, WIDTH, COUNT, STEP_US = 18, 24, 5, 41_667
@@ -44,11 +45,12 @@ LOUD = {
     "noise_rate_hz": 20.0, "noise_intensity": 120.0, "shot_noise_rate_hz": 20.0,
     "leak_rate_hz": 5.0, "threshold_sigma": 0.03, "hot_pixel_fraction": 0.1,
     "initial_phase": "random", "timestamp_rule": "random",
+    "contrast_threshold_on": 0.2, "contrast_threshold_off": 0.2,
 }  # fmt: skip
-"""Everything random, for the models that have it."""
+"""Everything random, for the models that have it, and thresholds that flicker reaches."""
 QUIET = {
     "shot_noise_rate_hz": 0.0, "threshold_sigma": 0.0, "leak_rate_decades": 0.0,
-    "hot_pixel_fraction": 0.0, "initial_phase": "zero", "scan_period_ns": 0, "noise": "none",
+    "hot_pixel_fraction": 0.0, "initial_phase": "zero", "scan_period_ns": 0, "noise_rate_hz": 0.0,
 }  # fmt: skip
 """Nothing random, nor a scan, which knows left from right."""
 
@@ -70,7 +72,8 @@ class Run(NamedTuple):
 
     def _options(self, wanted: dict[str, Any], noise: float, constants: Any) -> dict[str, Any]:
         config = MODELS[self.model].presets[self.preset]
-        options = {name: value for name, value in wanted.items() if hasattr(config, name)}
+        known = option_names(type(config))
+        options = {name: value for name, value in wanted.items() if name in known}
         if hasattr(config, "noise_curve"):
             options["noise_scale"] = noise
         if hasattr(config, "constants"):

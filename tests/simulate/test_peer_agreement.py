@@ -12,6 +12,7 @@ import pytest
 
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimSimulator
+from texvent.simulate.senpi.simulator import SenpiSimulator
 from texvent.simulate.v2e.simulator import V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
@@ -74,6 +75,8 @@ def brightness_of(name: str, intensity: int) -> float:
     """What each original compares, for one 8-bit pixel."""
     if name == "esim":
         return math.log(intensity / 255 + 1e-3)
+    if name == "senpi":
+        return math.log(max(intensity, 1) / 255 * 15_000)
     return intensity * math.log(20) / 20 if intensity <= 20 else math.log(intensity)
 
 
@@ -84,14 +87,18 @@ def events_by_hand(name: str, levels: list[int]) -> list[tuple[int, int]]:
         change = brightness_of(name, level) - reference
         count = int(abs(change) / 0.2)
         is_on = change > 0
-        reference += count * 0.2 * (1 if is_on else -1)
+        if name == "senpi":
+            count = min(count, 1)
+            reference += count * change
+        else:
+            reference += count * 0.2 * (1 if is_on else -1)
         events += [(number, int(is_on))] * count
     return events
 
 
-@pytest.mark.parametrize("name", ["esim", "v2e"])
+@pytest.mark.parametrize("name", ["esim", "v2e", "senpi"])
 def test_the_published_rules_by_hand_on_our_own_frames(name):
-    model = {"esim": EsimSimulator, "v2e": V2eSimulator}[name]
+    model = {"esim": EsimSimulator, "v2e": V2eSimulator, "senpi": SenpiSimulator}[name]
     frames = moving_texture(8, (10, 12))
     packets = packets_of(model, "peer-common", frames)
     ours = [count_map(packet.columns(), (10, 12)) for packet in packets]
@@ -151,6 +158,24 @@ def test_v2e_with_noise_agrees_in_rate_and_polarity(clip, preset, name):
         original = pair_of(theirs, clip[i - 1].t_us, clip[i].t_us)
         assert len(packets[i]) == pytest.approx(len(original["t"]), rel=0.02)
         assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.01)
+
+
+@needs_peers
+@pytest.mark.parametrize(
+    ("preset", "name", "most"),
+    [("peer-common", "senpi_common", 0.0), ("default", "senpi_default", 0.06)],
+)
+def test_senpi_agrees_in_every_event_and_with_noise_in_rate_and_polarity(clip, preset, name, most):
+    # Its clock runs in steps of 41,667 µs, and its events carry the time of the later frame.
+    theirs, packets = load_peer(name), packets_of(SenpiSimulator, preset, clip)
+    # Its first frame fires every pixel, so references differ until they have moved on.
+    for i in range(2, len(clip)):
+        original = pair_of(theirs, i * 41_667 - 1, i * 41_667)
+        assert len(packets[i]) == pytest.approx(len(original["t"]), rel=most)
+        assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.2 * most + 1e-9)
+        if not most:
+            assert np.array_equal(count_map(packets[i].columns()), count_map(original))
+            assert (packets[i].t == clip[i].t_us - 1).all()
 
 
 @needs_peers

@@ -9,6 +9,7 @@ from tests.simulate.references import in_both_forms
 from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.simulate.senpi.simulator import SenpiSimulator
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
@@ -44,6 +45,7 @@ MODELS = [
     (PhysicalSimulator, PhysicalConfig(leak_rate_hz=20.0, noise_scale=0.0, initial_phase="zero")),
     (V2eSimulator, V2eConfig(leak_rate_hz=20.0, shot_noise_rate_hz=20.0)),
     (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
+    (SenpiSimulator, SenpiSimulator.presets["default"]),
 ]
 
 

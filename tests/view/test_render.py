@@ -3,6 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
+from typing import Literal
 
 import av
 import cv2
@@ -101,8 +102,47 @@ def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str) -> None:
         ({"events_per_image": 0}, "events_per_image is 0"),
         ({"events_per_image": 9, "window": 10.0}, "exclude each other"),
         ({"points": 0}, "points is 0"),
+        ({"patch": 3}, "patch is 3"),
+        ({"show": "depth"}, "show is 'depth'"),
     ],
 )
 def test_options_out_of_range_are_refused(options: dict[str, object], message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         RenderConfig(**options)
+
+
+def moving_stripes() -> EventStream:
+    """Stripes that move right by 200 px/s, with a pause of 70 ms."""
+    t = np.arange(0, 200_000, 100)
+    t = t[(t < 80_000) | (t > 150_000)]
+    y, t = np.tile(np.arange(24), len(t)), np.repeat(t, 24)
+    return EventStream((t // 5000 + 9 * (y // 8)) % 32, y, t, t // 100 % 2, SIZE)
+
+
+@pytest.mark.parametrize("show", ["warped", "flow"])
+@pytest.mark.parametrize("extension", [".png", ".mp4", ".gif"])
+def test_motion_is_shown_in_place_of_the_events(
+    tmp_path: Path, extension: str, show: Literal["warped", "flow"]
+) -> None:
+    kinds: tuple[Literal["events"], Literal["warped", "flow"]] = ("events", show)
+    plain, path = (
+        render_events(
+            moving_stripes(),
+            tmp_path / f"{one}{extension}",
+            config=RenderConfig(show=one, window=40, patch=24),
+        )
+        for one in kinds
+    )
+    assert path.read_bytes() != plain.read_bytes()
+    if extension != ".png":
+        assert video_times(path) == video_times(plain)
+        return
+    image, before = (cv2.imread(str(one)).astype(int) for one in (path, plain))
+    coloured, was = (np.count_nonzero(np.ptp(one, axis=2) > 60) for one in (image, before))
+    assert coloured < was / 2 if show == "warped" else coloured > 2 * was
+
+
+def test_a_page_cannot_show_motion(tmp_path: Path, folder_is_clean: Callable[[], bool]) -> None:
+    with pytest.raises(ConfigError, match=r"show is flow; a page shows events: render to \.mp4"):
+        render_events(moving_stripes(), tmp_path / "out.html", config=RenderConfig(show="flow"))
+    assert folder_is_clean()

@@ -145,5 +145,18 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     ours = run(clip, tmp_path / "ours.json", str(data / "events"))
     assert ours["rows"][0]["measured"] == both["rows"][0]["measured"]
     assert ours["texts_cut"] == 0
+    capsys.readouterr()
+    every = run(clip, tmp_path / "all.json", str(data / "events"), "--least-similarity", "2")
+    assert len(every["rows"][0]["misfits"]) == 3
+    said = capsys.readouterr().out
+    assert "texvent: 3 of 3 fit their text too little" in said
+    keys = {f"{one.key}  own" for one in list_samples(data / "events")["texvent"]}
+    assert len(keys) == 3
+    assert all(key in said for key in keys)
+    first = (data / "nt" / "captions.jsonl").read_text().split("\n")[0]
+    (tmp_path / "one.jsonl").write_text(first)
+    alone = ["--n-imagenet", str(data / "N"), "--captions", str(tmp_path / "one.jsonl")]
+    assert main(["align", *alone, "--clip", "no model", "--least-similarity", "0"]) == 2
+    assert "N-ImageNet has one text alone" in capsys.readouterr().err
     limited = run(clip, tmp_path / "two.json", *real, "--limit", "2")
     assert limited["rows"][0]["recordings"] == 2

@@ -11,7 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from texvent_lab.alignment.align import RetrievalReport, score_retrieval
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent_lab.alignment.align import RetrievalReport, find_misfits, score_retrieval
+from texvent_lab.alignment.recordings import Recording
+
+EMPTY = EventStream.empty(SensorSize(1, 1))
 
 BY_HAND = np.array(
     [
@@ -42,6 +47,20 @@ def test_ranks_by_hand() -> None:
     assert measured.recall[5] == 1.0
     assert measured.median_rank == (2 + 2.5) / 2
     assert measured.mean_similarity == pytest.approx((0.9 + 0.4 + 0.1 + 0.1) / 4)
+
+
+def test_misfits_are_nearer_to_other_texts_than_to_their_own_and_the_worst_come_first() -> None:
+    recordings = [Recording(str(n), f"text {n}", lambda: EMPTY, f"key {n}") for n in range(4)]
+
+    def misfits(margin: float) -> list[dict[str, Any]]:
+        return find_misfits(recordings, BY_HAND, np.arange(4), margin)
+
+    # Own text minus mean of the others: .7, .07, -.2, 0.
+    assert [one["sample"] for one in misfits(0.1)] == ["key 2", "key 3", "key 1"]
+    assert len(misfits(1)) == 4
+    (worst,) = misfits(-0.1)
+    assert worst["text"] == "text 2"
+    assert (worst["own"], worst["others"]) == pytest.approx((0.1, 0.3))
 
 
 def test_the_bootstrap_interval_is_that_of_a_share() -> None:

@@ -3,6 +3,7 @@
 import json
 
 import cv2
+import numpy as np
 import pytest
 
 from texvent.cli.app import main
@@ -61,6 +62,32 @@ def test_events_become_a_film_by_count_and_in_a_range(events, weights, tmp_path,
     code, said = run(capsys, "reconstruct", events, "-o", out, *words, *network(weights))
     assert (code, said.out, said.err) == (0, "", "")
     assert out.stat().st_size > 0
+
+
+def test_depth_becomes_a_film_and_pictures_in_colour(events, tmp_path, capsys):
+    weights = save_published(torch, "e2depth", tmp_path / "e2depth.pth.tar")
+    for out in (tmp_path / "depth.mp4", tmp_path / "depth"):
+        words = ("--time", "0.1,0.3", "--network", "e2depth", "--weights", weights)
+        assert run(capsys, "reconstruct", events, "-o", out, *words)[0] == 0
+    picture = cv2.imread(str(tmp_path / "depth" / "frame_0000000002.png"), cv2.IMREAD_UNCHANGED)
+    assert picture.shape == (*SIZE.shape, 3)
+    assert np.ptp(picture, axis=2).max() > 50
+    film = cv2.VideoCapture(str(tmp_path / "depth.mp4"))
+    film.set(cv2.CAP_PROP_POS_FRAMES, 2)
+    shown = film.read()[1][: SIZE.height, : SIZE.width]
+    assert np.corrcoef(shown.ravel(), picture.ravel())[0, 1] > 0.95
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("bench", "real", "RECORDING"), ("bench", "paper", "--table", "8")],
+)
+def test_depth_is_refused_where_images_are_compared_with_frames(words, recording, capsys):
+    words = [str(recording) if one == "RECORDING" else one for one in words]
+    code, said = run(capsys, *words, "--network", "e2depth", "-q")
+    assert code == 2
+    assert "network is e2depth, which gives depth" in said.err
+    assert said.err.count("\n") == 1
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from texvent.cli.app import main
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples
 from texvent_lab.nt_imagenet.files import read_captioned
 
-from .tiny_data import WNIDS, stream_id, write_n_imagenet
+from .tiny_data import WNIDS, stream_id, write_images, write_n_imagenet
 
 CAPTIONS = {
     1: "a red car drives left",
@@ -77,6 +77,23 @@ def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
     assert len(captions["problems"]["length"]) == 4
     assert captions["duplicates"] == [[stream_id(1), stream_id(4)]]
     assert found["left_out"] == []
+    assert found["streams"]["image_level"] is None
+    assert found["streams"]["median_speed_px_s"] is None  # noise has no edges
+
+
+def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for wnid, numbers in ((WNIDS[0], (1, 2, 4)), (WNIDS[1], (3, 5))):
+        write_images(tmp_path / "val", numbers, wnid)
+    assert nt(data, tmp_path / "nt", "--imagenet", str(tmp_path / "val")) == 1
+    said = capsys.readouterr().out
+    assert "events per stream: 3,000 to 3,500, median 3,300" in said
+    assert "words per caption: 5 to 6, median 5" in said
+    assert "streams per class: 2 to 3, median 2" in said
+    levels = report(tmp_path / "nt")["streams"]["image_level"]
+    assert levels["least"] == pytest.approx(19.5, abs=2)
+    assert levels["most"] == pytest.approx(99.5, abs=4)
 
 
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from texvent_lab.nt_imagenet.selection import choose_classes, select_streams
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent_lab.nt_imagenet.selection import choose_classes, median_speed, select_streams
 
 from .tiny_data import WNIDS, stream_id, write_n_imagenet
 
@@ -49,3 +53,17 @@ def test_a_damaged_file_costs_that_stream_alone(tmp_path: Path) -> None:
     chosen = select_streams(folder, WNIDS[:1])
     assert [one.id for one in chosen.streams] == [stream_id(2)]
     assert list(chosen.unreadable) == [stream_id(1)]
+
+
+def test_speed_is_that_of_an_edge_in_any_direction() -> None:
+    size = SensorSize(40, 30)
+    y, x = np.indices(size.shape)
+    for dx, dy in ((200.0, 0.0), (0.0, -150.0), (90.0, 120.0)):
+        t = 1e6 * (x * dx + y * dy) / (dx**2 + dy**2)
+        order = np.argsort(t, axis=None, kind="stable")
+        t = np.rint(t - t.min()).astype(int).ravel()[order]
+        columns = (x.ravel()[order], y.ravel()[order], t, np.ones(x.size, int))
+        edge = EventStream(*columns, size)
+        assert median_speed(edge) == pytest.approx(np.hypot(dx, dy), rel=1e-3)
+    assert math.isnan(median_speed(EventStream.empty(size)))
+    assert math.isnan(median_speed(EventStream([1, 2], [1, 1], [0, 5], [1, 1], size)))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import cv2
 import numpy as np
 
 WNIDS = ("n01440764", "n01443537", "n01484850")
@@ -23,6 +24,17 @@ def write_stream(path: Path, count: int, seed: int) -> None:
     events["p"] = rng.integers(0, 2, count)
     path.parent.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(path, event_data=events)
+
+
+def write_images(folder: Path, numbers: Sequence[int], wnid: str = WNIDS[0]) -> Path:
+    """ImageNet's validation images by class, as noise that grows brighter with the number."""
+    for number in numbers:
+        levels = np.random.default_rng(number).integers(0, 40 * number, (20, 30, 3), np.uint8)
+        path = folder / wnid / f"{stream_id(number)}.JPEG"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        assert cv2.imwrite(str(path.with_suffix(".jpg")), levels)
+        path.with_suffix(".jpg").rename(path)
+    return folder
 
 
 def write_n_imagenet(folder: Path, counts: Mapping[str, Mapping[int, int]]) -> Path:

@@ -16,6 +16,9 @@ HEADS = {
     "firenet+": "head.conv2d.weight",
     "e2vid": "unetrecurrent.head.conv2d.weight",
     "e2vid+": "unetrecurrent.head.conv2d.weight",
+    "hypere2vid": "unetrecurrent.head.conv2d.weight",
+    "et-net": "head.conv2d.weight",
+    "e2depth": "unetrecurrent.head.conv2d.weight",
 }
 
 
@@ -28,7 +31,7 @@ def small_shapes(name, *marks):
     encoders = [f"unetrecurrent.encoders.{number}.any" for number in range(3)]
     found = {
         HEADS[name]: (WIDTH, BINS, SIDE, SIDE),
-        **dict.fromkeys((*encoders, *marks) if "e2vid" in name else (), (1,)),
+        **dict.fromkeys((*encoders, *marks) if "unet" in HEADS[name] else (), (1,)),
     }
     return shapes_like(name, found)
 
@@ -65,7 +68,7 @@ def save_published(torch, name, path, *, settings=None, **more):
     content = {"arch": name, "epoch": 3, "state_dict": state, "optimizer": {"lr": 1e-4}, **more}
     if name == "e2vid":
         content["model"] = settings or {}
-    elif name == "firenet":
+    elif name in ("firenet", "e2depth"):
         content["config"] = {"model": settings or {}}
     elif settings is not None:
         content["config"] = config_parser({"arch": {"args": {"kwargs": settings}}})

@@ -129,8 +129,60 @@ def test_firenet_has_the_published_24_tensors_and_37777_parameters(name):
     assert count_parameters(shapes) == 37_777
 
 
-def test_e2vid_has_the_published_10_7_million_parameters():
-    assert count_parameters(shapes_like("e2vid", {})) == pytest.approx(10.71e6, rel=0.002)
+@pytest.mark.parametrize(
+    ("name", "tensors", "millions"),
+    [
+        ("e2vid", 30, 10.71), ("e2depth", 30, 10.71), ("hypere2vid", 45, 10.15),
+        ("et-net", 254, 22.18),
+    ],
+)  # fmt: skip
+def test_networks_have_the_published_number_of_tensors_and_parameters(name, tensors, millions):
+    shapes = shapes_like(name, {})
+    assert len(shapes) == tensors
+    assert count_parameters(shapes) == pytest.approx(millions * 1e6, abs=5e3)
+
+
+@pytest.mark.parametrize("side", [1, 4, 301])
+def test_kernels_of_an_unpublished_side_are_refused_before_patterns_are_made(side, tmp_path):
+    torch.save({HEADS["hypere2vid"]: torch.ones(1, 5, side, side)}, tmp_path / "model.pth")
+    with pytest.raises(FileFormatError, match="first layer is of another kind"):
+        read("hypere2vid", tmp_path / "model.pth")
+
+
+LAYOUT = {
+    "hypere2vid": (
+        *("context_fusion.conv.weight", "dynamic_atom_generation.bases_net.4.running_var"),
+        *("dynamic_atom_generation.bases", "dynamic_conv.compositional_coefficients"),
+        "dynamic_conv.bias",
+    ),
+    "et-net": (
+        *("DownsampleConv.2.recurrent_block.Gates.bias", "UpsampleConv.0.conv2d.weight"),
+        *("trans_encoder0.encoder.layers.2.self_attn.in_proj_weight", "split2.weight"),
+        *("trans_decoder2.decoder.layers.1.cross_attn.out_proj.bias", "pred.conv2d.bias"),
+        "trans_decoder1.decoder.layers.0.norm22.weight",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LAYOUT)
+def test_tensors_have_the_published_names(name):
+    prefix = "unetrecurrent.decoders.0." if name == "hypere2vid" else ""
+    assert {f"{prefix}{one}" for one in LAYOUT[name]} <= shapes_like(name, {}).keys()
+
+
+@pytest.mark.parametrize("name", HEADS)
+def test_a_file_of_each_other_network_or_cut_off_is_refused_in_one_line(name, tmp_path):
+    path = tmp_path / "model.pth"
+    same = {one for one in HEADS if small_shapes(one) == small_shapes(name)}
+    for other in HEADS.keys() - same:
+        save_published(torch, other, path)
+        with pytest.raises(FileFormatError, match=r"holds another network: \w+ key|first layer"):
+            read(name, path)
+    save_published(torch, name, path)
+    path.write_bytes(path.read_bytes()[:-2000])
+    with pytest.raises(FileFormatError, match="cannot be read as network weights") as told:
+        read(name, path)
+    assert "\n" not in str(told.value)
 
 
 @pytest.mark.parametrize("name", HEADS)

@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 from tests.represent.definitions import random_events
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.reconstruct.reconstructor import load_reconstructor
+from texvent_lab.reconstruct.reconstructor import find_network, load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import HEADS, random_state, save_published
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
+from texvent_lab.reconstruct.e2depth import depth_in_metres  # noqa: E402
 
 SIZE = SensorSize(21, 13)
 
@@ -46,7 +47,7 @@ def test_a_network_gets_its_voxel_grid_and_gives_an_image_of_any_size(folder, na
     assert image.shape == SIZE.shape
     assert image.dtype == np.float32
     assert 0.0 <= image.min() < image.max() <= 1.0
-    is_normalised = name in ("e2vid", "firenet")
+    is_normalised = name in ("e2vid", "firenet", "e2depth")
     expected = voxel_e2vid(noise(), bins=5, normalise=is_normalised)
     grid = seen[0][0].numpy()
     if "firenet" in name:
@@ -54,8 +55,8 @@ def test_a_network_gets_its_voxel_grid_and_gives_an_image_of_any_size(folder, na
         return
     # 13 rows become 16: 2 above and 1 below; 21 columns become 24 likewise.
     assert grid.shape == (5, 16, 24)
-    np.testing.assert_array_equal(grid[:, 2:15, 2:23], expected)
-    assert np.count_nonzero(grid) == np.count_nonzero(expected)
+    how = "reflect" if name == "e2depth" else "constant"
+    np.testing.assert_array_equal(grid, np.pad(expected, ((0, 0), (2, 1), (2, 1)), mode=how))
 
 
 def test_only_e2vid_stretches_its_images(folder):
@@ -65,15 +66,15 @@ def test_only_e2vid_stretches_its_images(folder):
     assert (image == 1).mean() == pytest.approx(0.01, abs=0.01)
 
 
-def test_a_twin_shares_weights_but_no_memory(folder):
-    reconstructor = load(folder, "e2vid+")
+@pytest.mark.parametrize("name", ["e2vid+", "hypere2vid", "et-net"])
+def test_a_twin_shares_weights_but_no_memory(folder, name):
+    reconstructor = load(folder, name)
     first = reconstructor.reconstruct(noise())
     twin = reconstructor.twin()
     np.testing.assert_array_equal(twin.reconstruct(noise()), first)
     second = reconstructor.reconstruct(noise(seed=1))
     np.testing.assert_array_equal(twin.reconstruct(noise(seed=1)), second)
-    name = HEADS["e2vid+"]
-    assert twin._network.tensors[name] is reconstructor._network.tensors[name]
+    assert twin._network.tensors[HEADS[name]] is reconstructor._network.tensors[HEADS[name]]
 
 
 def test_events_of_another_sensor_are_refused_until_the_reset(folder):
@@ -84,6 +85,23 @@ def test_events_of_another_sensor_are_refused_until_the_reset(folder):
         reconstructor.reconstruct(other)
     reconstructor.reset()
     assert reconstructor.reconstruct(other).shape == (8, 8)
+
+
+def test_depth_has_colours_and_is_not_compared_with_frames(folder):
+    reconstructor = load(folder, "e2depth")
+    output = reconstructor.reconstruct(noise())
+    assert 1.97 < depth_in_metres(output).min() < depth_in_metres(output).max() < 80
+    colours = reconstructor.picture(output)
+    assert colours.shape == (*SIZE.shape, 3)
+    near, far = (colours.reshape(-1, 3)[one] for one in (output.argmin(), output.argmax()))
+    assert near.tolist() == pytest.approx([0.987, 0.991, 0.749], abs=0.01)  # both ends of magma
+    assert far.tolist() == pytest.approx([0.001, 0.0, 0.014], abs=0.01)
+    flat = reconstructor.picture(np.full(SIZE.shape, 0.5, np.float32))
+    assert (flat == flat[0, 0]).all()
+    with pytest.raises(ConfigError, match="e2depth, which gives depth; frames are compared"):
+        find_network("e2depth")
+    image = load(folder, "e2vid+").reconstruct(noise())
+    assert load(folder, "e2vid+").picture(image) is image
 
 
 def test_output_that_is_not_finite_is_refused(tmp_path):
@@ -103,7 +121,7 @@ def test_without_weights_the_message_says_where_they_come_from_and_go(name, tmp_
         load_reconstructor(name)
     message = str(told.value)
     assert f"{name} needs its weights" in message
-    assert "ercanburak/EVREAL" in message
+    assert ("uzh-rpg/rpg_e2depth" if name == "e2depth" else "ercanburak/EVREAL") in message
     assert "`weights`" in message
     assert str(tmp_path / "weights" / f"{name}.pth") in message
     assert "\n" not in message

@@ -12,7 +12,7 @@ from texvent.events import EventStream
 from texvent.metrics.protocol import Metric
 from texvent.sensor import SensorSize
 
-CONTROLLED = ("lfs", "eqs")
+CONTROLLED = ("lfs", "eqs", "eqs (own RVT)")
 """Metrics that are reported with their controls: their numbers alone mislead."""
 
 Pair: TypeAlias = tuple[EventStream, EventStream]

@@ -26,7 +26,7 @@ Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 PATCH = 3
 WHERE_FROM = (
     "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
-    "uzh-rpg/RVT on GitHub links"
+    "uzh-rpg/RVT on GitHub links; texvent train detection writes weights.pt for eqs (own RVT)"
 )
 
 
@@ -162,8 +162,15 @@ class EventQualityScore(Metric):
         return LatentSimilarity(backbone=self.backbone)(predicted, reference)
 
 
+@dataclass(frozen=True, kw_only=True)
+class OwnEventQualityScore(EventQualityScore):
+    """The same with a network trained here, on simulated events: its values are not the paper's."""
+
+    name = "eqs (own RVT)"
+
+
 def load_eqs(path: Path) -> EventQualityScore:
-    """EQS with the weights of a published checkpoint.
+    """EQS with the weights of a published checkpoint, or of a detector trained here.
 
     Raises:
         InputError: there is no such file.
@@ -174,4 +181,5 @@ def load_eqs(path: Path) -> EventQualityScore:
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     from texvent.metrics.rvt_backbone import read_rvt  # needs torch
 
-    return EventQualityScore(backbone=read_rvt(path))
+    backbone = read_rvt(path)
+    return (OwnEventQualityScore if backbone.is_own else EventQualityScore)(backbone=backbone)

@@ -1,6 +1,7 @@
 """RVT's backbone, and the checkpoint that holds it. Needs torch to import.
 
-Names of modules as in the published checkpoints.
+Names of modules as in the published checkpoints; those of evlib's RVT, which `texvent train
+detection` trains, are translated.
 
 Source: M. Gehrig, D. Scaramuzza, "Recurrent vision transformers for object detection with event
 cameras" (CVPR 2023), and the configurations released with it.
@@ -8,6 +9,7 @@ cameras" (CVPR 2023), and the configurations released with it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.metrics.latent_similarity import WHERE_FROM, Features
-from texvent.networks.weight_files import Tensor, load_strictly, named_tensors, read_mapping
+from texvent.networks.weight_files import STATE, Tensor, load_strictly, named_tensors, read_mapping
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""
@@ -39,39 +41,68 @@ HEAD_CHANNELS = {32: 32, 48: 24, 64: 32}
 PARTITION_PX = 64
 """The image is padded to a multiple of this; attention works on parts of (height / 64,
 width / 64) pixels of a feature map, as RVT's configuration chooses them."""
-PREFIX = "mdl.backbone."
-"""Before the backbone's names in a checkpoint of the whole detector."""
+PREFIX, OWN_PREFIX = "mdl.backbone.", "backbone."
+"""Before the backbone's names in a checkpoint of the whole detector: published, evlib's."""
 FIRST_TENSOR = "stages.0.downsample_cf2cl.conv.weight"
+OWN_PARTITION_PX = 32
+"""Instead of `PARTITION_PX` in the training of evlib's."""
+BINNING, MOST_BINNING = "binning", 4
+"""Of weights trained here: pixels along each side of a cell that the network saw."""
+EVLIB_NAMES = (
+    (r"attention_blocks\.(\d+)\.(window|grid)_attn", r"att_blocks.\1.att_\2"),
+    (r"\.attn\.", ".self_attn."),
+    (r"\.fc1\.", ".net.0.0."),
+    (r"\.fc2\.", ".net.2."),
+    (r"\.(ls[12])$", r".\1.gamma"),
+)
+"""Part of a name in evlib → that of the published checkpoints."""
 
 
 def read_rvt(path: Path) -> RvtBackbone:
-    """The backbone of a published checkpoint.
+    """The backbone of a published checkpoint, or of weights trained here.
 
     Args:
-        path: `rvt-t.ckpt`, `rvt-s.ckpt` or `rvt-b.ckpt`, trained on Gen1 or on 1 Mpx; which one is
-            recognised from its tensors.
+        path: `rvt-t.ckpt`, `rvt-s.ckpt` or `rvt-b.ckpt`, trained on Gen1 or on 1 Mpx, or the
+            `weights.pt` of `texvent train detection`; which one is recognised from its tensors.
 
     Raises:
         FileFormatError: the file is damaged, or a tensor is missing, unknown or of another shape.
     """
-    state = read_mapping(path, WHERE_FROM, extra=EXTRA).get("state_dict")
+    content = read_mapping(path, WHERE_FROM, extra=EXTRA)
+    state = content.get(STATE)
     if not isinstance(state, Mapping):
-        raise FileFormatError(f"{path} holds no state_dict; it is not RVT's: {WHERE_FROM}")
+        raise FileFormatError(f"{path} holds no {STATE}; it is not RVT's: {WHERE_FROM}")
+    is_own = OWN_PREFIX + FIRST_TENSOR in state
+    prefix = OWN_PREFIX if is_own else PREFIX
     tensors = {
-        name.removeprefix(PREFIX): tensor
+        name.removeprefix(prefix): tensor
         for name, tensor in named_tensors(state, path, extra=EXTRA).items()
-        if name.startswith(PREFIX)
+        if name.startswith(prefix)
     }
     width = tensors[FIRST_TENSOR].shape[0] if FIRST_TENSOR in tensors else 0
     if width not in HEAD_CHANNELS:
         raise FileFormatError(
-            f"{path} has no tensor {PREFIX}{FIRST_TENSOR} of {', '.join(map(str, HEAD_CHANNELS))} "
+            f"{path} has no tensor {prefix}{FIRST_TENSOR} of {', '.join(map(str, HEAD_CHANNELS))} "
             f"channels; it is not RVT's: {WHERE_FROM}"
         )
+    binning = content.get(BINNING) if is_own else 1
+    if type(binning) is not int or not 1 <= binning <= MOST_BINNING:
+        raise FileFormatError(
+            f"{path} has evlib's names and {shown(binning)} as {BINNING}, 1 to {MOST_BINNING} px; "
+            "give the weights.pt of texvent train detection"
+        )
+    if is_own:
+        tensors = {_published_name(name): tensor for name, tensor in tensors.items()}
     with torch.device("meta"):
-        backbone = RvtBackbone(width, HEAD_CHANNELS[width])
+        backbone = RvtBackbone(width, HEAD_CHANNELS[width], binning=binning, is_own=is_own)
     load_strictly(backbone, tensors, path, WHERE_FROM)
     return backbone
+
+
+def _published_name(name: str) -> str:
+    for part, published in EVLIB_NAMES:
+        name = re.sub(part, published, name)
+    return name
 
 
 class RvtBackbone(_Module):
@@ -84,14 +115,19 @@ class RvtBackbone(_Module):
     score must not depend on the machine.
     """
 
-    def __init__(self, width: int, head_channels: int) -> None:
+    def __init__(
+        self, width: int, head_channels: int, *, binning: int = 1, is_own: bool = False
+    ) -> None:
         """Random weights.
 
         Args:
             width: channels of the first stage; each later one has twice as many.
             head_channels: channels of one attention head.
+            binning: pixels along each side of a cell, whose counts are added.
+            is_own: whether it is trained by `texvent train detection`.
         """
         super().__init__()
+        self.binning, self.is_own = binning, is_own
         narrow = [INPUT_CHANNELS, *(width << stage for stage in range(len(STRIDES) - 1))]
         self.stages = nn.ModuleList(
             _Stage(channels, width << stage, stride, head_channels)
@@ -108,13 +144,16 @@ class RvtBackbone(_Module):
             histogram: [20, H, W] float32.
 
         Returns:
-            [C, ceil(H / s), ceil(W / s)] float32 per stage, s its stride: 4, 8, 16.
+            [C, ceil(H / s), ceil(W / s)] float32 per stage, s its stride: 4, 8, 16 cells.
         """
-        height, width = histogram.shape[1:]
-        below, right = -height % PARTITION_PX, -width % PARTITION_PX
         x = torch.from_numpy(np.ascontiguousarray(histogram))[None]
-        x = nn.functional.pad(x, (0, right, 0, below))
-        partition = (x.shape[2] // PARTITION_PX, x.shape[3] // PARTITION_PX)
+        if self.binning > 1:
+            side = self.binning
+            x = nn.functional.avg_pool2d(x, side, side, ceil_mode=True, divisor_override=1)
+        height, width = x.shape[2:]
+        part = OWN_PARTITION_PX if self.is_own else PARTITION_PX
+        x = nn.functional.pad(x, (0, -width % part, 0, -height % part))
+        partition = (x.shape[2] // part, x.shape[3] // part)
         found, stride = [], 1
         with torch.inference_mode():
             for stage, factor in zip(self.stages[:RUN_STAGES], STRIDES, strict=False):

@@ -47,6 +47,7 @@ class InterpolateOptions(TypedDict, total=False):
     deflicker: bool | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
+    rife_flow: Literal["once", "each"] | None
 
 
 class SimulatorOptions(TypedDict, total=False):

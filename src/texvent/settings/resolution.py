@@ -118,6 +118,7 @@ def base_settings(
     elif has_motion or any(one is not None for one in named):
         usual = ALONG_MOTION
     defaults = _default_settings(command, **parts, interpolate=usual)
+    defaults = _with_noise_of(chosen.get("sensor"), defaults)
     try:
         return apply_options(defaults, chosen, where=where)
     except ConfigError as error:
@@ -162,6 +163,17 @@ def _default_settings(
         simulate=simulator_class.presets[preset_name],
         generator=generator_name,
     )
+
+
+def _with_noise_of(sensor: Any, settings: Settings) -> Settings:
+    """The settings with noise for a sensor's fill factor, where it and the model's are known."""
+    reference = getattr(SIMULATORS.load(settings.run.simulator), "reference_fill_factor", None)
+    known = find_sensor(sensor) if isinstance(sensor, str) else None
+    if reference is None or known is None or known.fill_factor is None:
+        return settings
+    scale = round(settings.simulate.noise_scale * reference / known.fill_factor, 3)
+    simulate = dataclasses.replace(settings.simulate, noise_scale=scale)
+    return dataclasses.replace(settings, simulate=simulate)
 
 
 def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:

@@ -27,7 +27,8 @@ class Simulator(Protocol):
     declare `slow_change`, a text or None: why slow change may fire nothing, and the options that
     help, which `run.silence` says of a run that has lost its signal. It may declare
     `frame_bound_presets`: those whose published definition ties events to the source frames, so
-    that the same motion gives other events at another frame rate.
+    that the same motion gives other events at another frame rate; and `reference_fill_factor`, the
+    fill factor at which its option `noise_scale` is that of its presets.
     """
 
     config_type: ClassVar[type]

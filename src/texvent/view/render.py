@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
-from texvent.config import IdleOptions, check_range
+import numpy as np
+
+from texvent.config import IdleOptions, check_choices, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
+from texvent.represent.contrast_maximisation import find_flow, flow_warp_loss, warp_events
+from texvent.represent.event_frame import count_events
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.video import MICROSECONDS, FrameStream
+from texvent.view.drawing.event_image import draw_events
+from texvent.view.drawing.motion import draw_flow
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.drawing.panels import Overlay, title_of
 from texvent.view.page.sample import SAMPLE_EVENTS
@@ -56,12 +62,19 @@ class RenderConfig:
     overlay: Overlay = "none"
     """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
     scenes that the embedded generator renders again."""
+    show: Literal["events", "warped", "flow"] = "events"
+    """Events, events warped along their motion, or this motion. Warped, they are where they were
+    when the image began; the caption has the flow warp loss (FWL)."""
+    patch: int = 32
+    """Side of the squares whose motion is found, px; one as large as the sensor: one motion."""
     points: int = SAMPLE_EVENTS
     """Most events in the cloud of a page; more are drawn uniformly at random."""
 
     def __post_init__(self) -> None:
         get_palette(self.palette)
         check_range("speed", self.speed, 1e-6, 1e6)
+        check_choices(self)
+        check_range("patch", self.patch, 4, 65_535)
         check_range("points", self.points, 1, 20_000_000)
         if self.window is not None and self.events_per_image is not None:
             raise ConfigError("window and events_per_image exclude each other; give one of them")
@@ -119,6 +132,10 @@ def render_events(
         raise ConfigError(
             f"cannot render to {path}; its name must end in {', '.join(RENDER_EXTENSIONS)}"
         )
+    if kind == ".html" and config.show != "events":
+        raise ConfigError(
+            f"show is {config.show}; a page shows events: render to .mp4, .gif or .png"
+        )
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
     packets = packets.reporting_to(progress)
@@ -169,7 +186,8 @@ def _video(
     with video:
         for window in source.add_frames(windows):
             start_us = round(shown * MICROSECONDS / config.render_fps)
-            video.show(source.add_annotations(window), video_start_us=start_us)
+            window = _with_motion(source.add_annotations(window), config)
+            video.show(window, video_start_us=start_us)
             shown += 1
         if shown == 0:
             raise _no_events()
@@ -199,7 +217,20 @@ def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -
             best = window
     if best is None:
         raise _no_events()
-    return still.draw(source.add_annotations(best))
+    return still.draw(_with_motion(source.add_annotations(best), config))
+
+
+def _with_motion(window: EventWindow, config: RenderConfig) -> EventWindow:
+    """The window with its motion, or its events warped along it, in place of the events."""
+    if config.show == "events" or window.events is None:
+        return window
+    flow = find_flow(window.events, patch_px=config.patch)
+    loss = flow_warp_loss(window.events, flow)
+    note = "" if np.isnan(loss) else f", FWL {loss:.2f}"
+    if config.show == "flow":
+        return replace(window, panel=draw_flow(flow), note=note)
+    counts = count_events(warp_events(window.events, flow))
+    return replace(window, panel=draw_events(counts, get_palette(config.palette)), note=note)
 
 
 def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:

@@ -83,7 +83,8 @@ def find_busiest(packets: Iterable[EventStream], window_us: int) -> EventWindow 
         return None
     start_us = int(best[0].t[0])
     start_us -= (start_us - first_us) % window_us
-    return EventWindow(start_us, start_us + window_us, count_events(EventStream.concat(best)))
+    events = EventStream.concat(best)
+    return EventWindow(start_us, start_us + window_us, count_events(events), events=events)
 
 
 def _count(parts: tuple[EventStream, ...]) -> int:

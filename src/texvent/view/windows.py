@@ -43,6 +43,12 @@ class EventWindow:
     """The frame at `start_us`, [H, W, 3] RGB, or None if there are only events."""
     annotations: Annotations | None = None
     """Boxes and arrows drawn over the panels."""
+    events: EventStream | None = None
+    """The events themselves, of windows cut from a recording."""
+    panel: Image | None = None
+    """Picture in place of the events, [H, W, 3] RGB."""
+    note: str = ""
+    """End of the caption."""
 
     @property
     def event_count(self) -> int:
@@ -60,7 +66,7 @@ class EventWindow:
         length_ms = (self.stop_us - self.start_us) / 1000
         return (
             f"{self.start_us / MICROSECONDS:.3f} s  "
-            f"{self.event_count:,} events in {length_ms:.1f} ms"
+            f"{self.event_count:,} events in {length_ms:.1f} ms{self.note}"
         )
 
 
@@ -140,7 +146,7 @@ def cut_windows(
         )
     checked = _refuse_pauses(packets, step_us)
     for start_us, stop_us, part in slice_windows(checked, step_us=step_us, window_us=window_us):
-        yield EventWindow(start_us, stop_us, count_events(part))
+        yield EventWindow(start_us, stop_us, count_events(part), events=part)
 
 
 def _refuse_pauses(packets: Iterable[EventStream], step_us: Fraction) -> Iterator[EventStream]:
@@ -184,9 +190,9 @@ def cut_counts(
         while len(held) > count:
             part, held = held[:count], held[count:]
             stop_us = max(int(held.t[0]), int(part.t[0]) + 1)
-            yield EventWindow(int(part.t[0]), stop_us, count_events(part))
+            yield EventWindow(int(part.t[0]), stop_us, count_events(part), events=part)
     if len(held):
-        yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
+        yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held), events=held)
 
 
 def still_window_us(extent: tuple[int, int]) -> int:
@@ -203,9 +209,12 @@ def compose_window(
     ceiling: float | None = None,
 ) -> Image:
     """Frame, events and caption of a window, with its annotations on both panels."""
+    panel = window.panel
+    if panel is None:
+        panel = draw_events(window.counts, layout.palette, ceiling=ceiling)
     return layout.compose(
         window.image,
-        draw_events(window.counts, layout.palette, ceiling=ceiling),
+        panel,
         title=title,
         facts=facts,
         annotations=window.annotations,

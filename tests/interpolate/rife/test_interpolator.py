@@ -17,7 +17,8 @@ from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
 from texvent.video import Frame, Video
 
-from .rife_files import save_published
+from .rife_files import random_tensors, save_published
+from .rife_numpy import NumpyRife, warp
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -101,6 +102,21 @@ def test_levels_above_white_are_compressed_for_the_network_only(build):
     for tensor, one in zip(tensors, levels, strict=True):
         np.testing.assert_allclose(tensor[0, 0].numpy(), one / levels.max(), rtol=1e-5)
     assert max(float(image.max()) for image in frames_of(build(), *bright)) > 300.0
+
+
+def test_the_motion_is_the_networks_at_each_instant_or_that_of_the_middle(build):
+    from texvent.interpolate.rife import network
+
+    first, second = noise(32, 32)
+    defined = NumpyRife(network.RIFE_4_6, random_tensors(torch, network.RIFE_4_6))
+    each, once = (frames_of(build(rife_flow=kind), first, second) for kind in ("each", "once"))
+    for t_us, image, shared in zip(TIMES_US, each, once, strict=True):
+        colour = (np.repeat(one[None] / 255, 3, axis=0) for one in (first, second))
+        flow, mask = defined.estimate(*colour, t_us / 1000)
+        weight, back, forth = 1 / (1 + np.exp(-mask)), warp(first[None], flow[:2]), flow[2:]
+        expected = weight * back + (1 - weight) * warp(second[None], forth)
+        assert np.abs(image - expected[0]).max() < 0.1
+        assert (np.abs(shared - image).max() < 0.01) == (t_us == 500)
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

@@ -48,6 +48,28 @@ def checkpoint(size, seed=0):
     }
 
 
+EVLIB = {
+    "att_blocks": "attention_blocks",
+    "att_window": "window_attn",
+    "att_grid": "grid_attn",
+    "self_attn": "attn",
+    "mlp.net.0.0": "mlp.fc1",
+    "mlp.net.2": "mlp.fc2",
+    ".gamma": "",
+}
+"""Published name → that of evlib, in parts."""
+
+
+def trained_here(size, seed=0, binning=2):
+    """The content of weights.pt of `texvent train detection`, with the same numbers."""
+    state = {}
+    for name, values in checkpoint(size, seed)["state_dict"].items():
+        for part, other in EVLIB.items():
+            name = name.replace(part, other)
+        state[name.removeprefix("mdl.")] = values
+    return {"state_dict": state, "classes": ["car"], "binning": binning}
+
+
 def slow_backbone(histogram, tensors, head_channels, stages):
     """RVT's stages pixel by pixel from the paper's Eqs. 1-5; [C, H, W] per stage, padding kept."""
     channels, height, width = histogram.shape

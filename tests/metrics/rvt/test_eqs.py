@@ -15,7 +15,7 @@ from texvent.metrics.rvt_backbone import HEAD_CHANNELS, RvtBackbone, read_rvt  #
 from texvent.sensor import SensorSize  # noqa: E402
 
 from ..recordings import random_events  # noqa: E402
-from .rvt_files import TINY, checkpoint, random_tensors, slow_backbone  # noqa: E402
+from .rvt_files import TINY, checkpoint, random_tensors, slow_backbone, trained_here  # noqa: E402
 
 RVT_T = (32, 32)
 
@@ -58,8 +58,8 @@ def test_a_window_does_not_remember_the_one_before():
 def published(tmp_path):
     """`published(change)`: a checkpoint of RVT-T's shape, changed before it is stored."""
 
-    def write(change=lambda content: None, name="rvt-t.ckpt"):
-        content = checkpoint(RVT_T)
+    def write(change=lambda content: None, name="rvt-t.ckpt", make=checkpoint):
+        content = make(RVT_T)
         change(content)
         torch.save(content, tmp_path / name)
         return tmp_path / name
@@ -91,6 +91,49 @@ GAMMA = f"mdl.backbone.{GAMMA_HERE}"
 def test_a_checkpoint_of_another_network_is_refused(published, change, complaint):
     with pytest.raises(FileFormatError, match=complaint):
         read_rvt(published(change, "other.ckpt"))
+
+
+GAMMA_OWN = "backbone.stages.3.attention_blocks.0.grid_attn.ls2"
+
+
+def test_weights_trained_here_are_the_same_network_under_other_names_and_never_called_eqs(
+    published,
+):
+    path = published(name="weights.pt", make=trained_here)
+    own, other = read_rvt(path), read_rvt(published())
+    assert all(torch.equal(own.state_dict()[n], one) for n, one in other.state_dict().items())
+    assert (own.binning, own.is_own, other.is_own) == (2, True, False)
+    assert load_eqs(path).name == "eqs (own RVT)"
+
+
+def test_weights_trained_here_see_cells_and_windows_as_in_their_training():
+    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(TINY).items()}
+    binned, plain = RvtBackbone(*TINY, binning=2, is_own=True), RvtBackbone(*TINY, is_own=True)
+    for one in (binned, plain):
+        one.load_state_dict(tensors)
+    histogram = np.random.default_rng(3).poisson(0.3, (20, 62, 94)).astype(np.float32)
+    cells = histogram.reshape(20, 31, 2, 47, 2).sum(axis=(2, 4))
+    for one, other in zip(binned(histogram), plain(cells), strict=True):
+        np.testing.assert_array_equal(one, other)
+    # 31x47 cells are one window high and two wide, of the last stage's size.
+    assert np.abs(plain(cells)[0] - tiny_backbone()(cells)[0]).max() > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        (lambda c: c["state_dict"].pop(GAMMA_OWN), f"Missing key.*{GAMMA_HERE}"),
+        (
+            lambda c: c["state_dict"].update({f"{GAMMA_OWN}.x": torch.ones(1)}),
+            r"Unexpected.*ls2\.x",
+        ),
+        (lambda c: c.pop("binning"), "None as binning, 1 to 4 px; give the weights.pt"),
+        (lambda c: c.update(binning=True), "True as binning"),
+    ],
+)
+def test_weights_of_another_detector_are_refused(published, change, complaint):
+    with pytest.raises(FileFormatError, match=complaint):
+        read_rvt(published(change, "weights.pt", trained_here))
 
 
 def test_eqs_is_lfs_with_the_backbone_of_the_file(published):

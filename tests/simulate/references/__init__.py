@@ -26,6 +26,7 @@ KERNELS = {
     "texvent.simulate.voltmeter.first_passage:find_first_passages": (
         "voltmeter:find_first_passages"
     ),
+    "texvent.simulate.senpi.pixels:SenpiPixels": "senpi:SenpiPixels",
     "texvent.simulate.physical.pixels:advance_pixels": "physical:advance_pixels",
 }
 """Kernel → its definition, in a module of this folder."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,8 @@ class RetrievalReport:
     """What an exchange of the texts gives in the long run, computed."""
     p_value: float
     """Share of the exchanges whose mean similarity is at least the measured one; never 0."""
+    misfits: Sequence[Mapping[str, Any]] = ()
+    """See `find_misfits`."""
 
 
 def score_retrieval(
@@ -164,6 +166,7 @@ def align(
     clip: ClipModel,
     *,
     seed: int = 0,
+    margin: float | None = None,
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
 ) -> dict[str, RetrievalReport]:
     """Score every source.
@@ -176,6 +179,7 @@ def align(
         draw: how events become images.
         clip: the model.
         seed: of the bootstrap and of the control.
+        margin: of misfits; None finds none.
         progress: told of (source, done, total).
 
     Raises:
@@ -191,8 +195,27 @@ def align(
             progress(source, done, len(recordings))
             vectors.append(_mean(clip.embed_images(draw(recording.load()))))
         similarity = np.concatenate(vectors) @ clip.embed_texts(texts).T
-        reports[source] = score_retrieval(similarity, own, seed=seed)
+        report = score_retrieval(similarity, own, seed=seed)
+        found = [] if margin is None else find_misfits(recordings, similarity, own, margin)
+        reports[source] = replace(report, misfits=found)
     return reports
+
+
+def find_misfits(
+    recordings: Sequence[Recording], similarity: NDArray[Any], own: NDArray[Any], margin: float
+) -> list[dict[str, Any]]:
+    """Recordings less similar to their own text than `margin` above the mean of the other texts.
+
+    The worst come first. There are at least two texts.
+    """
+    fitting = similarity[np.arange(len(own)), own].astype(np.float64)
+    others = (similarity.sum(axis=1, dtype=np.float64) - fitting) / (similarity.shape[1] - 1)
+    places = [n for n in np.argsort(fitting - others) if fitting[n] - others[n] < margin]
+    return [
+        {"sample": one.key or one.id, "own": float(fitting[n]), "others": float(others[n]),
+         "text": one.text}
+        for n in places for one in [recordings[n]]
+    ]  # fmt: skip
 
 
 def _mean(vectors: Vectors) -> Vectors:

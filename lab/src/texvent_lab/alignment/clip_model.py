@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, TexventError, one_line
+from texvent.errors import FileFormatError
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.model_files import CONFIG, EXTRA, HUB, loading
+from texvent.generate.video_models.model_files import EXTRA, loading
 from texvent.video import PixelArray
+from texvent_lab.networks.saved_models import find_model
 
 EXAMPLE = "openai/clip-vit-base-patch32"
 MEAN = (0.48145466, 0.4578275, 0.40821073)
@@ -45,7 +46,7 @@ class ClipModel:
 
     def __init__(self, model: str | Path, *, device: str = "cpu") -> None:
         self._device, _ = resolve_device(device, "device")
-        folder = find_model(model)
+        folder = find_model(model, "CLIP model", EXAMPLE)
         transformers = require("transformers", extra=EXTRA)
         with loading(folder, "a CLIP model"):
             loaded = transformers.CLIPModel.from_pretrained(
@@ -99,36 +100,6 @@ class ClipModel:
         if not np.isfinite(found).all():
             raise FileFormatError("the CLIP model gives NaN or infinity; its weights are damaged")
         return np.asarray(found, np.float32)
-
-
-def find_model(model: str | Path) -> Path:
-    """Folder of a model that transformers saved, fetched first where the model hub is named.
-
-    Args:
-        model: a folder, or `hub:org/name`.
-
-    Raises:
-        InputError: the folder has no `config.json`.
-        TexventError: the hub has no such model, or cannot be reached.
-        MissingDependencyError: a package is not installed.
-    """
-    if not str(model).startswith(HUB):
-        folder = Path(model).expanduser()
-        if not (folder / CONFIG).is_file():
-            raise InputError(
-                f"there is no CLIP model in {folder} (no config.json); give the folder of one "
-                f"saved by transformers, or hub:org/name, such as hub:{EXAMPLE}"
-            )
-        return folder
-    hub = require("huggingface_hub", extra=EXTRA)
-    repo = str(model).removeprefix(HUB)
-    try:
-        return Path(hub.snapshot_download(repo, ignore_patterns=["*.bin", "*.pt", "*.pth"]))
-    except (OSError, ValueError) as error:
-        raise TexventError(
-            f"{repo} is not on this machine and the model hub cannot be reached: "
-            f"{one_line(error)}. Fetch it elsewhere (hf download {repo}) and name its folder"
-        ) from error
 
 
 def _prepare(pixels: PixelArray, size: int) -> Any:

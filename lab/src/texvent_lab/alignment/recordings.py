@@ -33,6 +33,8 @@ class Recording:
     """What it shares with recordings of the same text in other sources."""
     text: str
     load: Callable[[], EventStream]
+    key: str = ""
+    """That of the sample; a clip has one per seed."""
 
 
 def list_samples(
@@ -62,7 +64,7 @@ def list_samples(
                     f"{folder} is made of videos without prompts; there is no text to fit"
                 )
             load = partial(read_events, shard.path, sample)
-            recording = Recording(id, sample.prompt, load)
+            recording = Recording(id, sample.prompt, load, sample.key)
             found.setdefault(shard.record.variant, []).append(recording)
     if not found:
         where = "" if split is None else f" in split {split}"

@@ -46,8 +46,8 @@ class AlignOptions:
     input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images", "seed"),
-        *("device", "out", "overwrite"),
+        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images"),
+        *("least_similarity", "seed", "device", "out", "overwrite"),
     )
 
     folder: Path | None = None
@@ -66,6 +66,9 @@ class AlignOptions:
     """Most images of a recording."""
     events_per_image: int | None = None
     """Events in a drawn image; default: 70,000 at 640x480, in proportion for other sensors."""
+    least_similarity: float | None = None
+    """List recordings whose similarity with their own text is less than this above the mean of that
+    with the others; 0: those that fit the others better, where a video model may have failed."""
     seed: int = 0
     """Of the bootstrap and of the exchanged captions."""
     device: str = "auto"
@@ -75,12 +78,13 @@ class AlignOptions:
         check_range("limit", self.limit, 2)
         check_range("images", self.images, 1, 64)
         check_range("events_per_image", self.events_per_image, 1)
+        check_range("least_similarity", self.least_similarity, -2, 2)
 
     def sources(self) -> dict[str, list[Recording]]:
         """The recordings by source.
 
         Raises:
-            ConfigError: nothing to score, or N-ImageNet without captions.
+            ConfigError: nothing to score, N-ImageNet without captions, or one text alone.
             InputError, FileFormatError: they cannot be read.
         """
         if self.folder is None and self.n_imagenet is None:
@@ -94,7 +98,13 @@ class AlignOptions:
             found |= list_samples(self.folder, split=self.split, ids=ids)
         if self.n_imagenet is not None:
             found[RECORDED] = list_streams(self.n_imagenet, captioned or [])
-        return keep_common(found, limit=self.limit)
+        kept = keep_common(found, limit=self.limit)
+        for name, one in kept.items():
+            if self.least_similarity is not None and len({each.text for each in one}) < 2:
+                raise ConfigError(
+                    f"{name} has one text alone; least_similarity compares with others"
+                )
+        return kept
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -108,9 +118,11 @@ def run(arguments: Sequence[str]) -> int:
     output.check()
     sources = options.sources()
     clip = ClipModel(options.clip, device=options.device)
-    draw = DrawnEvents(options.images, options.events_per_image)
+    draw, margin = DrawnEvents(options.images, options.events_per_image), options.least_similarity
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        reports = align(sources, draw, clip, seed=options.seed, progress=progress.advance)
+        reports = align(
+            sources, draw, clip, seed=options.seed, margin=margin, progress=progress.advance
+        )
     texts = {recording.text for one in sources.values() for recording in one}
     cut = sum(clip.count_tokens(text) > clip.most_tokens for text in texts)
     output.write(
@@ -121,11 +133,16 @@ def run(arguments: Sequence[str]) -> int:
             "images": options.images,
             "events_per_image": options.events_per_image,
             "seed": options.seed,
+            "least_similarity": margin,
             "texts_cut": cut,
             "rows": [{"source": name, **asdict(one)} for name, one in reports.items()],
         }
     )
     write_out(alignment_table(reports))
+    for name, one in reports.items() if margin is not None else ():
+        write_out(f"{name}: {len(one.misfits):,} of {one.recordings:,} fit their text too little\n")
+        for misfit in one.misfits:
+            write_out("  {sample}  own {own:.4f}, others {others:.4f}  {text}\n".format(**misfit))
     if cut:
         write_out(
             f"{cut:,} of {len(texts):,} texts are longer than the {clip.most_tokens} tokens that "

@@ -28,10 +28,11 @@ from texvent_lab.reconstruct.reconstructor import (
 )
 
 DESCRIPTION = """Reconstruct intensity images from events by a published network: pie-net, whose
-package brings its weights, or one whose weights you provide (docs/reconstruction.md).
+package brings its weights, or one whose weights you provide (docs/reconstruction.md); or depth.
 
   texvent reconstruct out.h5 -o out.mp4
-  texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth"""
+  texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth
+  texvent reconstruct out.h5 -o d.mp4 --network e2depth --weights e2depth.pth"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,7 +91,7 @@ def run(arguments: Sequence[str]) -> int:
         )
         with opened as sink:
             for number, (t_us, image) in enumerate(images, start=1):
-                sink.add(t_us, image)
+                sink.add(t_us, reconstructor.picture(image))
                 progress.advance("reconstructing", number, None)
     if not options.quiet:
         write_out(f"{options.out}\n")

@@ -1,15 +1,54 @@
-"""Layers of published networks, and padding of images; this module needs no torch."""
+"""Layers of published networks, their files, padding of images; this module needs no torch."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
 
-from texvent.extending import require
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import InputError
 from texvent.networks.weight_files import Tensor
+from texvent.runtime.cache_folder import cache_folder
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""
+
+
+def locate_weights(
+    name: str, usual: str | Path, where_from: str, path: Path | None, *, option: str = "weights"
+) -> Path:
+    """The weights file of a network: `path`, which the user gave with `option`, else the usual one.
+
+    `usual` is a name in the weights folder, or a path elsewhere.
+
+    Raises:
+        InputError: there is no such file; the message says where to get and where to put it.
+    """
+    place = cache_folder("weights") / usual
+    chosen = path or place
+    if chosen.is_file():
+        return chosen
+    what = f"there is no weights file {chosen}" if path else f"{name} needs its weights"
+    raise InputError(
+        f"{what}; texvent neither carries nor downloads them: {where_from}. Pass its path with "
+        f"`{option}`, or put it at {place}"
+    )
+
+
+@contextmanager
+def explain_memory(what: str) -> Iterator[None]:
+    """Turn torch's failure of memory into an InputError that says `what`."""
+    try:
+        yield
+    except RuntimeError as error:
+        if "memory" not in str(error):
+            raise
+        raise InputError(what) from error
 
 
 @dataclass(frozen=True)
@@ -32,10 +71,10 @@ class Padding:
         below, right = (-side % multiple for side in shape)
         return cls(right - right // 2, right // 2, below - below // 2, below // 2)
 
-    def around(self, image: Tensor, value: float = 0.0) -> Tensor:
-        """The image, [..., H, W], with that value around it."""
-        margins = (self.left, self.right, self.top, self.bottom)
-        return require("torch", extra=EXTRA).nn.functional.pad(image, margins, value=value)
+    def around(self, grid: NDArray[Any], how: Literal["constant", "reflect"]) -> NDArray[Any]:
+        """The grid, [channels, H, W], with zeros or its mirror image around it."""
+        margins = ((0, 0), (self.top, self.bottom), (self.left, self.right))
+        return np.pad(grid, margins, mode=how)
 
     def off(self, image: Tensor) -> Tensor:
         """The image, [..., H, W], without what `around` added."""

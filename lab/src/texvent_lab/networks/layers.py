@@ -133,3 +133,17 @@ class ConvLstm(_Module):
         enter, remember, leave, candidate = self.Gates(_torch.cat([x, hidden], 1)).chunk(4, 1)
         cell = remember.sigmoid() * cell + enter.sigmoid() * candidate.tanh()
         return leave.sigmoid() * cell.tanh(), cell
+
+
+class RecurrentLayer(_Module):
+    """Convolution to half the size, ReLU, long short-term memory."""
+
+    def __init__(self, narrow: int, wide: int, side: int, *, has_norm: bool = False) -> None:
+        super().__init__()
+        self.conv = ConvLayer(narrow, wide, side, stride=2, has_norm=has_norm)
+        self.recurrent_block = ConvLstm(wide)
+
+    def forward(self, x: Tensor, state: tuple[Tensor, Tensor] | None) -> tuple[Tensor, Tensor]:
+        """The new output and cell."""
+        hidden, cell = self.recurrent_block(self.conv(x).relu(), state)
+        return hidden, cell

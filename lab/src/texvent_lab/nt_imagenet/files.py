@@ -21,7 +21,8 @@ from texvent_lab.nt_imagenet.selection import Stream
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
 REPORT, SPECIFICATION = "report.json", "specification.toml"
-OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION})
+PAIRS, MADE = "pairs.json", "made_captions.json"
+OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, PAIRS, MADE})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,9 +96,9 @@ def write_streams(folder: Path, streams: Sequence[Stream], root: Path) -> None:
         csv.writer(file, lineterminator="\n").writerows([names, *rows])
 
 
-def write_report(folder: Path, facts: Mapping[str, Any]) -> None:
-    """Write the report as JSON."""
-    _write(folder / REPORT, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
+def write_facts(path: Path, facts: Mapping[str, Any]) -> None:
+    """Write a report as JSON."""
+    _write(path, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
 
 
 def write_specification(folder: Path) -> bool:
@@ -131,8 +132,8 @@ file = "{captions}"
 [options]
 sensor = "640x480"      # that of N-ImageNet's recordings
 # Without a generator the embedded one draws what it knows of a caption, which is little: name a
-# learned one (texvent generators).
-# generator = "wan-1.3b"
+# learned one (texvent generators), such as the paper's.
+# generator = "cosmos-7b"
 
 [variants.texvent]
 """

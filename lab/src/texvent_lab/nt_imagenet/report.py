@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import statistics
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -33,8 +35,12 @@ class Report:
     """Id → why it has no caption."""
     left_out: Sequence[str] = ()
     """Ids whose caption failed a check that leaves it out."""
-    captions_file: str = ""
+    levels: Sequence[float] = ()
+    """Mean level of each image, 0..255; empty without the images."""
+    captions_file: str | None = None
     """Where the captions are from."""
+    captions_model: str | None = None
+    """Made the captions that the file lacks, as answers to the paper's question."""
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -42,6 +48,7 @@ class Report:
         return {
             "texvent_version": full_version(),
             "captions_file": self.captions_file,
+            "captions_model": self.captions_model,
             "streams": self._stream_facts(),
             "captions": self._caption_facts(),
             "left_out": list(self.left_out),
@@ -55,8 +62,11 @@ class Report:
             "count": len(durations),
             "classes": list(selection.classes),
             "incomplete_classes": selection.incomplete(self.per_class),
+            "per_class": _spread(list(Counter(one.wnid for one in selection.streams).values())),
             "events": _spread([stream.events for stream in selection.streams]),
             "duration_us": _spread(durations),
+            "median_speed_px_s": _spread([one.speed_px_s for one in selection.streams]),
+            "image_level": _spread(self.levels),
             "longer_than_55_ms": sum(one > LONGEST_US for one in durations),
             "too_few_events": list(selection.too_few),
             "too_many_events": list(selection.too_many),
@@ -77,9 +87,17 @@ class Report:
 
     @property
     def text(self) -> str:
-        """Counts, in three lines."""
+        """Counts, and the rows of the paper's Table 10."""
         streams, captions = self._stream_facts(), self._caption_facts()
         problems = (f"{name} {len(ids)}" for name, ids in captions["problems"].items())
+        rows = {
+            "streams per class": streams["per_class"],
+            "events per stream": streams["events"],
+            "words per caption": captions["words"],
+            "mean level of an image, 0 to 255": streams["image_level"],
+            "median speed of edges, px/s": streams["median_speed_px_s"],
+        }
+        spreads = (f"{name}: {_spread_text(one)}\n" for name, one in rows.items())
         return (
             f"{streams['count']:,} streams of {len(streams['classes'])} classes; left out: "
             f"{len(streams['too_few_events'])} with too few events, "
@@ -87,11 +105,18 @@ class Report:
             "unreadable\n"
             f"{captions['count']:,} captions, {len(captions['missing'])} missing, "
             f"{len(self.left_out)} left out\n"
-            f"captions with problems: {', '.join(problems)}\n"
+            f"captions with problems: {', '.join(problems)}\n{''.join(spreads)}"
         )
 
 
-def _spread(values: Sequence[int]) -> dict[str, float] | None:
-    if not values:
+def _spread(values: Sequence[float]) -> dict[str, float] | None:
+    known = [one for one in values if not math.isnan(one)]
+    if not known:
         return None
-    return {"least": min(values), "median": statistics.median(values), "most": max(values)}
+    return {"least": min(known), "median": statistics.median(known), "most": max(known)}
+
+
+def _spread_text(found: Mapping[str, float] | None) -> str:
+    if found is None:
+        return "not known"
+    return "{least:,.0f} to {most:,.0f}, median {median:,.0f}".format(**found)

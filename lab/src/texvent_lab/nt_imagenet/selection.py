@@ -7,14 +7,19 @@ N-ImageNet's own "mini" set.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 
+import numpy as np
+
 from texvent.errors import InputError, TexventError
+from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
+from texvent.video import MICROSECONDS
 
 CLASSES, PER_CLASS = 100, 50
 FEWEST_EVENTS, MOST_EVENTS = 3_000, 170_000
@@ -34,6 +39,8 @@ class Stream:
     path: Path
     events: int
     duration_us: int
+    speed_px_s: float = math.nan
+    """See `median_speed`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,7 +172,34 @@ def choose_classes(folder: Path, count: int = CLASSES, file: Path | None = None)
     return tuple(found[:count])
 
 
+def median_speed(events: EventStream) -> float:
+    """Median speed of edges, px/s, by the slope of the surface of last times of each polarity.
+
+    Source: R. Benosman et al., "Event-based visual flow" (TNNLS 2014).
+    Deviation: differences of both neighbours instead of a fitted plane.
+
+    Returns:
+        NaN where no pixel has four neighbours with events.
+    """
+    slopes = []
+    for polarity in (0, 1):
+        which, last = events.p == polarity, np.full(events.size.shape, np.nan)
+        last[events.y[which], events.x[which]] = events.t[which]
+        along = (last[1:-1, 2:] - last[1:-1, :-2], last[2:, 1:-1] - last[:-2, 1:-1])
+        slopes.append(np.hypot(*along).ravel() / 2)
+    found = np.concatenate(slopes)
+    found = found[found > 0]
+    return float(MICROSECONDS / np.median(found)) if len(found) else math.nan
+
+
 def _read(path: Path, wnid: str) -> Stream:
     events = load_stream(path)
     duration = int(events.t[-1] - events.t[0]) if len(events) else 0
-    return Stream(id=path.stem, wnid=wnid, path=path, events=len(events), duration_us=duration)
+    return Stream(
+        id=path.stem,
+        wnid=wnid,
+        path=path,
+        events=len(events),
+        duration_us=duration,
+        speed_px_s=median_speed(events),
+    )

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
 from texvent.extending import require
 from texvent.networks.weight_files import (
     StandIn,
@@ -15,8 +15,7 @@ from texvent.networks.weight_files import (
     shapes_of,
     state_tensors,
 )
-from texvent.runtime.cache_folder import cache_folder
-from texvent_lab.networks import EXTRA
+from texvent_lab.networks import EXTRA, locate_weights
 
 if TYPE_CHECKING:
     from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
@@ -37,15 +36,8 @@ def find_weights(published: PublishedNetwork, path: Path | None = None) -> Path:
         InputError: there is no such file; the message says where it comes from and where to put
             it.
     """
-    usual = published.file or cache_folder("weights") / published.file_name
-    chosen = path or usual
-    if chosen.is_file():
-        return chosen
-    what = f"there is no weights file {chosen}" if path else f"{published.name} needs its weights"
-    raise InputError(
-        f"{what}; texvent neither carries nor downloads them: {published.where_from}. Pass its "
-        f"path with `weights`, or put it at {usual}"
-    )
+    usual = published.file or published.file_name
+    return locate_weights(published.name, usual, published.where_from, path)
 
 
 def read_network(published: PublishedNetwork, path: Path) -> RecurrentNetwork:

@@ -17,7 +17,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.networks import EXTRA, Padding
+from texvent_lab.networks import EXTRA, Padding, explain_memory
 from texvent_lab.reconstruct.checkpoint import find_weights, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -32,7 +32,8 @@ class ReconstructConfig:
     """Which network turns events into images."""
 
     network: str = "pie-net"
-    """Network: pie-net, e2vid, e2vid+, firenet or firenet+."""
+    """Network: pie-net, e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net; e2depth for depth,
+    near things bright."""
     weights: Path | None = None
     """File with its published weights, which texvent neither carries nor downloads; default: that
     of pie-net's package, or its place in the weights folder."""
@@ -45,6 +46,21 @@ Intensity: TypeAlias = NDArray[np.float32]
 
 LOWEST, HIGHEST = 1.0, 99.0
 """Percentiles that become black and white where a network's images are stretched."""
+
+
+def find_network(name: str) -> PublishedNetwork:
+    """A network whose images can be compared with frames.
+
+    Raises:
+        ConfigError: unknown name, or it gives depth.
+    """
+    published: PublishedNetwork = RECONSTRUCTORS.load(name)
+    if published.colours is not None:
+        raise ConfigError(
+            f"network is {name}, which gives depth; frames are compared with images: give e2vid or "
+            "another, or see depth by texvent reconstruct"
+        )
+    return published
 
 
 def load_reconstructor(
@@ -116,6 +132,11 @@ class Reconstructor:
         """Name of the network."""
         return self._published.name
 
+    def picture(self, output: Intensity) -> Intensity:
+        """An output as it is shown: depth in colours, brightness as it is."""
+        colours = self._published.colours
+        return output if colours is None else colours(output)
+
     def twin(self) -> Reconstructor:
         """The same network, having seen nothing; both share their weights."""
         twin = copy.copy(self)
@@ -182,19 +203,16 @@ class Reconstructor:
         """The network's output for a voxel grid, [H, W]."""
         torch = require("torch", extra=EXTRA)
         padding = Padding.centred(grid.shape[1:], self._network.multiple)
-        try:
-            with torch.inference_mode():
-                voxel: Tensor = torch.from_numpy(grid)[None].to(self._device)
-                output = self._network.step(padding.around(voxel))
-                image: Intensity = padding.off(output)[0, 0].cpu().numpy()
-        except RuntimeError as error:
-            if "memory" not in str(error):
-                raise
-            raise InputError(
-                f"{self.name} does not fit into the memory of device {self._device} at "
-                f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
-                "convert)"
-            ) from error
+        what = (
+            f"{self.name} does not fit into the memory of device {self._device} at "
+            f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
+            "convert)"
+        )
+        with explain_memory(what), torch.inference_mode():
+            padded = padding.around(grid, self._published.padding)
+            voxel: Tensor = torch.from_numpy(padded)[None].to(self._device)
+            output = self._network.step(voxel)
+            image: Intensity = padding.off(output)[0, 0].cpu().numpy()
         return image
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from texvent.extending import require
 from texvent.networks.weight_files import Shape, Tensor, shapes_of
@@ -16,6 +19,8 @@ EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/mo
 """Where files and normalisations of the published networks come from: B. Ercan et al., "EVREAL:
 towards a comprehensive benchmark and analysis suite for event-based video reconstruction", CVPRW
 2023."""
+Picture: TypeAlias = NDArray[np.float32]
+"""[H, W], or [H, W, 3] RGB, 0..1."""
 _torch: Any = require("torch", extra=EXTRA)
 
 
@@ -96,6 +101,10 @@ class PublishedNetwork:
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
     """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
+    padding: Literal["constant", "reflect"] = "constant"
+    """Values around a grid whose sides are no multiples: 0, or the grid mirrored."""
+    colours: Callable[[Picture], Picture] | None = None
+    """Picture of an output that is depth; None: the output is brightness."""
     file: Path | None = None
     """Weights that an installed package brings; None: they are the user's."""
 

@@ -11,7 +11,7 @@ from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import (
     ConvLayer,
-    ConvLstm,
+    RecurrentLayer,
     ResidualBlock,
     UpsampleLayer,
     count_blocks,
@@ -52,11 +52,46 @@ class UNetVariant:
         )
 
 
-class E2vid(RecurrentNetwork):
-    """E2VID: head, three encoders with memory, two residual blocks, three decoders, prediction.
+class RecurrentUNet(RecurrentNetwork):
+    """Head, encoders with memory, a middle, decoders, prediction.
 
-    Each decoder and the prediction add what the encoder of their size, or the head, gave. The
-    output passes a sigmoid.
+    Each decoder and the prediction add what the encoder of their size, or the head, gave.
+    """
+
+    has_sigmoid: bool = True
+    """Whether the output passes a sigmoid."""
+
+    def _layers(self) -> tuple[Any, Any, Any, Any]:
+        """Head, encoders, decoders and prediction."""
+        raise NotImplementedError
+
+    def _middle(self, maps: list[Tensor]) -> Tensor:
+        """Input of the decoders, of the last map's shape, from the encoders' outputs."""
+        raise NotImplementedError
+
+    def reset(self) -> None:
+        """See `RecurrentNetwork`."""
+        self._states: list[Any] = [None] * len(self._layers()[1])
+
+    def step(self, voxel: Tensor) -> Tensor:
+        """See `RecurrentNetwork`."""
+        first, encoders, decoders, last = self._layers()
+        head = x = first(voxel).relu()
+        states, maps = [], []
+        for encoder, state in zip(encoders, self._states, strict=True):
+            states.append(encoder(x, state))
+            x = states[-1][0]
+            maps.append(x)
+        self._states = states
+        x = self._middle(maps)
+        for decoder in decoders:
+            x = decoder(x + maps.pop())
+        image = last(x + head)
+        return image.sigmoid() if self.has_sigmoid else image
+
+
+class E2vid(RecurrentUNet):
+    """E2VID: three encoders, two residual blocks, three decoders.
 
     Source: H. Rebecq et al., "High speed and high dynamic range video with an event camera", TPAMI
         2021, section 3.3.
@@ -72,7 +107,7 @@ class E2vid(RecurrentNetwork):
         one = variant or UNetVariant()
         self.bins, self.multiple = one.bins, 2**one.encoders
         chosen = self.default_activation if final_activation is None else final_activation
-        self._has_sigmoid = chosen == "sigmoid"
+        self.has_sigmoid = chosen == "sigmoid"
         widest = one.width << one.encoders
         blocks = (ResidualBlock(widest, has_norm=one.has_norm) for _ in range(one.blocks))
         self.unetrecurrent = _nn.ModuleDict(
@@ -93,35 +128,22 @@ class E2vid(RecurrentNetwork):
         return cls(UNetVariant.of(found))
 
     def _encoder(self, one: UNetVariant, number: int) -> Any:
-        narrow, wide = one.width << number, one.width << (number + 1)
-        layer = ConvLayer(narrow, wide, one.side, stride=2, has_norm=one.has_norm)
-        return _nn.ModuleDict({"conv": layer, "recurrent_block": ConvLstm(wide)})
+        narrow = one.width << number
+        return RecurrentLayer(narrow, 2 * narrow, one.side, has_norm=one.has_norm)
 
     def _decoder(self, one: UNetVariant, number: int) -> Any:
         wide = one.width << (one.encoders - number)
         return UpsampleLayer(wide, wide // 2, one.side, has_norm=one.has_norm)
 
-    def reset(self) -> None:
-        """See `RecurrentNetwork`."""
-        self._states: list[Any] = [None] * len(self.unetrecurrent["encoders"])
-
-    def step(self, voxel: Tensor) -> Tensor:
-        """See `RecurrentNetwork`."""
+    def _layers(self) -> tuple[Any, Any, Any, Any]:
         net = self.unetrecurrent
-        head = x = net["head"](voxel).relu()
-        skipped, states = [], []
-        for encoder, state in zip(net["encoders"], self._states, strict=True):
-            state = encoder["recurrent_block"](encoder["conv"](x).relu(), state)
-            x = state[0]
-            states.append(state)
-            skipped.append(x)
-        self._states = states
-        for block in net["resblocks"]:
+        return net["head"], net["encoders"], net["decoders"], net["pred"]
+
+    def _middle(self, maps: list[Tensor]) -> Tensor:
+        x = maps[-1]
+        for block in self.unetrecurrent["resblocks"]:
             x = block(x)
-        for decoder in net["decoders"]:
-            x = decoder(x + skipped.pop())
-        image = net["pred"](x + head)
-        return image.sigmoid() if self._has_sigmoid else image
+        return x
 
 
 class E2vidPlus(E2vid):

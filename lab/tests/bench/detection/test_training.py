@@ -13,7 +13,7 @@ from texvent_lab.bench.detection.clips import (
     read_classes,
     read_clips,
 )
-from texvent_lab.bench.detection.config import DetectionConfig
+from texvent_lab.bench.detection.config import DetectionConfig, DetectionData
 from texvent_lab.commands.bench.bench import run
 
 SCENE = """
@@ -146,6 +146,31 @@ def _square(number: int) -> Clip:
         histograms[window, :, y : y + side, x : x + side] = 3
         found.append(boxes((1, x, y, side, side)))
     return Clip.of(str(number), list(histograms), found)
+
+
+@pytest.mark.detect
+@pytest.mark.parametrize("binning", [1, 2])
+def test_eqs_computes_with_the_stored_weights_as_evlib_does(tmp_path: Path, binning: int):
+    import torch
+
+    from texvent.metrics.rvt_backbone import read_rvt
+    from texvent_lab.bench.detection.task import DetectionTask, run_backbone
+
+    config = DetectionConfig(data=DetectionData(binning=binning))
+    histogram = np.random.default_rng(4).poisson(0.3, (20, 90, 140)).astype(np.uint8)
+    cells = bin_pixels(histogram, binning)
+    task = DetectionTask(config, ("car",), [Clip.of("a", [cells], [boxes()])])
+    network = task.make_network().eval()
+    with torch.no_grad():
+        for one in network.backbone.parameters():  # attention is scaled by 1e-5 at first
+            one.normal_(0, 0.1)
+        windows = torch.from_numpy(cells)[None, None]
+        (expected,) = run_backbone(network, windows)
+    torch.save(task.published(network), tmp_path / "weights.pt")
+    for number, one in enumerate(read_rvt(tmp_path / "weights.pt")(histogram.astype(np.float32))):
+        other = expected[number + 1][0, :, : one.shape[1], : one.shape[2]]
+        np.testing.assert_allclose(one, other, atol=1e-5)
+        assert np.abs(one).max() > 0.05
 
 
 @pytest.mark.detect

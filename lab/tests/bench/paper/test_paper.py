@@ -8,20 +8,23 @@ import numpy as np
 import pytest
 
 from texvent.cli.app import main
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
 from texvent.simulate.texvent.simulator import TexventSimulator
-from texvent_lab.bench.fidelity.entries import read_ablations
+from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.config import PaperConfig
-from texvent_lab.bench.paper.published_tables import TABLES
+from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
 from texvent_lab.bench.paper.run import (
+    choose_e8,
     measure_ablations,
     measure_accuracy,
+    measure_eqs,
     measure_event_frames,
+    measure_images,
     measure_noise,
     measure_table,
 )
@@ -66,7 +69,28 @@ def test_interpolation_is_removed_fixed_and_replaced():
     entries = {entry.name: entry.settings(0).interpolate for entry in read_ablations(PAPER)}
     assert entries["E6"].interpolate == "none"
     assert entries["E7"].fixed_count == 10
-    assert entries["E8"].interpolate not in ("none", entries["Texvent"].interpolate)
+    assert (entries["E8"].interpolate, entries["E8"].frames_per_pixel) == ("flow", 1.0)
+
+
+def test_e8_takes_super_slomo_where_its_weights_are_and_says_which(tmp_path, monkeypatch, plug_ins):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    entries = read_ablations(PAPER)
+    kept, said = choose_e8(entries, None)
+    assert kept == entries
+    assert "optical flow in place of Super SloMo" in said.notes[0]
+    assert "--slomo-weights" in said.needs[0]
+    with pytest.raises(InputError, match=r"no weights file .*mine\.ckpt"):
+        choose_e8(entries, tmp_path / "mine.ckpt")
+    (tmp_path / "mine.ckpt").touch()
+    chosen, said = choose_e8(entries, tmp_path / "mine.ckpt")
+    changed = [one.name for one, other in zip(chosen, entries, strict=True) if one != other]
+    assert changed == ["E8"]
+    found = chosen[[one.name for one in chosen].index("E8")].settings(0).interpolate
+    assert (found.interpolate, found.frames_per_pixel) == ("super-slomo", 1.0)
+    assert found.interpolator_weights == tmp_path / "mine.ckpt"
+    assert said.notes == [
+        f"E8: Super SloMo ({tmp_path / 'mine.ckpt'}), with VID2E's number of frames"
+    ]
 
 
 def test_the_threshold_is_fitted_only_if_asked_for():
@@ -89,7 +113,7 @@ def keep_few(monkeypatch):
 
 
 def test_every_row_of_a_table_has_a_figure_per_column():
-    assert set(TABLES) == {1, 2, 4, 5, 7, 8, 9}
+    assert set(TABLES) == {1, 2, 4, 5, 6, 7, 8, 9}
     for table in TABLES.values():
         assert all(len(figures) == len(table.columns) for figures in table.rows.values())
     # From the paper's text: the best of Tables 1, 2 and 9, and what E12 costs.
@@ -130,7 +154,8 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
     keep_few(monkeypatch)
     monkeypatch.setattr(EventFrameLpips, "missing", lambda self: "no weights")
     scenes = [open_scene(str(pan_folder), RecordingPart(offset_us=5_000))]
-    found = measure_event_frames(scenes, PaperConfig(table=1, jobs=1), silent)
+    config = PaperConfig(table=1, jobs=1, recordings=str(pan_folder))
+    found = measure_event_frames(scenes, config, silent)
     mse = found.rows["event frames: MSE ↓"]
     assert set(mse) == {"VID2E", "Texvent"}
     assert all(0 < float(value) < 1 for value in mse.values())
@@ -138,6 +163,99 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
     # A recording compared with itself would have 0.
     recorded = scenes[0].recorded(scenes[0].scored[0])
     assert compare(recorded, recorded, ["ef_mse"]) == {"ef_mse": 0.0}
+
+
+@pytest.fixture
+def others(tmp_path):
+    """Folder where another program left its events of the recording "bar": the recorded ones."""
+    (tmp_path / "others").mkdir()
+    moving_bar(frames=40).events.save(tmp_path / "others" / "bar.h5")
+    (tmp_path / "others" / "bar.events.png").touch()
+    return tmp_path / "others"
+
+
+@pytest.fixture
+def bar(tmp_path, monkeypatch):
+    """That recording; no weights are in the cache."""
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    return write_recording(tmp_path / "bar", moving_bar(frames=40))
+
+
+def test_event_files_fill_columns_of_their_own_or_of_the_table(others, bar, monkeypatch):
+    keep_few(monkeypatch)
+    events = (f"v2ce={others}", f"vid2e={others}", f"Mine={others}")
+    options = {"recordings": str(bar), "events": events, "match_rate": False}
+    config = PaperConfig(table=1, jobs=1, **options)
+    frames = measure_event_frames([open_scene(str(bar))], config, silent)
+    assert {**frames.rows["event frames: MSE ↓"], "Texvent": ""} == {
+        "VID2E": "0.000", "V2CE": "0.000", "Mine": "0.000", "Texvent": ""
+    }  # fmt: skip
+    images = measure_images(config, StandInReconstructor(), silent)
+    mse = images.rows["images: MSE ↓"]
+    assert mse["V2CE"] == mse["Mine"] == mse["VID2E"] == "0.000" != mse["Texvent"]
+    assert "V2CE: events of that program, from files" in images.notes
+    lines = compare_with_paper(TABLES[1], join_measured([frames, images])).splitlines()
+    assert lines[2].endswith("| Texvent | Mine |")
+    assert lines[4].endswith("| 0.045 | – |")
+
+
+def test_event_files_are_on_the_clock_of_the_frames_as_they_are_stored(pan_folder, tmp_path):
+    offset_us = 5_000
+    scene = open_scene(str(pan_folder), RecordingPart(offset_us=offset_us))
+    early = dataclasses.replace(scene.events, t=scene.events.t - offset_us)
+    early.save(tmp_path / f"{scene.scene}.h5")
+    row = FileEntry.find("Mine", tmp_path, [scene.scene])
+    for found, true in zip(scene.simulate(row, None), scene.references, strict=True):
+        assert found == true
+    # No threshold is searched by which the file would not change.
+    assert dataclasses.replace(row, is_rate_matched=True).default_threshold is None
+    late = dataclasses.replace(early, t=early.t + 10**9)
+    late.save(tmp_path / f"{scene.scene}.h5", overwrite=True)
+    with pytest.raises(InputError, match=r"no event from .* clock of the frames"):
+        scene.simulate(row, None)
+
+
+def test_a_folder_that_lacks_a_recording_is_named_before_any_work(others, bar, monkeypatch):
+    monkeypatch.setattr(paper, "measure_times", lambda *_: pytest.fail("work was done"))
+    (others / "bar.h5").rename(others / "barrel.h5")
+    for table in (1, 2, 8):
+        config = PaperConfig(table=table, recordings=str(bar), events=(f"V2CE={others}",))
+        with pytest.raises(InputError, match="others has not one event file each of bar;"):
+            measure_table(config, silent)
+
+
+@pytest.mark.parametrize(
+    ("table", "events", "message"),
+    [
+        (1, ("V2CE",), "'V2CE'; it must be NAME=FOLDER"),
+        (1, ("V2CE=nowhere",), "'V2CE=nowhere'; it must be NAME=FOLDER, a folder that exists"),
+        (1, ("V2CE=.", "v2ce=.."), "names a column twice"),
+        (4, ("V2CE=.",), "columns of tables 1, 2, 8, 9"),
+        (None, ("V2CE=.",), "columns of tables 1, 2, 8, 9"),
+    ],
+)
+def test_columns_that_cannot_be_are_refused(table, events, message):
+    with pytest.raises(ConfigError, match=message):
+        PaperConfig(table=table, events=events)
+
+
+@pytest.mark.torch
+def test_eqs_of_a_network_trained_here_has_a_row_of_its_own_with_controls(
+    pan_folder, tmp_path, monkeypatch
+):
+    torch = pytest.importorskip("torch")
+    from tests.metrics.rvt.rvt_files import trained_here
+
+    keep_few(monkeypatch)
+    weights = tmp_path / "weights.pt"
+    torch.save(trained_here((32, 32)), weights)
+    config = PaperConfig(table=2, recordings=str(pan_folder), rvt_weights=weights, jobs=1)
+    found = measure_eqs(config, silent)
+    assert set(found.rows["eqs (own RVT) ↑"]) == {"VID2E", "Texvent"}
+    assert "EQS ↑" not in found.rows
+    (controls,) = [note for note in found.notes if "identity" in note]
+    assert "identity 1.000" in controls
+    assert all(one in controls for one in ("shuffle all times", "flip 100 %", "noise 30 %"))
 
 
 def test_noise_that_grows_makes_images_less_like_those_without(tmp_path, monkeypatch):
@@ -183,6 +301,11 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monke
     assert found.rows["Acc@1 ↑"] == {"Original": "0.5000", "Texvent": "0.5000"}
     assert found.rows["Acc@5 ↑"]["Texvent"] == "1.0000"
     assert "vid2e" in found.needs[0]
+    mine = dataclasses.replace(config, events=(f"Mine={tmp_path / 'streams' / 'texvent'}",))
+    assert measure_accuracy(mine, silent).rows["Acc@1 ↑"]["Mine"] == "0.5000"
+    (tmp_path / "streams" / "Original" / "n03").mkdir()
+    with pytest.raises(InputError, match="texvent lacks n03, which another column has"):
+        measure_accuracy(mine, silent)
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match="original, vid2e"):
         measure_accuracy(dataclasses.replace(config, folder=tmp_path / "empty"), silent)

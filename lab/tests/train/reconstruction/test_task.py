@@ -124,13 +124,13 @@ def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path
     assert {one.dtype for one in weights(tmp_path / "run").values()} == {torch.float32}
 
 
-@pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+"])
+@pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+", "hypere2vid", "et-net"])
 def test_a_published_file_is_read_as_that_network_and_gives_its_images(
     folder: Path, tmp_path: Path, name: str
 ) -> None:
     config = config_of(folder)
     task = ReconstructionTask(replace(config, network=replace(config.network, name=name)))
-    network = task.make_network()
+    network = task.make_network().eval()
     torch.save(task.published(network), tmp_path / "weights.pt")
     reconstructor = load_reconstructor(name, tmp_path / "weights.pt", device="cpu")
     published = RECONSTRUCTORS.load(name)
@@ -211,10 +211,10 @@ def voxels(count: int = 2) -> torch.Tensor:
     return torch.randn(2, count, 5, 16, 16, generator=torch.Generator().manual_seed(0))
 
 
-@pytest.mark.parametrize("name", ["firenet", "e2vid+"])
+@pytest.mark.parametrize("name", ["firenet", "e2vid+", "hypere2vid"])
 def test_the_state_is_carried_from_window_to_window(name: str) -> None:
     published = RECONSTRUCTORS.load(name)
-    network, grids = new_network(published, 0), voxels(3)
+    network, grids = new_network(published, 0).eval(), voxels(3)
     with torch.no_grad():
         images = network(grids)
         one_by_one = published.network.from_tensors(network.tensors, {})

@@ -52,7 +52,8 @@ class CompareOptions(ReadingOptions):
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     rvt_weights: Path | None = None
-    """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs."""
+    """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs; or
+    weights.pt of texvent train detection: adds eqs (own RVT)."""
     json: bool = False
     """Print JSON instead of a table; undefined values are null."""
 

@@ -79,7 +79,7 @@ class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "video", "time", "speed", "render_fps", "window", "overlay",
+        "out", "video", "time", "speed", "render_fps", "window", "overlay", "show",
         "palette", "overwrite",
     )  # fmt: skip
 

@@ -35,17 +35,16 @@ class RifeInterpolator:
 
     Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Interpolation
         (ECCV 2022); section 3.2.1 of the paper.
-    Deviation: the motion is estimated once per pair, at its middle, and points move straight and
-        evenly; the paper estimates it anew at each instant, and differences between the estimates
-        flicker. Grey frames are shown to the network as colour, edges are padded by repetition
-        instead of with black, and the result is not clipped.
+    Deviation: unless `rife_flow` is "each", the motion is estimated once per pair, at its middle,
+        and points move straight and evenly. Grey frames are shown to the network as colour, edges
+        are padded by repetition instead of with black, and the result is not clipped.
     """
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         """An interpolator with its weights loaded.
 
         Args:
-            config: the weights.
+            config: the weights, and how often the motion is estimated.
             stream: not used; every interpolator is built alike.
 
         Raises:
@@ -58,6 +57,7 @@ class RifeInterpolator:
         self._device = "cuda" if torch.cuda.is_available() else "cpu"
         self._path = find_rife_weights(config.interpolator_weights)
         self._network = read_rife_weights(self._path).to(self._device)
+        self._is_shared = config.rife_flow == "once"
 
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
@@ -85,29 +85,35 @@ class RifeInterpolator:
             FileFormatError: the weights give numbers that are NaN or infinite.
         """
         lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
-        images, motion, torch = image_tensors(first, second), None, import_torch()
+        images, shared, torch = image_tensors(first, second), None, import_torch()
+        from texvent.interpolate.rife.network import MIDDLE, move_motion  # needs torch
+
         for t_us in times_us:
+            at = position(first, second, t_us)
             # Not around the yield: the caller must not inherit the mode.
             with torch.inference_mode(), _explain_memory(self._device):
-                motion = motion or self._prepare(images)
-                luma = self._luma_at(motion, lumas, position(first, second, t_us))
+                if self._is_shared:
+                    shared = shared or self._estimate(images, MIDDLE)
+                    motion = move_motion(shared, at)
+                else:
+                    motion = self._estimate(images, at)
+                luma = self._luma_by(motion, lumas)
             if not bool(luma.isfinite().all()):
                 raise FileFormatError(f"{self._path}: the network's output is NaN or infinite")
             yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
 
-    def _prepare(self, images: Sequence[Tensor]) -> Motion:
+    def _estimate(self, images: Sequence[Tensor], at: float) -> Motion:
         from texvent.interpolate.rife.network import Motion  # needs torch
 
         height, width = images[0].shape[-2:]
         pad_to = self._network.layout.pad_to
         padded = (pad_to_multiple(image, pad_to).to(self._device) for image in images)
-        motion = self._network(*padded)
+        motion = self._network(*padded, at)
         return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
 
-    def _luma_at(self, pair: Motion, lumas: Sequence[Tensor], at: float) -> Tensor:
-        from texvent.interpolate.rife.network import move_motion, warp  # needs torch
+    def _luma_by(self, motion: Motion, lumas: Sequence[Tensor]) -> Tensor:
+        from texvent.interpolate.rife.network import warp  # needs torch
 
-        motion = move_motion(pair, at)
         weight = import_torch().sigmoid(motion.mask)
         first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
         return (second + (first - second) * weight)[0, 0]

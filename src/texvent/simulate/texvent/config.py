@@ -58,7 +58,8 @@ class TexventConfig:
     noise_rate_hz: float = 0.2
     """Noise events per pixel and second, where there is noise (λ1)."""
     noise_scale: float = 1.0
-    """Sensor factor on the noise rate, such as the ratio of two fill factors (in λ2)."""
+    """Sensor factor on the noise rate (in λ2). With a --sensor whose fill factor is published it is
+    the DAVIS346's divided by it."""
     noise_intensity: float = 40.0
     """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
     noise_on_fraction: float = 0.5

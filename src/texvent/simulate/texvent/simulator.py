@@ -43,6 +43,8 @@ class TexventSimulator(SteppingSimulator):
     bytes_per_pixel: ClassVar[int] = 30
     presets: ClassVar[Mapping[str, TexventConfig]] = PRESETS
     frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"paper"})
+    reference_fill_factor: ClassVar[float] = 0.22
+    """That of the DAVIS346, whose background activity the default rates are."""
 
     def __init__(self, config: TexventConfig | None = None, *, seed: int = 0) -> None:
         """Prepare a simulator that has seen no frame.

@@ -36,7 +36,7 @@ class ImageSink(Protocol):
 
         Args:
             t_us: its time, µs, increasing.
-            image: [H, W], 0..1.
+            image: [H, W], or [H, W, 3] RGB, 0..1.
         """
         ...
 
@@ -107,7 +107,7 @@ class _VideoSink:
 
     def add(self, t_us: int, image: NDArray[np.floating]) -> None:
         self._first_us = t_us if self._first_us is None else self._first_us
-        rgb = np.repeat(_levels(image)[..., None], 3, axis=2)
+        rgb = np.broadcast_to(_levels(image.reshape(*image.shape[:2], -1)), (*image.shape[:2], 3))
         self._video.write(np.pad(rgb, self._more, mode="edge"), t_us - self._first_us)
 
 

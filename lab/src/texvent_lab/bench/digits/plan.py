@@ -64,6 +64,7 @@ ARMS: tuple[Arm, ...] = (
     Arm("v2e", {"simulator": "v2e"}),
     Arm("v2e noisy", {"simulator": "v2e", "preset": "noisy"}),
     Arm("voltmeter", {"simulator": "voltmeter"}),
+    Arm("senpi", {"simulator": "senpi"}),
     Arm("E1: no balance", {**_PAPER, "balance": 0.001}),
     Arm("E4: no cache", {**_PAPER, "cache": "none"}),
     Arm("E9: no noise", {**_PAPER, "noise": "none"}),

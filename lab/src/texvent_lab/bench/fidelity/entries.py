@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, ClassVar, Literal, Self, TypeAlias
 
-from texvent.errors import ConfigError, InputError
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError, FileFormatError, InputError, MissingDependencyError
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.extending import SIMULATORS
+from texvent.extending import INTERPOLATORS, SIMULATORS
+from texvent.io.files import is_event_path, open_events
 from texvent.run.prepare import prepare_video
+from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
@@ -52,12 +56,20 @@ class Entry:
     """Name of the options; default: the simulator's first preset."""
     is_rate_matched: bool = True
     """Whether the contrast threshold is fitted to the number of true events, or kept."""
+    rife_flow: Literal["once", "each"] | None = None
+    """How often RIFE estimates the motion; default: the interpolator's own."""
 
     @property
     def name(self) -> str:
         """Name in tables."""
         preset = f" {self.preset}" if self.preset else ""
         return f"{self.simulator}{preset}, {self.interpolate}"
+
+    def or_flow(self) -> Self:
+        """This row, by optical flow if it asks for RIFE and that cannot run here."""
+        if self.interpolate != "rife" or missing_rife() is None:
+            return self
+        return dataclasses.replace(self, interpolate="flow")
 
     @property
     def track(self) -> Track:
@@ -80,6 +92,7 @@ class Entry:
             "simulator": self.simulator,
             "preset": None if self._is_calibrated else self.preset,
             "interpolate": self.interpolate,
+            "rife_flow": self.rife_flow if self.interpolate == "rife" else None,
             "frames_per_pixel": CALIBRATED_FRAMES_PER_PIXEL if self._is_calibrated else None,
             "seed": seed,
             "threshold_map": THRESHOLD_FILE if self._is_calibrated else None,
@@ -114,6 +127,21 @@ class Entry:
             TrueFrames(scene) if self.interpolate == "exact" else render_video(scene)
         )
         return simulate_video(video, self.settings(seed), threshold)
+
+
+def missing_rife() -> str | None:
+    """Why RIFE cannot run here, such as without its weights; None if it can.
+
+    Raises:
+        FileFormatError: the weights are damaged.
+    """
+    try:
+        INTERPOLATORS.load("rife").provenance(InterpolateConfig(interpolate="rife"))
+    except FileFormatError:
+        raise
+    except (InputError, MissingDependencyError) as error:
+        return str(error)
+    return None
 
 
 def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
@@ -163,6 +191,8 @@ class ConfigEntry(Entry):
 
     path: Path
     """TOML or YAML file."""
+    options: tuple[tuple[str, Any], ...] = ()
+    """(name, value) of options that replace those of the file."""
 
     @classmethod
     def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
@@ -191,11 +221,63 @@ class ConfigEntry(Entry):
         Raises:
             ConfigError: the file holds an unknown option, or a value out of range.
         """
-        return resolve("simulate", {"seed": seed}, config=self.path)
+        options = {"interpolate": self.interpolate, **dict(self.options), "seed": seed}
+        return resolve("simulate", options, config=self.path)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileEntry(Entry):
+    """A row whose events another program made of the recordings; nothing is simulated for it."""
+
+    simulator: str = "texvent"
+    interpolate: str = "none"
+    program: str
+    default_threshold: ClassVar[None] = None
+    files: Mapping[str, Path]
+    """Recording → event file, on the clock of its frames."""
+
+    @classmethod
+    def find(cls, name: str, folder: Path, recordings: Sequence[str]) -> FileEntry:
+        """The row of a folder with an event file per recording, named as it.
+
+        Raises:
+            InputError: a recording has none there, or several.
+        """
+        events = [one for one in sorted(folder.iterdir()) if is_event_path(one)]
+        found = {
+            recording: [one for one in events if f"{one.name}.".startswith(f"{recording}.")]
+            for recording in recordings
+        }
+        wrong = [recording for recording, files in found.items() if len(files) != 1]
+        if wrong:
+            raise InputError(
+                f"{folder} has not one event file each of {', '.join(wrong)}; it needs one per "
+                f"recording, named as it, such as {wrong[0]}.h5"
+            )
+        return cls(program=name, files={one: files[0] for one, files in found.items()})
+
+    @property
+    def name(self) -> str:
+        """The program's."""
+        return self.program
+
+    def packets(self, recording: str, size: SensorSize, span_us: tuple[int, int]) -> EventPackets:
+        """The events of a recording in a span of time.
+
+        Raises:
+            InputError: there are none, or they have another size.
+        """
+        packets = open_events(self.files[recording], size=size).cut(*span_us)
+        if not any(map(len, packets)):
+            raise InputError(
+                f"{self.files[recording]} has no event from {span_us[0]} to {span_us[1]} µs; times "
+                f"must be on the clock of the frames of {recording}"
+            )
+        return packets
 
 
 def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:
-    """One row per config file of a folder, E2 before E10.
+    """One row per config file of a folder, E2 before E10; RIFE's by flow where it cannot run.
 
     Raises:
         InputError: there is no such folder, or no config file in it.
@@ -207,7 +289,7 @@ def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[Confi
             f"no config file in {folder}; give the folder configs/paper of the source "
             "distribution, or one with TOML files of your own"
         )
-    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths]
+    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched).or_flow() for path in paths]
 
 
 def _by_number(path: Path) -> tuple[str, int, str]:

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
-from texvent.errors import ConfigError
-from texvent_lab.bench.paper.published_tables import TABLES
+from texvent.errors import ConfigError, shown
+from texvent.sensor import as_size
+from texvent_lab.bench.paper.published_tables import FIGURES, TABLES
 from texvent_lab.bench.real.recording import (
     WITH_FRAMES,
     FrameRecording,
     locate_source,
     open_recording,
+    recording_name,
 )
+from texvent_lab.reconstruct.reconstructor import find_network
 from texvent_lab.registries import RECONSTRUCTORS
 
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
 """Tables of configs/paper."""
+FROM_FILES = (1, 2, 8, 9)
+"""Tables whose columns other programs may fill."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,12 +38,14 @@ class PaperConfig:
     """
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "table", "scenes", "recordings", "configs", "weights", "match_rate", "out", "overwrite",
-        "quiet",
+        "table", "figure", "scenes", "recordings", "configs", "weights", "match_rate", "out",
+        "overwrite", "quiet",
     )  # fmt: skip
 
     table: int | None = None
-    """Table of the paper: 1, 2, 4, 5, 7, 8 or 9; default: the ablations of both 4 and 5."""
+    """Table of the paper: 1, 2 or 4 to 9; default: the ablations of both 4 and 5."""
+    figure: int | None = None
+    """Figure of the paper instead of a table: 5, 6, 7 or 12, of one recording; -o is its PNG."""
     scenes: str | None = None
     """Tables 4 and 5: names of scenes of bench fidelity, separated by commas; default: its own."""
     oracle: bool = True
@@ -58,10 +66,23 @@ class PaperConfig:
     """Tables 1, 7, 8: network that reconstructs images; default: e2vid as in the
     paper, for table 8 pie-net in place of its ET-Net."""
     rvt_weights: Path | None = None
-    """Table 2: RVT's published weights, for EQS."""
+    """Table 2: RVT's published weights, for EQS; or weights.pt of train detection, for eqs (own
+    RVT)."""
     folder: Path | None = None
     """Table 9: folder with a sub-folder per column (original, texvent ...), each with a sub-folder
-    of event files per class."""
+    of event files per class. Table 6: the same with train and test, and one per simulator."""
+    epochs: int = 30
+    """Table 6: passes over the training streams."""
+    image_size: str = "224x224"
+    """Table 6: size that coordinates are scaled to."""
+    work: Path | None = None
+    """Table 6: folder that keeps the trainings, so that a run that was stopped goes on."""
+    events: tuple[str, ...] = ()
+    """Tables 1, 2, 8, 9: NAME=FOLDER of a column that another program filled: an event file per
+    recording, named as it and on the clock of its frames; for table 9 a sub-folder per class."""
+    slomo_weights: Path | None = None
+    """Table 4: SuperSloMo.ckpt, for E8; default: that in the weights folder. Without one, E8 takes
+    optical flow."""
     jobs: int = 2
     """Processes for simulating on recordings and scenes."""
 
@@ -70,11 +91,49 @@ class PaperConfig:
             raise ConfigError(
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
-        if self.network is not None:
-            RECONSTRUCTORS.load(self.network)
+        if self.figure is not None:
+            self._check_figure()
+        elif self.network is not None:
+            find_network(self.network)
         check_range("jobs", self.jobs, 1)
+        check_range("epochs", self.epochs, 1, 1_000_000)
+        as_size(self.image_size)
+        if self.events and self.table not in FROM_FILES:
+            tables = ", ".join(map(str, FROM_FILES))
+            raise ConfigError(f"events fills columns of tables {tables}; name one with --table")
+        if len(self.event_folders) < len(self.events):
+            raise ConfigError(f"events names a column twice: {' '.join(self.events)}")
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
+
+    def _check_figure(self) -> None:
+        if self.figure not in FIGURES:
+            known = ", ".join(map(str, FIGURES))
+            raise ConfigError(f"figure is {self.figure}; the figures are {known}")
+        if self.table is not None:
+            raise ConfigError("table and figure are given; give one of them")
+        if self.network is not None:
+            RECONSTRUCTORS.load(self.network)
+        if len(self.named_recordings) > 1:
+            raise ConfigError(f"recordings is {self.recordings}; a figure shows one recording")
+
+    @property
+    def event_folders(self) -> Mapping[str, Path]:
+        """Column → folder of its events; a name that the table has not is a column of its own.
+
+        Raises:
+            ConfigError: a text is not NAME=FOLDER, or there is no such folder.
+        """
+        folders: dict[str, Path] = {}
+        for text in self.events:
+            name, _, place = text.partition("=")
+            folder = Path(place).expanduser()
+            if not (name and place and folder.is_dir()):
+                allowed = "it must be NAME=FOLDER, a folder that exists"
+                raise ConfigError(f"events is {shown(text)}; {allowed}")
+            columns = {one.lower(): one for one in TABLES[self.table or 1].columns}
+            folders[columns.get(name.lower(), name)] = folder
+        return folders
 
     @property
     def named_recordings(self) -> tuple[str, ...]:
@@ -89,4 +148,7 @@ class PaperConfig:
 
     def whole_recordings(self) -> list[FrameRecording]:
         """The recordings, to be read through."""
-        return [open_recording(locate_source(source)[0]) for source in self.sources]
+        return [
+            replace(open_recording(locate_source(source)[0]), name=recording_name(source))
+            for source in self.sources
+        ]

@@ -12,20 +12,25 @@ import numpy as np
 from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.latent_similarity import load_eqs
+from texvent.metrics.controls import CONTROLS, run_controls
+from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
 from texvent.video import Video
 from texvent_lab.bench.fidelity.comparison import difference_text
-from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, simulate_video
+from texvent_lab.bench.fidelity.entries import (
+    ConfigEntry,
+    Entry,
+    FileEntry,
+    missing_rife,
+    simulate_video,
+)
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.augmentation import measure_recognition
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
-from texvent_lab.bench.real.recording import (
-    RealScene,
-    open_scene,
-)
+from texvent_lab.bench.real.recording import RealScene, open_scene, recording_name
 from texvent_lab.bench.real.run import run_real
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
@@ -34,6 +39,7 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
+from texvent_lab.plug_ins.super_slomo import find_super_slomo
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent_lab.train.classification.config import (
@@ -48,14 +54,21 @@ NETWORKS = {1: "e2vid", 7: "e2vid", 8: "pie-net"}
 ENTRIES: Mapping[str, Entry] = {
     "VID2E": Entry(simulator="esim", interpolate="flow"),
     "V2E": Entry(simulator="v2e", interpolate="flow"),
+    "V2CE": Entry(simulator="v2ce", interpolate="none"),
     "DVS-Voltmeter": Entry(simulator="voltmeter", interpolate="none"),
-    "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
+    "SENPI": Entry(simulator="senpi", interpolate="none"),
+    "Texvent": Entry(simulator="texvent", preset="paper", interpolate="rife", rife_flow="each"),
 }
 """Column of the paper → its counterpart here. Those that come with a network for interpolation
-get motion compensation, as Texvent does; the others get the frames alone."""
+get motion compensation; the others get the frames alone. `find_columns` has those that can run."""
 CLASSIFIER = ClassNetwork(name="resnet34", representation="binary-event-image")
 """N-ImageNet's published classifier."""
 OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
+EQ7_READING = (
+    "E12: Eq. 7's minimum and maximum are over the pixels that fire. The letter takes all pixels: "
+    "STPP .680 for .690 on davis346, .553 for .563 on slider_depth (24 frames, δ = .2, no noise); "
+    "random times .708 and .577"
+)
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
 PROMPT = "a red car drives left past two trees at dusk"
 TIMED_PAIRS, REPEATS = 12, 3
@@ -69,22 +82,27 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
     """Values of one table, and what is missing for the rest.
 
     Args:
-        config: of table 1, 2, 7, 8 or 9; `measure_ablations` has 4 and 5.
+        config: of table 1, 2, 6, 7, 8 or 9; `measure_ablations` has 4 and 5.
         progress: told of every step.
 
     Raises:
         InputError, FileFormatError: an input that was named is missing or damaged.
         ConfigError: the network does not exist.
     """
+    if config.table == 6:
+        return measure_recognition(config, progress)
     if config.table == 9:
         return measure_accuracy(config, progress)
+    find_columns(config)  # what is missing is named before any work
     if config.table == 2:
-        return join_measured([measure_times(progress), measure_eqs(config, progress)])
+        return join_measured(
+            [measure_times(config, progress), measure_eqs(config, progress), interpolation()]
+        )
     if not config.sources:
         return Measured(
             needs=["anything; texvent data pull slider_depth, or --recordings with a recording"]
         )
-    found = []
+    found = [] if config.table == 7 else [interpolation()]
     if config.table == 1:
         scenes = [open_scene(source) for source in config.sources]
         found.append(measure_event_frames(scenes, config, progress))
@@ -97,6 +115,27 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
         return join_measured([*found, Measured(needs=[f"images; {error}"])])
     measure = measure_noise if config.table == 7 else measure_images
     return join_measured([*found, measure(config, network, progress)])
+
+
+def find_columns(config: PaperConfig) -> dict[str, Entry]:
+    """Column → its simulator, Texvent's by flow where RIFE cannot run, or files of the program.
+
+    Raises:
+        InputError: a folder of such files lacks a recording.
+    """
+    names, given = [recording_name(one) for one in config.sources], config.event_folders.items()
+    return {
+        **{column: entry.or_flow() for column, entry in ENTRIES.items()},
+        **{one: FileEntry.find(one, folder, names) for one, folder in given},
+    }
+
+
+def interpolation() -> Measured:
+    """A note: the interpolator of the rows of Texvent."""
+    reason = missing_rife()
+    if reason is None:
+        return Measured(notes=["Texvent interpolates by RIFE at every instant, as in the paper"])
+    return Measured(notes=[f"Texvent interpolates by flow, not by the paper's RIFE: {reason}"])
 
 
 def leave_out_other_tables(number: int, entries: Sequence[ConfigEntry]) -> list[ConfigEntry]:
@@ -135,7 +174,30 @@ def measure_ablations(number: int, report: FidelityReport) -> Measured:
                 difference[column] = f"{found.mean:+.3f} ± {found.standard_error:.3f}"
         rows[f"STPP ↑, {reference.title}"] = stpp
         rows[f"− {BASELINE}, {reference.title}"] = difference
-    return Measured(rows, needs=[EQS_NEED])
+    notes = [EQ7_READING] if number == 5 else []
+    return join_measured([interpolation(), Measured(rows, notes, [EQS_NEED])])
+
+
+def choose_e8(
+    entries: Sequence[ConfigEntry], weights: Path | None
+) -> tuple[list[ConfigEntry], Measured]:
+    """E8 by Super SloMo where its weights are, else as its file says; and a note of which.
+
+    Raises:
+        InputError: there is no file `weights`.
+    """
+    try:
+        path = find_super_slomo(weights)
+    except InputError:
+        if weights is not None:
+            raise
+        note = "E8: optical flow in place of Super SloMo, with VID2E's number of frames"
+        return list(entries), Measured(
+            notes=[note], needs=["E8 by Super SloMo: --slomo-weights FILE"]
+        )
+    options = (("interpolate", "super-slomo"), ("interpolator_weights", path))
+    chosen = [replace(one, options=options) if one.name == "E8" else one for one in entries]
+    return chosen, Measured(notes=[f"E8: Super SloMo ({path}), with VID2E's number of frames"])
 
 
 def measure_event_frames(
@@ -146,22 +208,22 @@ def measure_event_frames(
     metrics = ["stpp", *(name for name, reason in missing.items() if reason is None)]
     report = _run(scenes, metrics, config, progress)
     rows = {
-        f"event frames: {title}": _means(report, name)
+        f"event frames: {title}": _means(report, name, config)
         for title, name in EVENT_FRAMES.items()
         if name in metrics
     }
-    notes = [f"recordings: {', '.join(scene.scene for scene in scenes)}", OWN_MODELS]
+    notes = [f"recordings: {', '.join(scene.scene for scene in scenes)}", *_origins(config)]
     needs = [f"{name}: {reason}" for name, reason in missing.items() if reason is not None]
     return Measured(rows, notes, [*needs, *_reasons(report.skipped)])
 
 
 def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
-    """Table 2, first row: EQS against the recording of the same scene."""
+    """Table 2, first row: EQS against the recording of the same scene, with its controls."""
     if config.rvt_weights is None or not config.sources:
         return Measured(
             needs=[
-                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
-                "recording, such as texvent data pull slider_depth"
+                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from, and how one is "
+                "trained here) and a recording, such as texvent data pull slider_depth"
             ]
         )
     eqs = load_eqs(config.rvt_weights)
@@ -170,12 +232,20 @@ def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
     notes = [
         f"EQS against recordings of the same scene ({', '.join(one.scene for one in scenes)}); the "
         "paper compares with other recordings of the same class",
-        OWN_MODELS,
+        *(f"{eqs.name} of {scene.scene}'s own events: {_controls(eqs, scene)}" for scene in scenes),
+        *_origins(config),
     ]
-    return Measured({"EQS ↑": _means(report, "eqs")}, notes, _reasons(report.skipped))
+    title = "EQS ↑" if type(eqs) is EventQualityScore else f"{eqs.name} ↑"
+    return Measured({title: _means(report, eqs.name, config)}, notes, _reasons(report.skipped))
 
 
-def measure_times(progress: Progress) -> Measured:
+def _controls(eqs: Metric, scene: RealScene) -> str:
+    """Controls over all scored spans: a value is worth nothing outside of them."""
+    found = [run_controls(eqs, events) for events in scene.references]
+    return ", ".join(f"{name} {np.mean([one[name] for one in found]):.3f}" for name in CONTROLS)
+
+
+def measure_times(config: PaperConfig, progress: Progress) -> Measured:
     """Table 2, second row: seconds per pair of 346x260 frames, interpolation included."""
     generator = ProceduralGenerator(
         ProceduralConfig(duration=TIMED_PAIRS / 24), size=SENSORS["davis346"].size
@@ -185,7 +255,9 @@ def measure_times(progress: Progress) -> Measured:
     video = Video(levels, [frame.t_us for frame in frames])
     found: dict[str, str] = {}
     needs: list[str] = []
-    for column, entry in ENTRIES.items():
+    columns = find_columns(config).items()
+    simulated = {column: one for column, one in columns if column not in config.event_folders}
+    for column, entry in simulated.items():
         progress(f"time: {entry.name}")
         try:
             found[column] = f"{_seconds_per_pair(video, entry):.4f}"
@@ -213,15 +285,15 @@ def _seconds_per_pair(video: Video, entry: Entry) -> float:
 
 def measure_images(config: PaperConfig, network: Reconstructor, progress: Progress) -> Measured:
     """Tables 1 and 8: images that a network makes of the events, against the true frames."""
-    recordings = config.whole_recordings()
-    plan = ReconstructionPlan(entries=tuple(ENTRIES.values()), is_rate_matched=config.match_rate)
+    recordings, columns = config.whole_recordings(), find_columns(config)
+    plan = ReconstructionPlan(entries=tuple(columns.values()), is_rate_matched=config.match_rate)
     scorer = ReconstructionScorer(reconstructor=network, measures=load_measures(), plan=plan)
     report = run_reconstruction(recordings, scorer, progress=progress)
     prefix = "images: " if config.table == 1 else ""
     rows = {
         f"{prefix}{title}": {
             column: f"{pool_scores(row.scores for row in rows).mean(measure):.3f}"
-            for column, entry in ENTRIES.items()
+            for column, entry in columns.items()
             if (rows := report.rows_of(entry.name))
         }
         for title, measure in IMAGE_ROWS.items()
@@ -229,7 +301,7 @@ def measure_images(config: PaperConfig, network: Reconstructor, progress: Progre
     }
     notes = [
         f"images by {report.network} from {', '.join(one.name for one in recordings)}",
-        OWN_MODELS,
+        *_origins(config),
     ]
     return Measured(rows, notes, _reasons({**report.absent, **report.skipped}))
 
@@ -266,9 +338,10 @@ def measure_accuracy(config: PaperConfig, progress: Progress) -> Measured:
     polarity, through the published ResNet-34.
 
     Raises:
-        InputError: no sub-folder has a column's name, or one has other classes than the network.
+        InputError: no sub-folder has a column's name, or one has other classes than the network or
+            another lacks.
     """
-    if config.folder is None or config.weights is None:
+    if config.weights is None or not (config.folder or config.events):
         return Measured(
             needs=[
                 "anything; --folder DIR with recorded and simulated streams per class, and "
@@ -276,21 +349,25 @@ def measure_accuracy(config: PaperConfig, progress: Progress) -> Measured:
                 "(reshape_then_flat_pol), which the project 82magnolia/n_imagenet on GitHub links"
             ]
         )
-    named = {one.name.lower(): one for one in config.folder.iterdir() if one.is_dir()}
-    rows: dict[str, dict[str, str]] = {title: {} for title in TABLES[9].rows}
-    absent = [column.lower() for column in TABLES[9].columns if column.lower() not in named]
-    if len(absent) == len(TABLES[9].columns):
+    inside = [one for one in config.folder.iterdir() if one.is_dir()] if config.folder else []
+    named = {one.name.lower(): one for one in inside}
+    folders = {one: named[one.lower()] for one in TABLES[9].columns if one.lower() in named}
+    folders |= config.event_folders
+    absent = [column.lower() for column in TABLES[9].columns if column not in folders]
+    if not folders:
         raise InputError(
             f"{config.folder} has no sub-folder of Table 9's columns; name them {', '.join(absent)}"
         )
-    for column in TABLES[9].columns:
-        if column.lower() in named:
-            progress(f"classifying {named[column.lower()]}")
-            for title, share in zip(rows, _accuracies(named[column.lower()], config.weights),
-                                    strict=True):  # fmt: skip
-                rows[title][column] = f"{share:.4f}"
-    needs = [f"folders {', '.join(absent)} in {config.folder}"] if absent else []
-    return Measured(rows, needs=needs)
+    classes = {folder: {one.name for one in folder.iterdir()} for folder in folders.values()}
+    for folder, own in classes.items():
+        if lacking := sorted(set().union(*classes.values()) - own):
+            raise InputError(f"{folder} lacks {', '.join(lacking)}, which another column has")
+    rows: dict[str, dict[str, str]] = {title: {} for title in TABLES[9].rows}
+    for column, folder in folders.items():
+        progress(f"classifying {folder}")
+        for title, share in zip(rows, _accuracies(folder, config.weights), strict=True):
+            rows[title][column] = f"{share:.4f}"
+    return Measured(rows, needs=[f"folders {', '.join(absent)}"] if absent else [])
 
 
 def _accuracies(folder: Path, weights: Path) -> tuple[float, float]:
@@ -316,14 +393,24 @@ def _run(
     config: PaperConfig,
     progress: Progress,
 ) -> FidelityReport:
-    entries = [replace(entry, is_rate_matched=config.match_rate) for entry in ENTRIES.values()]
+    entries = [
+        replace(entry, is_rate_matched=config.match_rate) for entry in find_columns(config).values()
+    ]
     return run_real(scenes, entries, metrics, jobs=config.jobs, progress=progress)
 
 
-def _means(report: FidelityReport, metric: str) -> dict[str, str]:
+def _origins(config: PaperConfig) -> list[str]:
+    """Notes on where the events of the columns come from."""
+    return [
+        *(f"{name}: events of that program, from files" for name in config.event_folders),
+        OWN_MODELS,
+    ]
+
+
+def _means(report: FidelityReport, metric: str, config: PaperConfig) -> dict[str, str]:
     """Mean over recordings and their spans, per column."""
     found: dict[str, str] = {}
-    for column, entry in ENTRIES.items():
+    for column, entry in find_columns(config).items():
         scores = [one for one in report.scores if one.entry == entry.name]
         if scores:
             found[column] = f"{np.mean([one.summary(metric).mean for one in scores]):.3f}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +23,7 @@ from texvent.io.files import open_events
 from texvent.options.values import option_names
 from texvent.settings.resolution import Settings, apply_options
 from texvent.video import MICROSECONDS, Frame, FrameStream, Video
-from texvent_lab.bench.fidelity.entries import Entry, simulate_video
+from texvent_lab.bench.fidelity.entries import Entry, FileEntry, simulate_video
 
 ECD_EVENTS, ECD_FRAMES = "events.txt", "images.txt"
 
@@ -166,6 +167,10 @@ class RealScene:
         return [events.cut(*span) for span in self.scored]
 
     def _simulate(self, entry: Entry, span: TimeSpan, threshold: float | None) -> EventStream:
+        if isinstance(entry, FileEntry):
+            start_us, stop_us = (edge - self.offset_us for edge in span)
+            found = entry.packets(self.scene, self.video.size, (start_us, stop_us)).collect()
+            return dataclasses.replace(found, t=found.t + self.offset_us)
         settings = adapt_settings(entry.settings(SEED), self.frames_gamma)
         return simulate_video(self.frames_around(span), settings, threshold).cut(*span)
 
@@ -226,7 +231,7 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
     events = _used_events(recording, times_us[0], times_us[-1])
     fit, scored = _spans(source, times_us, events)
     return RealScene(
-        scene=recording.name if source not in DATA_SETS else source,
+        scene=recording_name(source),
         video=Video(np.stack([frame.pixels for frame in frames]), times_us),
         events=events,
         fit=fit,
@@ -234,6 +239,11 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
         frames_gamma=gamma if part.frames_gamma is None else part.frames_gamma,
         offset_us=offset_us,
     )
+
+
+def recording_name(source: str) -> str:
+    """Name of a recording: that of its data set, or of its file or folder."""
+    return source if source in DATA_SETS else Path(source).expanduser().resolve().stem
 
 
 def locate_source(source: str) -> tuple[Path, int]:

@@ -19,6 +19,7 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.values import option_names
 from texvent.pipeline import Simulation, video_to_events
@@ -26,7 +27,7 @@ from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
-from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.fidelity.entries import Entry, FileEntry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.real.recording import FrameRecording
@@ -197,12 +198,12 @@ def run_reconstruction(
         for entry in scorer.plan.entries:
             progress(f"{recording.name}: {entry.name}")
             try:
-                simulation = simulate_recording(recording, entry, scorer.plan)
-                row = scorer.score(recording, simulation.packets, source=entry.name)
+                packets, threshold = packets_of(recording, entry, scorer.plan)
+                row = scorer.score(recording, packets, source=entry.name)
             except TexventError as error:
                 skipped[entry.name] = f"{recording.name}: {error}"
                 continue
-            rows.append(dataclasses.replace(row, threshold=_threshold_of(simulation)))
+            rows.append(dataclasses.replace(row, threshold=threshold))
     reconstructor = scorer.reconstructor
     return ReconstructionReport(
         network=reconstructor.name,
@@ -252,10 +253,22 @@ def noise_curve(
     return [collector.scores() for collector in collectors]
 
 
+def packets_of(
+    recording: FrameRecording, entry: Entry, plan: ReconstructionPlan
+) -> tuple[EventPackets, float | None]:
+    """Events of a row on a recording, and δ of a simulator that has one, log units."""
+    if isinstance(entry, FileEntry):
+        times_us = plan.frame_times_us(recording)
+        span_us = times_us[0], times_us[-1]
+        return entry.packets(recording.name, recording.frames.size, span_us), None
+    simulation = simulate_recording(recording, entry, plan)
+    return simulation.packets, _threshold_of(simulation)
+
+
 def simulate_recording(
     recording: FrameRecording, entry: Entry, plan: ReconstructionPlan
 ) -> Simulation:
-    """A run of a simulator on a recording's frames, not started.
+    """A run of a simulator on a recording's frames, not started; one without δ is not fitted.
 
     Args:
         recording: whose frames are simulated, and whose events are counted to fit δ.
@@ -263,7 +276,6 @@ def simulate_recording(
         plan: seed, gamma of the frames, and whether δ is fitted.
 
     Raises:
-        ConfigError: δ is to be fitted and the simulator has none.
         InputError: no δ gives the recorded number of events.
     """
     settings = entry.settings(plan.seed)
@@ -272,7 +284,7 @@ def simulate_recording(
         linear = dataclasses.replace(simulate, gamma=plan.frames_gamma)
         settings = dataclasses.replace(settings, simulate=linear)
     simulation = video_to_events(recording.frames, settings)
-    if not plan.is_rate_matched:
+    if not plan.is_rate_matched or _threshold_of(simulation) is None:
         return simulation
     return match_rate(simulation, recorded_rate_hz(recording), seconds=MATCH_SECONDS)[0]
 

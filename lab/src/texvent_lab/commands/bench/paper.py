@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
+from texvent.errors import ConfigError, InputError
+from texvent.io.atomic import atomic_file
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.bench.fidelity.entries import read_ablations
+from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, read_ablations
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.oracle.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
+from texvent_lab.bench.paper.figures import ABLATED, ABLATION_FIGURE, draw_figure
 from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
 from texvent_lab.bench.paper.run import (
+    choose_e8,
+    find_columns,
     leave_out_other_tables,
     measure_ablations,
     measure_table,
@@ -38,6 +43,8 @@ def run(arguments: Sequence[str]) -> None:
         "docs/benchmark.md the others.",
     )
     output.check()
+    if config.figure is not None:
+        return _run_figure(config, output)
     if config.table is None or config.table in ABLATIONS:
         found = _run_ablations(config, output.progress)
     else:
@@ -48,11 +55,29 @@ def run(arguments: Sequence[str]) -> None:
     output.write(lambda: {**facts, "is_rate_matched": config.match_rate, **found})
 
 
+def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
+    """Draw a figure of the first recording, and say what it leaves out."""
+    if output.out is None or output.out.suffix != ".png":
+        raise ConfigError(f"out is {output.out}; a figure needs -o FILE.png")
+    if not config.sources:
+        raise InputError("there is no recording; texvent data pull slider_depth, or --recordings")
+    entries: Mapping[str, Entry | ConfigEntry] = find_columns(config)
+    if config.figure == ABLATION_FIGURE:
+        read = read_ablations(config.configs, is_rate_matched=config.match_rate)
+        entries = {one.name: one for one in read if one.name in ABLATED}
+    scene = open_scene(config.sources[0])
+    png, notes = draw_figure(config.figure or 0, scene, entries, config, output.progress)
+    with atomic_file(output.out, overwrite=output.overwrite) as part:
+        part.write_bytes(png)
+    write_out("".join(f"- {note}\n" for note in notes))
+
+
 def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
     """Tables 4 and 5, or one of them, on scenes and recordings."""
     entries = read_ablations(config.configs, is_rate_matched=config.match_rate)
     if config.table is not None:
         entries = leave_out_other_tables(config.table, entries)
+    entries, e8 = choose_e8(entries, config.slomo_weights)
     check_baseline(config.baseline, [one.name for one in entries], default=BASELINE)
     recordings = [open_scene(source) for source in config.named_recordings]
     reports = []
@@ -65,7 +90,8 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
         reports.append(run_real(recordings, entries, jobs=config.jobs, progress=progress))
     tables: dict[str, Any] = {}
     for number in ABLATIONS if config.table is None else (config.table,):
-        measured = join_measured([measure_ablations(number, report) for report in reports])
+        parts = [measure_ablations(number, report) for report in reports]
+        measured = join_measured([*parts, e8] if number == 4 else parts)
         write_out(f"{compare_with_paper(TABLES[number], measured)}\n")
         tables[f"table {number}"] = asdict(measured)
     for report in reports:

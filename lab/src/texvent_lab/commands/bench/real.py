@@ -31,7 +31,7 @@ from texvent_lab.bench.reconstruction.run import (
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.reconstruct.image_measures import load_measures
-from texvent_lab.reconstruct.reconstructor import load_reconstructor
+from texvent_lab.reconstruct.reconstructor import find_network, load_reconstructor
 
 DESCRIPTION = """\
 Simulators get the frames that a sensor recorded, and are scored by the events it recorded; with
@@ -120,7 +120,7 @@ def _score_images(
         is_rate_matched=options.match_rate,
         frames_gamma=options.frames_gamma or LINEAR_GAMMA,
     )
-    reconstructor = load_reconstructor(network, options.weights)
+    reconstructor = load_reconstructor(find_network(network).name, options.weights)
     recordings = [_open_whole(source) for source in options.sources]
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
     report = run_reconstruction(recordings, scorer, progress=output.progress)

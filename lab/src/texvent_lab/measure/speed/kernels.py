@@ -42,7 +42,9 @@ QUICK = Plan(
     frames=16, steps=24, models=("texvent", "esim"), sizes=SIZES[:1], densities=DENSITIES[2:3]
 )
 """One event per pixel and frame (the paper preset), and several."""
-FULL = Plan(frames=48, steps=96, models=("texvent", "esim", "v2e", "voltmeter", "physical"))
+FULL = Plan(
+    frames=48, steps=96, models=("texvent", "esim", "v2e", "voltmeter", "senpi", "physical")
+)
 
 
 @contextmanager

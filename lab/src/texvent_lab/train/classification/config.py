@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
-from texvent.config import check_choices, check_range
-from texvent.errors import ConfigError
+from texvent.config import check_range
+from texvent.errors import ConfigError, shown
+from texvent.extending import suggest
 from texvent.sensor import as_size
 from texvent_lab.train.schedule import TrainingConfig
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
+
+OWN_NETWORKS = ("small-cnn", "resnet34")
+PREFIX = "torchvision:"
+"""Of the names of torchvision's classifiers."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +83,9 @@ class ClassData(Source):
 class ClassNetwork:
     """The network and what it is shown."""
 
-    name: Literal["small-cnn", "resnet34"] = "small-cnn"
+    name: str = "small-cnn"
+    """small-cnn; resnet34, N-ImageNet's; or a classifier of torchvision, such as
+    torchvision:vit_b_16 (the extra detect)."""
     width: int | None = None
     """Channels of its first layer; None: 16 of small-cnn, 64 of resnet34."""
     representation: str = "histogram-2d"
@@ -86,7 +93,13 @@ class ClassNetwork:
     representation_options: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        check_choices(self)
+        if self.name not in OWN_NETWORKS and not self.name.startswith(PREFIX):
+            raise ConfigError(
+                f"unknown network {shown(self.name)}; {suggest(self.name, OWN_NETWORKS)}, or "
+                f"{PREFIX}NAME of a classifier of torchvision"
+            )
+        if self.width is not None and self.name not in OWN_NETWORKS:
+            raise ConfigError(f"width belongs to {' and '.join(OWN_NETWORKS)}, not to {self.name}")
         check_range("width", self.width, 1, 4096)
 
 

@@ -20,7 +20,8 @@ from texvent.settings.provenance import fingerprint
 from texvent.transform.edits import resize
 from texvent_lab.networks.layers import Network, make_seeded
 from texvent_lab.networks.resnet34 import ResNet
-from texvent_lab.train.classification.config import Augmentation, ClassificationConfig
+from texvent_lab.networks.torchvision_models import TorchvisionModel
+from texvent_lab.train.classification.config import PREFIX, Augmentation, ClassificationConfig
 from texvent_lab.train.classification.samples import (
     ChosenSamples,
     augment,
@@ -33,7 +34,11 @@ from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.task import Batches
 
 SMALL_WIDTH, STAGES = 16, 3
-LAST_LAYERS = ("linear.weight", "linear.bias", "fc.weight", "fc.bias")
+LAST_LAYERS = tuple(
+    f"{layer}.{kind}"
+    for layer in ("linear", "fc", "heads.head", "classifier.1")
+    for kind in ("weight", "bias")
+)
 """Tensors whose shapes depend on the number of classes."""
 
 
@@ -92,7 +97,7 @@ class ClassificationTask:
         self._validation = open_validation(config)
         self._classes = list(self._validation.labels)
         examples = self._examples(self._validation)
-        self._channels = len(examples(0, np.random.default_rng(0))[IMAGE])
+        self._shape = examples(0, np.random.default_rng(0))[IMAGE].shape
 
     @property
     def identity(self) -> str:
@@ -104,10 +109,16 @@ class ClassificationTask:
     def make_network(self) -> Any:
         """See `Task`."""
         wanted = self._config.network
-        make = functools.partial(
-            NETWORKS[wanted.name], self._channels, len(self._classes),
-            **({} if wanted.width is None else {"width": wanted.width}),
-        )  # fmt: skip
+        channels, *shape = self._shape
+        kind, given = NETWORKS.get(wanted.name), {}
+        if kind is None:
+            kind, given = (
+                TorchvisionModel,
+                {"name": wanted.name.removeprefix(PREFIX), "shape": shape},
+            )
+        elif wanted.width is not None:
+            given = {"width": wanted.width}
+        make = functools.partial(kind, channels, len(self._classes), **given)
         network = make_seeded(make, self._config.seed)
         if self._config.start_from is not None:
             self._begin_with(network, self._config.start_from)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class ReconstructionNetwork:
     """The network; docs/reconstruction.md describes each."""
 
-    name: Literal["firenet", "firenet+", "e2vid", "e2vid+"] = "e2vid+"
+    name: Literal["firenet", "firenet+", "e2vid", "e2vid+", "hypere2vid", "et-net"] = "e2vid+"
     """firenet and e2vid see normalised voxel grids, the others the grids as they are."""
 
     def __post_init__(self) -> None:

@@ -1,0 +1,1 @@
+"""Published networks that texvent finds by entry points: a simulator and an interpolator."""

@@ -1,0 +1,154 @@
+"""Simulated events beside recorded ones: which are compared, and what is said and kept."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.metrics.stpp import Stpp
+from texvent.sensor import SensorSize
+from texvent_lab.alignment.pairs import OTHER, score_pairs
+from texvent_lab.alignment.recordings import Recording
+from texvent_lab.commands.nt_imagenet import pairs_table
+
+from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet
+
+SIZE = SensorSize(32, 24)
+
+
+def events(seed: int, start: int = 0, count: int = 400, length: int = 50_000) -> EventStream:
+    rng = np.random.default_rng(seed)
+    t = start + np.sort(np.r_[0, length - 1, rng.integers(0, length, count - 2)])
+    return EventStream(
+        rng.integers(0, 32, count), rng.integers(0, 24, count), t, rng.integers(0, 2, count), SIZE
+    )
+
+
+def recording(id: str, *parts: EventStream) -> Recording:
+    whole = EventStream.concat(parts)
+    return Recording(id, f"text of {id}", lambda: whole, f"key of {id}")
+
+
+def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id() -> None:
+    streams = [recording("a", events(1, 7_000)), recording("b", events(2))]
+    # The stream itself, later, four times: whichever evenly spread parts are taken, they are it.
+    repeated = [events(1, 50_000 * number) for number in range(4)]
+    samples = {"same": [recording("a", *repeated)], "short": [recording("b", events(2, 90))]}
+    one, two = score_pairs(samples, streams, [Stpp()])
+    assert (one["id"], one["sample"], one["events"]) == ("a", "key of a", 1600)
+    assert one["stpp"] == two["stpp"] == 1.0
+    assert 0 < one["stpp" + OTHER] < 0.9
+    (alone,) = score_pairs({"x": samples["same"]}, streams[:1], [Stpp()])
+    assert "stpp" + OTHER not in alone
+    nothing = recording("a", EventStream.empty(SIZE))
+    (empty,) = score_pairs({"x": [nothing]}, streams, [Stpp()])
+    assert empty["stpp"] == 0.0
+
+
+def test_means_over_pairs_have_intervals() -> None:
+    rows = [{"variant": "v", "stpp": 0.1 * n, f"stpp{OTHER}": 0.0} for n in range(7)]
+    text = pairs_table(rows, [Stpp()]).splitlines()[2]
+    assert text.startswith("| v | 7 | 0.3000 [0.")
+    assert text.endswith("| 0.0000 [0.0000, 0.0000] |")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two captions, and events of the first at the recorded streams' size."""
+    folder = tmp_path_factory.mktemp("data")
+    write_n_imagenet(folder / "N", {WNIDS[0]: {1: 3_000, 2: 3_000}})
+    texts = ["a red car drives left", "a dog runs"]
+    lines = [json.dumps({"id": stream_id(n), "caption": one}) for n, one in enumerate(texts, 1)]
+    (folder / "c.jsonl").write_text("\n".join(lines))
+    assert nt(folder, "--captions", str(folder / "c.jsonl"), "--class-count", "1") == 0
+    first = (folder / "nt" / "captions.jsonl").read_text().split("\n")[0]
+    (folder / "nt" / "one.jsonl").write_text(first)
+    specification = (folder / "nt" / "specification.toml").read_text()
+    specification = specification.replace("captions.jsonl", "one.jsonl")
+    for name, size in (("whole", "640x480"), ("small", "32x24")):
+        own = specification.replace('"640x480" ', f'"{size}"\nduration = 0.1')
+        (folder / "nt" / f"{name}.toml").write_text(f"filters = {{min_events = 0}}\n{own}")
+        words = [str(folder / "nt" / f"{name}.toml"), "-o", str(folder / name), "--workers", "1"]
+        assert main(["dataset", "make", *words, "-q"]) == 0
+    return folder
+
+
+def nt(folder: Path, *more: str) -> int:
+    words = ["--n-imagenet", str(folder / "N"), "-o", str(folder / "nt"), "-q"]
+    return main(["nt-imagenet", *words, *more])
+
+
+def test_the_command_scores_a_data_set_and_keeps_every_pair(
+    made: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    capsys.readouterr()
+    assert nt(made, "--events", str(made / "whole")) == 0
+    assert "| texvent | 1 |" in capsys.readouterr().out
+    kept = json.loads((made / "nt" / "pairs.json").read_text())
+    (row,) = kept["pairs"]
+    assert row["id"] == stream_id(1)
+    assert 0 <= row["stpp"] < 1
+    assert kept["controls"] == {}
+
+
+@pytest.mark.torch
+def test_eqs_of_own_weights_is_printed_and_kept_with_its_controls(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    torch = pytest.importorskip("torch")
+    from tests.metrics.rvt.rvt_files import trained_here
+
+    torch.save(trained_here((32, 32)), tmp_path / "weights.pt")
+    words = ["--events", str(made / "whole"), "--rvt-weights", str(tmp_path / "weights.pt")]
+    assert nt(made, *words) == 0
+    said = capsys.readouterr().out
+    assert "eqs (own RVT), other stream" in said
+    assert f"eqs (own RVT) of {stream_id(1)}'s own events: identity 1.0000" in said
+    kept = json.loads((made / "nt" / "pairs.json").read_text())
+    assert -1 <= kept["pairs"][0]["eqs (own RVT)"] < 1
+    assert "noise 30 %" in kept["controls"]["eqs (own RVT)"]
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["--events", "{}/small"], "cannot compare a 32x24 sensor with a 640x480 one"),
+        (["--events", "{}/N"], "no data set"),
+        (["--events", "{}/whole", "--rvt-weights", "{}/c.jsonl"], "cannot be read as network"),
+        (
+            ["--events", "{}/whole", "--captions", "{}/c.jsonl"],
+            "events are scored by the captions in --out",
+        ),
+        (["--captions", "{}/c.jsonl", "--rvt-weights", "{}/c.jsonl"], "with --events"),
+        (["--model", "x"], "with --imagenet"),
+        ([], "no captions; give --captions, or --imagenet and --model"),
+    ],
+)
+def test_what_cannot_be_scored_is_said_in_one_line(
+    made: Path, words: list[str], complaint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if "network" in complaint:
+        pytest.importorskip("torch")
+    capsys.readouterr()
+    assert nt(made, *(word.format(made) for word in words)) == 2
+    said = capsys.readouterr().err
+    assert complaint in said
+    assert len(said.splitlines()) == 1
+
+
+def test_captions_of_no_stream_are_named_before_the_streams_are_read(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (made / "c.jsonl").read_text() + '\n{"id": "other", "caption": "x"}'
+    (tmp_path / "more.jsonl").write_text(text)
+    assert (
+        nt(made, "--captions", str(tmp_path / "more.jsonl"), "--classes", str(made / "nope")) == 2
+    )
+    said = capsys.readouterr().err
+    assert "has captions of no stream in" in said
+    assert said.index("other") < said.index("cannot read")

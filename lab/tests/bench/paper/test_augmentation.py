@@ -1,0 +1,96 @@
+"""Table 6: classifiers of torchvision, trained with a share of simulated streams."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+from texvent_lab.bench.paper import augmentation
+from texvent_lab.train.classification.config import PREFIX
+
+from ...train.written_samples import write_recordings
+
+
+def write_streams(folder: Path) -> Path:
+    """Recorded streams to train and test with, and simulated ones."""
+    write_recordings(folder, per_class=5)
+    (folder / "val").rename(folder / "test")
+    shutil.copytree(folder / "train", folder / "texvent")
+    return folder
+
+
+def words(folder: Path, *more: str) -> list[str]:
+    given = ["bench", "paper", "--table", "6", "--folder", str(folder), "-q", "--epochs", "1"]
+    return [*given, "--image-size", "64x64", *more]
+
+
+@pytest.mark.parametrize("missing", ["train", "test", "texvent"])
+def test_a_folder_that_lacks_streams_is_refused_before_any_training(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], missing: str
+) -> None:
+    shutil.rmtree(write_streams(tmp_path) / missing)
+    assert main(words(tmp_path)) == 2
+    named = missing if missing != "texvent" else "of simulated streams"
+    assert f"has no sub-folder {named}; Table 6 needs train, test and" in capsys.readouterr().err
+
+
+@pytest.mark.detect
+@pytest.mark.parametrize("name", augmentation.CLASSIFIERS.values())
+def test_each_network_of_the_paper_scores_classes_of_two_channels(name: str) -> None:
+    import torch
+
+    from texvent_lab.networks.torchvision_models import TorchvisionModel
+
+    network = TorchvisionModel(2, 10, name=name.removeprefix(PREFIX), shape=(64, 64)).eval()
+    with torch.inference_mode():
+        assert network(torch.zeros(1, 2, 64, 64)).shape == (1, 10)
+
+
+@pytest.mark.detect
+def test_each_network_is_trained_alone_and_with_each_simulator(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = {"SqueezeNet": augmentation.CLASSIFIERS["SqueezeNet"]}
+    monkeypatch.setattr(augmentation, "CLASSIFIERS", small)
+    folder, work = write_streams(tmp_path / "streams"), tmp_path / "work"
+    given = words(folder, "--work", str(work), "-o", str(tmp_path / "found.json"))
+    assert main(given) == 0
+    rows = json.loads((tmp_path / "found.json").read_text())["table 6"]["rows"]
+    assert list(rows) == ["Original", "with Texvent"]
+    assert all(0 <= float(row["SqueezeNet"]) <= 1 for row in rows.values())
+    printed = capsys.readouterr().out
+    assert "20 % simulated streams" in printed
+    samples = {
+        name: json.loads((work / name / "history.json").read_text())["training"]["samples"]
+        for name in ("SqueezeNet-train", "SqueezeNet-texvent")
+    }
+    assert samples["SqueezeNet-texvent"].startswith(samples["SqueezeNet-train"])
+    assert samples["SqueezeNet-texvent"] != samples["SqueezeNet-train"]
+
+
+@pytest.mark.detect
+def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_recordings(tmp_path / "recorded")
+    text = (
+        'data = {{recordings = "recorded", validation_split = "val", image_size = "{size}"}}\n'
+        'network = {{name = "torchvision:{name}", representation = "binary-event-image"}}\n'
+        "schedule = {{epochs = 1, batch_size = 8}}\n"
+    )
+    path, out = tmp_path / "spec.toml", tmp_path / "run"
+    command = ["train", "classification", str(path), "-o", str(out), "--device", "cpu", "-q"]
+    for name, size, message in (
+        ("vit_b_16", "40x40", "vit_b_16 takes no images of 40x40 px"),
+        ("squeezenet", "64x64", "unknown network 'squeezenet'; did you mean 'squeezenet1_"),
+    ):
+        path.write_text(text.format(name=name, size=size))
+        assert main(command) == 2
+        assert message in capsys.readouterr().err
+    path.write_text(text.format(name="squeezenet1_1", size="64x64"))
+    assert main(command) == 0
+    assert main(["evaluate", "classification", str(path), str(out / "weights.pt")]) == 0

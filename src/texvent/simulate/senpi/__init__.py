@@ -1,0 +1,1 @@
+"""SENPI's pixel model."""
