@@ -45,6 +45,7 @@ class RenderConfig:
         **dict.fromkeys(("render_fps", "speed"), ("out", (".png", ".html"))),
         **dict.fromkeys(("window", "events_per_image"), ("out", (".html",))),
         "points": ("out", (".png", ".mp4", ".gif")),
+        "patch": ("show", ("events",)),
     }
 
     render_fps: Fraction = Fraction(30)
