@@ -89,7 +89,8 @@ class PaperConfig:
     def __post_init__(self) -> None:
         if self.table is not None and self.table not in TABLES:
             raise ConfigError(
-                f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
+                f"table is {self.table}; the tables are {', '.join(map(str, TABLES))} (texvent "
+                "nt-imagenet prints the rows of Table 10)"
             )
         if self.figure is not None:
             self._check_figure()
