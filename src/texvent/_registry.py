@@ -78,7 +78,8 @@ class Registry:
 
     def entries(self) -> dict[str, str]:
         """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
-        return {**_plugged_in(f"texvent.{self.kind.replace(' ', '_')}s"), **self.builtin}
+        others = _plugged_in(f"texvent.{self.kind.replace(' ', '_')}s")
+        return {**self.builtin, **others, **self.builtin}
 
     def names(self) -> tuple[str, ...]:
         """All names, in table order."""

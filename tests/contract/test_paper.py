@@ -99,7 +99,7 @@ def test_the_papers_metrics_can_be_named(name: str):
 
 
 def test_contrast_maximisation_finds_a_flow():
-    events = texvent.generate("a red ball flies left", duration=0.1, sensor="64x48").collect()
+    events = texvent.generate("a red ball flies left", duration=0.1, sensor="64x48")
     assert find_flow(events.cut(0, 30_000)).shape == (*events.size.shape, 2)
     assert flow_warp_loss(events, find_flow(events.cut(0, 30_000))) > 0
 

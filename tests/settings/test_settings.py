@@ -133,7 +133,7 @@ RULES = [
     for owner, config in CONFIGS.items()
     for name, rule in getattr(config, "idle_with", {}).items()
 ]
-OTHERS = {"fit": "stretch", "noise_curve": "1:9 9:9"}
+OTHERS = {"fit": "stretch", "rife_flow": "each", "noise_curve": "1:9 9:9"}
 NOT_OF_RUNS = ("RigConfig", "RenderConfig", "PromptOptions", "CalibrateOptions")
 
 

@@ -72,7 +72,9 @@ class Run(NamedTuple):
 
     def _options(self, wanted: dict[str, Any], noise: float, constants: Any) -> dict[str, Any]:
         config = MODELS[self.model].presets[self.preset]
-        known = option_names(type(config))
+        known = set(option_names(type(config)))
+        rules = getattr(config, "idle_with", {}).items()
+        known -= {name for name, (one, values) in rules if getattr(config, one, None) in values}
         options = {name: value for name, value in wanted.items() if name in known}
         if hasattr(config, "noise_curve"):
             options["noise_scale"] = noise

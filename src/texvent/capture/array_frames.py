@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
@@ -20,10 +19,6 @@ from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
 ONE_IMAGE = ". One image holds no change; stack at least two"
-ORDER_PAIRS, SIDE = 8, 256
-"""Pairs of frames by which the order of axes is judged, and pixels of each along both axes."""
-CALMER, ALIKE = 1.7, 3
-"""How much less changes along time than along the axes of images, and how much those may differ."""
 SLENDER = 8
 """Images are hardly more slender than this, nor fewer than the columns of one."""
 
@@ -60,8 +55,6 @@ class ArrayFrames(FrameSource):
         if count is not None:
             _refuse_if_empty(count == 0)
             times.check_count(count)
-        if isinstance(frames, np.ndarray | StoredArray):
-            _warn_of_order(frames)
         first = self._peek(is_live)
         origin = metadata or {"source": "array", "kind": "array"}
         facts = {**origin, "pixel_type": str(first.dtype)}
@@ -120,27 +113,6 @@ def _check_shape(shape: tuple[int, ...]) -> None:
         f"frames must be [N, H, W] or [N, H, W, 3]; got shape {shown(list(shape))}"
         + (ONE_IMAGE if len(shape) == 2 else shape_hint(shape[1:]))
     )
-
-
-def _warn_of_order(frames: Any) -> None:
-    """Warn where time seems to be the third axis, of what is read as [N, H, W] or [N, H, W, 3].
-
-    Steps along time are far smaller than those along both axes of images, which are alike.
-    """
-    steps, last = np.zeros(3), len(frames) - 1
-    middle = tuple(slice(max(0, (one - SIDE) // 2), (one + SIDE) // 2) for one in frames.shape[1:3])
-    is_judged = frames.dtype.kind in "uif" and min(frames.shape[:3]) >= SLENDER
-    for row in range(0, last, -(-last // ORDER_PAIRS)) if is_judged else ():
-        pair = np.nan_to_num(frames[row : row + 2][:, *middle].astype(np.float64))
-        steps += [np.abs(np.diff(pair, axis=axis)).mean() for axis in range(3)]
-    least, most = steps[:2].min(), steps[:2].max()
-    if 0 < CALMER * steps[2] < least and most < ALIKE * least:
-        count, height, width = frames.shape[:3]
-        warn(
-            f"frames of shape {list(frames.shape)} are read as {count} frames of {width}x{height}, "
-            "but change far less along the third axis than along the others; if it is time, give "
-            "np.moveaxis(frames, 2, 0)"
-        )
 
 
 def _refuse_if_empty(is_empty: bool) -> None:

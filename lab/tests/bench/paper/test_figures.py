@@ -27,7 +27,7 @@ def read(path: Path) -> np.ndarray:
 
 @pytest.fixture(autouse=True)
 def one_column(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(paper, "ENTRIES", COLUMNS)
+    monkeypatch.setattr(paper, "find_columns", lambda config: COLUMNS)
 
 
 def words(recording: Path, number: int, out: Path) -> list[str]:
