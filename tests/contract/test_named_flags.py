@@ -47,7 +47,7 @@ LABORATORY = {
     for path in (ROOT / "lab/src").rglob("*.py")
     for name in re.findall(r"^    (\w+): ", path.read_text(encoding="utf-8"), re.MULTILINE)
 } | {"--no-oracle", "--no-match-rate"}
-PARTS = [*map(SIMULATORS.load, SIMULATORS.builtin), *map(GENERATORS.load, GENERATORS.builtin)]
+PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.builtin)]
 OF_PARTS = {
     flag_of(name)
     for config in (*(part.config_type for part in PARTS), DiffusersConfig)

@@ -133,14 +133,14 @@ RULES = [
     for owner, config in CONFIGS.items()
     for name, rule in getattr(config, "idle_with", {}).items()
 ]
-OTHERS = {"fit": "stretch", "rife_flow": "each", "noise_curve": "1:9 9:9"}
+OTHERS = {"fit": "stretch", "noise_curve": "1:9 9:9"}
 NOT_OF_RUNS = ("RigConfig", "RenderConfig", "PromptOptions", "CalibrateOptions")
 
 
 @pytest.mark.parametrize(("owner", "name", "decider", "values"), RULES)
 def test_an_option_that_another_one_switches_off_is_said(tmp_path, owner, name, decider, values):
     config = CONFIGS[owner]
-    if owner in NOT_OF_RUNS or name == "interpolator_weights":
+    if owner in NOT_OF_RUNS or name in ("interpolator_weights", "rife_flow"):
         for value in values:
             set_to = Path(f"o{value}") if str(value).startswith(".") else value
             with pytest.warns(TexventWarning, match=f"{name} has no effect: {decider} is"):
