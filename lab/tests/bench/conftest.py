@@ -8,7 +8,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.video import Video
 from texvent_lab.bench.oracle.scenes import ValueNoise
-from texvent_lab.bench.real.recording import FrameRecording
+from texvent_lab.frame_recordings import FrameRecording
 
 from .reconstruction.synthetic_network import write_recording
 

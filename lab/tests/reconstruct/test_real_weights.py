@@ -7,7 +7,7 @@ import pytest
 
 from texvent.data.pull import find_pulled
 from texvent.represent.slices import slice_between
-from texvent_lab.bench.real.recording import open_recording
+from texvent_lab.frame_recordings import open_recording
 from texvent_lab.reconstruct.reconstructor import load_reconstructor
 
 pytestmark = pytest.mark.torch

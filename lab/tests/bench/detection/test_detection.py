@@ -10,7 +10,7 @@ from texvent.events import EventStream
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.detection.labels import CLASSES, IGNORED, STREET, read_street_labels
 from texvent_lab.bench.detection.precision import ALL, average_precision, bootstrap
-from texvent_lab.bench.real.recording import open_recording
+from texvent_lab.frame_recordings import open_recording
 
 KINDS = ("car", "bus")
 

@@ -1,4 +1,4 @@
-"""Table 6: classifiers of torchvision, trained with a share of simulated streams."""
+"""Tables 3 and 6: networks trained with a share of simulated clips and streams."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from texvent.cli.app import main
 from texvent_lab.bench.paper import augmentation
 from texvent_lab.train.classification.config import PREFIX
 
+from ...train.windowed_specification import TEXT
 from ...train.written_samples import write_recordings
 
 
@@ -94,3 +95,27 @@ def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(
     path.write_text(text.format(name="squeezenet1_1", size="64x64"))
     assert main(command) == 0
     assert main(["evaluate", "classification", str(path), str(out / "weights.pt")]) == 0
+
+
+@pytest.mark.torch
+def test_images_are_learnt_from_recordings_alone_and_with_simulated_clips(
+    pan_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))  # no weights of LPIPS
+    monkeypatch.setattr(augmentation, "RECONSTRUCTORS", {"E2VID": "e2vid"})
+    monkeypatch.setattr(augmentation, "SEQUENCE", 4)
+    specification = tmp_path / "tiny.toml"
+    specification.write_text(TEXT.replace("[variants.esim]", "").replace('simulator = "esim"', "")
+                             .replace("32x24", "64x48").replace("0.125", "0.25"))  # fmt: skip
+    given = ["bench", "paper", "--table", "3", "--recordings", str(pan_folder), "-q"]
+    given += ["--epochs", "1", "--work", str(tmp_path / "work"), "-o", str(tmp_path / "a.json")]
+    assert main(given) == 0
+    assert "--specification FILE" in capsys.readouterr().out
+    assert main([*given, "--specification", str(specification), "--overwrite"]) == 0
+    rows = json.loads((tmp_path / "a.json").read_text())["table 3"]["rows"]
+    assert list(rows) == ["E2VID", "E2VID + 5 %"]
+    assert all(0 < float(row["MSE ↓"]) < 1 for row in rows.values())
+    assert rows["E2VID"] != rows["E2VID + 5 %"]
+    assert "loss: L1 + 1 - SSIM" in capsys.readouterr().out

@@ -7,7 +7,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent_lab.bench.real.recording import FrameRecording
+from texvent_lab.frame_recordings import FrameRecording
 
 SIZE = SensorSize(16, 12)
 STEP_US = 40_000

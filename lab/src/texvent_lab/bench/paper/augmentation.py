@@ -1,11 +1,13 @@
-"""Table 6: classifiers trained without and with a share of simulated samples."""
+"""Tables 3 and 6: networks trained without and with a share of simulated samples."""
 
 from __future__ import annotations
 
 import contextlib
+import itertools
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Literal
 
 from texvent.errors import InputError, MissingDependencyError
 from texvent.options.values import plain
@@ -13,13 +15,21 @@ from texvent.runtime.progress import NO_PROGRESS
 from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import TABLES, Measured
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.train.classification.config import (
     ClassData,
     ClassificationConfig,
     ClassNetwork,
     Source,
 )
-from texvent_lab.train.schedule import Hardware, Schedule
+from texvent_lab.train.reconstruction.config import (
+    ExtraClips,
+    ReconstructionConfig,
+    ReconstructionLoss,
+    ReconstructionNetwork,
+)
+from texvent_lab.train.reconstruction.sequences import SequenceData
+from texvent_lab.train.schedule import Hardware, Schedule, TrainingConfig
 
 CLASSIFIERS: Mapping[str, str] = {
     "ResNet34": "torchvision:resnet34",
@@ -58,12 +68,13 @@ def measure_recognition(config: PaperConfig, progress: Progress) -> Measured:
         for row, simulated in names.items()
         for column, network in CLASSIFIERS.items()
     }
-    keep = contextlib.nullcontext(config.work) if config.work else tempfile.TemporaryDirectory()
-    with keep as work:
+    with _work_folder(config) as work:
         for (row, column), training in trainings.items():
             progress(f"training {column}, {row}")
             try:
-                accuracy = _accuracy(training, Path(work) / f"{column}-{names[row] or RECORDED}")
+                accuracy = _last_scores(training, work / f"{column}-{names[row] or RECORDED}")[
+                    "accuracy"
+                ]
             except MissingDependencyError as error:
                 return Measured(needs=[f"anything; {error}"])
             found[row][column] = f"{accuracy:.4f}"
@@ -115,7 +126,18 @@ def _training(config: PaperConfig, network: str, simulated: str | None) -> Class
     )
 
 
-def _accuracy(training: ClassificationConfig, folder: Path) -> float:
+@contextlib.contextmanager
+def _work_folder(config: PaperConfig) -> Iterator[Path]:
+    """The folder that keeps trainings, or one for this run alone."""
+    if config.work is not None:
+        yield config.work
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        yield Path(folder)
+
+
+def _last_scores(training: TrainingConfig, folder: Path) -> Mapping[str, float]:
+    """Scores after the last epoch of a training, which goes on where it was stopped."""
     from texvent_lab.train.loop import train  # brings torch
 
     state = train(
@@ -126,4 +148,62 @@ def _accuracy(training: ClassificationConfig, folder: Path) -> float:
         hardware=Hardware(),
         progress=NO_PROGRESS,
     )
-    return state.rows[-1]["accuracy"]
+    return state.rows[-1]
+
+
+RECONSTRUCTORS: Mapping[str, Literal["e2vid", "hypere2vid", "et-net"]] = {
+    "E2VID": "e2vid",
+    "HyperE2VID": "hypere2vid",
+    "ET-Net": "et-net",
+}
+"""Row of Table 3 → network."""
+MEASURES = {"PSNR ↑": "psnr", "SSIM ↑": "ssim", "LPIPS ↓": "lpips", "MSE ↓": "mse"}
+CLIPS, SEQUENCE, CROP_PX, MULTIPLE_PX = 0.05, 20, 112, 8
+"""Simulated clips, of the recorded ones; windows of a training sequence; its longest side, and
+what divides it."""
+
+
+def measure_augmented_reconstruction(config: PaperConfig, progress: Progress) -> Measured:
+    """Table 3: images after the last epoch, of the last fifth of each recording.
+
+    Raises:
+        InputError, ConfigError: a recording or the specification does not fit.
+    """
+    needs = []
+    if config.specification is None:
+        needs.append("anything; --specification FILE of a data set to simulate clips of")
+    if not config.sources:
+        needs.append("anything; texvent data pull slider_depth, or --recordings with the ECD")
+    if needs:
+        return Measured(needs=needs)
+    rows: dict[str, dict[str, str]] = {}
+    sides = [min(one.frames.size) for one in config.whole_recordings()]
+    crop = min(CROP_PX, *sides) // MULTIPLE_PX * MULTIPLE_PX
+    absent = load_measures().absent
+    loss = ReconstructionLoss(consistency=0.0)
+    if absent:
+        loss = ReconstructionLoss(consistency=0.0, lpips=0.0, l1=1.0, ssim=1.0)
+    with _work_folder(config) as work:
+        for (row, network), extra in itertools.product(RECONSTRUCTORS.items(), (None, config)):
+            name = row if extra is None else f"{row} + 5 %"
+            progress(f"training {name}")
+            training = ReconstructionConfig(
+                data=SequenceData(recordings=config.sources, length=SEQUENCE, crop=crop),
+                extra=ExtraClips(specification=extra and extra.specification, share=CLIPS),
+                network=ReconstructionNetwork(name=network),
+                loss=loss,
+                schedule=Schedule(epochs=config.epochs, batch_size=2, learning_rate=1e-4),
+            )
+            try:
+                scores = _last_scores(training, work / name.replace(" ", ""))
+            except MissingDependencyError as error:
+                return Measured(needs=[f"anything; {error}"])
+            rows[name] = {
+                column: f"{scores[one]:.4f}" for column, one in MEASURES.items() if one in scores
+            }
+    notes = [
+        f"{config.epochs} epochs from random weights on the first four fifths of "
+        f"{', '.join(config.sources)}; scores of the last fifth after the last epoch; loss: "
+        + ("L1 + 1 - SSIM" if absent else "LPIPS")
+    ]
+    return Measured(rows, notes, [f"{name}: {why}" for name, why in absent.items()])

@@ -12,7 +12,7 @@ from texvent.data.pull import find_pulled
 from texvent.errors import ConfigError, shown
 from texvent.sensor import as_size
 from texvent_lab.bench.paper.published_tables import FIGURES, TABLES
-from texvent_lab.bench.real.recording import (
+from texvent_lab.frame_recordings import (
     WITH_FRAMES,
     FrameRecording,
     locate_source,
@@ -43,7 +43,7 @@ class PaperConfig:
     )  # fmt: skip
 
     table: int | None = None
-    """Table of the paper: 1, 2 or 4 to 9; default: the ablations of both 4 and 5."""
+    """Table of the paper, 1 to 9; default: the ablations of both 4 and 5."""
     figure: int | None = None
     """Figure of the paper instead of a table: 5, 6, 7 or 12, of one recording; -o is its PNG."""
     scenes: str | None = None
@@ -71,12 +71,14 @@ class PaperConfig:
     folder: Path | None = None
     """Table 9: folder with a sub-folder per column (original, texvent ...), each with a sub-folder
     of event files per class. Table 6: the same with train and test, and one per simulator."""
+    specification: Path | None = None
+    """Table 3: data set specification of the simulated clips."""
     epochs: int = 30
-    """Table 6: passes over the training streams."""
+    """Tables 3 and 6: passes over the training streams."""
     image_size: str = "224x224"
     """Table 6: size that coordinates are scaled to."""
     work: Path | None = None
-    """Table 6: folder that keeps the trainings, so that a run that was stopped goes on."""
+    """Tables 3 and 6: folder that keeps the trainings, so that a run that was stopped goes on."""
     events: tuple[str, ...] = ()
     """Tables 1, 2, 8, 9: NAME=FOLDER of a column that another program filled: an event file per
     recording, named as it and on the clock of its frames; for table 9 a sub-folder per class."""

@@ -27,10 +27,13 @@ from texvent_lab.bench.fidelity.entries import (
 )
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
-from texvent_lab.bench.paper.augmentation import measure_recognition
+from texvent_lab.bench.paper.augmentation import (
+    measure_augmented_reconstruction,
+    measure_recognition,
+)
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
-from texvent_lab.bench.real.recording import RealScene, open_scene, recording_name
+from texvent_lab.bench.real.recording import RealScene, open_scene
 from texvent_lab.bench.real.run import run_real
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
@@ -39,6 +42,7 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
+from texvent_lab.frame_recordings import recording_name
 from texvent_lab.plug_ins.super_slomo import find_super_slomo
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
@@ -82,13 +86,15 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
     """Values of one table, and what is missing for the rest.
 
     Args:
-        config: of table 1, 2, 6, 7, 8 or 9; `measure_ablations` has 4 and 5.
+        config: of any table but 4 and 5; `measure_ablations` has 4 and 5.
         progress: told of every step.
 
     Raises:
         InputError, FileFormatError: an input that was named is missing or damaged.
         ConfigError: the network does not exist.
     """
+    if config.table == 3:
+        return measure_augmented_reconstruction(config, progress)
     if config.table == 6:
         return measure_recognition(config, progress)
     if config.table == 9:

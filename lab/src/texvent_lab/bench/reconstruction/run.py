@@ -30,8 +30,8 @@ from texvent.video import MICROSECONDS
 from texvent_lab.bench.fidelity.entries import Entry, FileEntry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.perturbations import scatter
-from texvent_lab.bench.real.recording import FrameRecording
 from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
+from texvent_lab.frame_recordings import FrameRecording
 from texvent_lab.reconstruct.image_measures import Measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor
 

@@ -13,15 +13,7 @@ from texvent.config import check_range
 from texvent.data.catalogue import DATA_SETS
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
-from texvent_lab.bench.real.recording import (
-    LINEAR_GAMMA,
-    WITH_FRAMES,
-    FrameRecording,
-    RecordingPart,
-    locate_source,
-    open_recording,
-    open_scene,
-)
+from texvent_lab.bench.real.recording import LINEAR_GAMMA, RecordingPart, open_scene
 from texvent_lab.bench.real.run import INTERPOLATIONS, real_entries, run_real
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
@@ -30,6 +22,7 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
+from texvent_lab.frame_recordings import WITH_FRAMES, FrameRecording, locate_source, open_recording
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import find_network, load_reconstructor
 

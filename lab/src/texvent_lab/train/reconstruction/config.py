@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from texvent.config import check_choices, check_range
@@ -82,10 +83,27 @@ class ReconstructionAugmentation:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ExtraClips:
+    """Simulated clips beside the training clips, cut as they are."""
+
+    specification: Path | None = None
+    """Of the data set that they are of; None: no more clips."""
+    variant: str | None = None
+    """None: the only one."""
+    split: str = "train"
+    share: float = 0.05
+    """Their number, of that of the training clips; at least one."""
+
+    def __post_init__(self) -> None:
+        check_range("share", self.share, 1e-6, 100.0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class ReconstructionConfig(TrainingConfig):
     """A network that turns events into images."""
 
     data: SequenceData = field(default_factory=lambda: SequenceData(length=40, crop=112))
+    extra: ExtraClips = field(default_factory=ExtraClips)
     network: ReconstructionNetwork = field(default_factory=ReconstructionNetwork)
     loss: ReconstructionLoss = field(default_factory=ReconstructionLoss)
     augmentation: ReconstructionAugmentation = field(default_factory=ReconstructionAugmentation)

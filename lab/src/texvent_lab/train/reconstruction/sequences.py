@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from texvent.batch.identity import digest
 from texvent.config import check_range
 from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
@@ -32,6 +32,9 @@ class SequenceData:
 
     specification: Path = Path()
     """Of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made before."""
+    recordings: tuple[str, ...] = ()
+    """Recordings of frames and events in place of a specification: paths, or names of pulled data
+    sets. Their windows go from frame to frame; the last fifth of each is scored."""
     variant: str | None = None
     """None: the only one."""
     split: str = "train"
@@ -49,9 +52,16 @@ class SequenceData:
     texvent's cache folder."""
 
     def __post_init__(self) -> None:
+        if self.recordings and self.specification != Path():
+            raise ConfigError("specification and recordings are given; give one of them")
         check_range("slice_us", self.slice_us, 1, 10**12)
         check_range("length", self.length, 1, 1_000_000)
         check_range("crop", self.crop, 8, 65_536)
+
+    @property
+    def cache_folder(self) -> Path:
+        """Where clips are kept."""
+        return self.cache or cache_folder("sequences")
 
 
 COLUMNS = "xytp"
@@ -201,7 +211,7 @@ class WindowedClips:
     @property
     def folder(self) -> Path:
         """Where the simulated clips are."""
-        return self.data.cache or cache_folder("sequences")
+        return self.data.cache_folder
 
     @cached_property
     def size(self) -> SensorSize:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.samples import Target
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.extending import require
 from texvent.metrics.image_measures import Float64Array
 from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
@@ -31,9 +32,14 @@ from texvent_lab.train.reconstruction.augmentation import (
     draw_pauses,
     flip_randomly,
 )
-from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
+from texvent_lab.train.reconstruction.config import (
+    ExtraClips,
+    ReconstructionAugmentation,
+    ReconstructionConfig,
+)
 from texvent_lab.train.reconstruction.losses import SequenceLoss
-from texvent_lab.train.reconstruction.sequences import WindowedClips
+from texvent_lab.train.reconstruction.recorded_clips import Clips, ExtendedClips, RecordedClips
+from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.task import Batches
 
@@ -65,7 +71,7 @@ class ReconstructionTask:
         """
         self._config = config
         self._published: PublishedNetwork = RECONSTRUCTORS.load(config.network.name)
-        self._validation = WindowedClips.open(config.data, config.data.validation_split, ["frame"])
+        self._validation = _open(config.data, config.data.validation_split, ["frame"])
 
     @property
     def identity(self) -> str:
@@ -87,8 +93,11 @@ class ReconstructionTask:
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""
         config, published = self._config, self._published
-        targets: list[Target] = ["frame", "flow"] if config.loss.consistency else ["frame"]
-        clips = WindowedClips.open(config.data, config.data.split, targets)
+        has_flow = config.loss.consistency and config.extra.specification is None
+        targets: list[Target] = ["frame", "flow"] if has_flow else ["frame"]
+        clips = _open(config.data, config.data.split, targets)
+        if config.extra.specification is not None:
+            clips = _extended(clips, config.extra)
         network = self.make_network()
         self._check_sides(clips, network.multiple)
         return Batches(
@@ -101,7 +110,7 @@ class ReconstructionTask:
             workers=workers,
         )
 
-    def _check_sides(self, clips: WindowedClips, multiple: int) -> None:
+    def _check_sides(self, clips: Clips, multiple: int) -> None:
         """Refuse a crop that the network or its loss cannot take."""
         crop = clips.data.crop
         sides = tuple(clips.size) if crop is None else (crop, crop)
@@ -154,6 +163,37 @@ class ReconstructionTask:
         return {name: one.detach() for name, one in network.tensors.items()}
 
 
+def _open(data: SequenceData, split: str, targets: list[Target]) -> Clips:
+    """The clips of a split; recordings have frames alone."""
+    if data.recordings:
+        return RecordedClips.open(data, split)
+    return WindowedClips.open(data, split, targets)
+
+
+def _extended(clips: Clips, extra: ExtraClips) -> ExtendedClips:
+    """The clips, and a share of simulated ones.
+
+    Raises:
+        InputError: there are not as many, or they are of another sensor and not cropped.
+    """
+    data = dataclasses.replace(
+        clips.data, recordings=(), specification=extra.specification, variant=extra.variant
+    )
+    more = WindowedClips.open(data, extra.split, ["frame"])
+    count = max(1, round(extra.share * len(clips)))
+    if count > len(more):
+        raise InputError(
+            f"share is {extra.share:g} of {len(clips)} clips, {count} simulated ones, and "
+            f"{extra.specification} has {len(more)} of split {extra.split}; give it more"
+        )
+    if data.crop is None and more.size != clips.size:
+        raise InputError(
+            f"{extra.specification} has a sensor of {more.size}, the other clips of {clips.size}; "
+            "give crop, or that sensor"
+        )
+    return ExtendedClips(clips, more, count)
+
+
 def _as_scored(image: Intensity, frame: NDArray[np.float32]) -> tuple[Float64Array, Float64Array]:
     """An image, 0..1, and the true one, 0..255, as measures compare them."""
     return image.astype(np.float64), np.clip(frame.astype(np.float64) / WHITE, 0.0, 1.0)
@@ -163,7 +203,7 @@ def _as_scored(image: Intensity, frame: NDArray[np.float32]) -> tuple[Float64Arr
 class ReconstructionExamples:
     """Voxel grids, true images and flow of training sequences, by number of the clip."""
 
-    clips: WindowedClips
+    clips: Clips
     augmentation: ReconstructionAugmentation
     bins: int
     is_normalised: bool
