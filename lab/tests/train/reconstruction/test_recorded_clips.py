@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +46,7 @@ def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data: SequenceD
     scored = RecordedClips.open(data, "validation")
     edges = [trained.read(number, 0, LENGTH).edges_us for number in range(len(trained))]
     assert len(edges) == 3
-    assert all(a[-1] == b[0] for a, b in zip(edges, edges[1:], strict=False))
+    assert all(a[-1] == b[0] for a, b in itertools.pairwise(edges))
     (rest,) = [scored.read(number) for number in range(len(scored))]
     assert edges[-1][-1] <= rest.edges_us[0]
     assert len(rest) == FRAMES - 1 - 20

@@ -205,7 +205,7 @@ def write_recording(path: Path, recording: FrameRecording, offset_us: int = 0) -
     size = recording.frames.size
     ends, edges_us = [0], [next(frames).t_us + offset_us]
     # The hidden part holds a lock of its own.
-    with atomic_file(path) as part, h5py.File(part, "w", locking=False) as file:
+    with atomic_file(path, overwrite=True) as part, h5py.File(part, "w", locking=False) as file:
         first = next(iter(slice_between([], [0, 1], size=size)))[1]
         columns: dict[str, Any] = {
             name: file.create_dataset(

@@ -33,8 +33,8 @@ class SequenceData:
     specification: Path = Path()
     """Of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made before."""
     recordings: tuple[str, ...] = ()
-    """Recordings of frames and events in place of a specification: paths, or names of pulled data
-    sets. Their windows go from frame to frame; the last fifth of each is scored."""
+    """Recordings of frames and events in place of a specification: paths from the working folder,
+    or names of pulled data sets. Windows go from frame to frame; the last fifth is scored."""
     variant: str | None = None
     """None: the only one."""
     split: str = "train"
