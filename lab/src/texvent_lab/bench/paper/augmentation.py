@@ -184,12 +184,13 @@ def measure_augmented_reconstruction(config: PaperConfig, progress: Progress) ->
     if absent:
         loss = ReconstructionLoss(consistency=0.0, lpips=0.0, l1=1.0, ssim=1.0)
     with _work_folder(config) as work:
-        for (row, network), extra in itertools.product(RECONSTRUCTORS.items(), (None, config)):
+        simulated = (None, config.specification)
+        for (row, network), extra in itertools.product(RECONSTRUCTORS.items(), simulated):
             name = row if extra is None else f"{row} + 5 %"
             progress(f"training {name}")
             training = ReconstructionConfig(
                 data=SequenceData(recordings=config.sources, length=SEQUENCE, crop=crop),
-                extra=ExtraClips(specification=extra and extra.specification, share=CLIPS),
+                extra=ExtraClips(specification=extra, share=CLIPS),
                 network=ReconstructionNetwork(name=network),
                 loss=loss,
                 schedule=Schedule(epochs=config.epochs, batch_size=2, learning_rate=1e-4),

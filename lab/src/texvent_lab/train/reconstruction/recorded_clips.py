@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from texvent.batch.identity import digest
+from texvent.dataset.samples import Target
 from texvent.errors import InputError
 from texvent.extending import full_version
 from texvent.io.atomic import atomic_file
@@ -31,13 +32,16 @@ from texvent_lab.train.reconstruction.sequences import (
 
 TRAINED_SHARE = 0.8
 """Part of a recording, from its start, that is trained on; the rest is scored."""
-FRAME = "frame"
+FRAME: Target = "frame"
 
 
 class Clips(Protocol):
     """Clips that are cut into windows, by number."""
 
-    data: SequenceData
+    @property
+    def data(self) -> SequenceData:
+        """How they are cut."""
+        ...
 
     def __len__(self) -> int:
         """Number of clips."""

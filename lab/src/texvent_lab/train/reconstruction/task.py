@@ -177,7 +177,10 @@ def _extended(clips: Clips, extra: ExtraClips) -> ExtendedClips:
         InputError: there are not as many, or they are of another sensor and not cropped.
     """
     data = dataclasses.replace(
-        clips.data, recordings=(), specification=extra.specification, variant=extra.variant
+        clips.data,
+        recordings=(),
+        specification=extra.specification or Path(),
+        variant=extra.variant,
     )
     more = WindowedClips.open(data, extra.split, ["frame"])
     count = max(1, round(extra.share * len(clips)))
