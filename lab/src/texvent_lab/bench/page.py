@@ -10,6 +10,8 @@ from texvent_lab.bench.digits import results as digits
 from texvent_lab.bench.document import COMPRESSED, read_records, without_tags
 from texvent_lab.bench.fidelity.results import FidelityReport, read_report
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
+from texvent_lab.bench.paper.published_tables import SCHEMA as PAPER_SCHEMA
+from texvent_lab.bench.paper.published_tables import TABLES, Measured, compare_with_paper
 from texvent_lab.bench.selftest import SCHEMA as SELFTEST_SCHEMA
 from texvent_lab.bench.selftest import SelftestRow, selftest_chart, selftest_table
 from texvent_lab.bench.summary import summarise
@@ -36,7 +38,7 @@ def page_files(
     """The page of a result and its chart, with file names after the result's.
 
     Args:
-        document: result of `bench fidelity`, `real`, `digits` or `selftest`.
+        document: result of `bench fidelity`, `real`, `digits`, `selftest` or `paper`.
         file_name: of the result.
         baseline: of fidelity and real, entry that the others are compared with, pair by pair.
 
@@ -51,9 +53,10 @@ def page_files(
         raise FileFormatError(f"{file_name} is no result ({one_line(error)})") from error
     name = page_name(file_name)
     link = f"[{described}](../{described}) describes the measurement."
-    parts = [f"# {title}", link, facts, f"![Chart of the scores]({name}.svg)", tables]
+    drawing = [f"![Chart of the scores]({name}.svg)"] if chart else []
+    parts = [f"# {title}", link, facts, *drawing, tables]
     page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")
-    return {f"{name}.md": page.encode(), f"{name}.svg": chart}
+    return {f"{name}.md": page.encode(), **({f"{name}.svg": chart} if chart else {})}
 
 
 def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, bytes, str]:
@@ -66,6 +69,8 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
         found = digits.read_report(document)
         title = "Trained on simulated events, tested on recorded ones"
         return title, "digits.md", digits_chart(found), digits.digits_table(found)
+    if document.get("schema") == PAPER_SCHEMA:
+        return "The paper's tables", "benchmark.md", b"", paper_tables(document)
     report = read_report(document)
     check_baseline(baseline, [score.entry for score in report.scores])
     kind, described = (
@@ -73,6 +78,18 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
     )
     tables = fidelity_tables(report, baseline=baseline)
     return f"Simulators against {kind} events", described, score_chart(report), tables
+
+
+def paper_tables(document: Mapping[str, Any]) -> str:
+    """All measured tables beside the paper's, with the seconds that each took."""
+    parts = []
+    for number, table in TABLES.items():
+        found = document.get(f"table {number}")
+        if found is not None:
+            seconds = document.get(f"seconds {number}")
+            took = [] if seconds is None else [f"- Measured in {seconds:.0f} s"]
+            parts.append(compare_with_paper(table, Measured(**found)) + "\n".join(took))
+    return "\n\n".join(parts)
 
 
 def score_chart(report: FidelityReport) -> bytes:

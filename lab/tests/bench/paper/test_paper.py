@@ -17,7 +17,12 @@ from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.config import PaperConfig
-from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
+from texvent_lab.bench.paper.published_tables import (
+    TABLES,
+    Measured,
+    compare_with_paper,
+    join_measured,
+)
 from texvent_lab.bench.paper.run import (
     choose_e8,
     measure_ablations,
@@ -309,3 +314,25 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monke
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match="original, vid2e"):
         measure_accuracy(dataclasses.replace(config, folder=tmp_path / "empty"), silent)
+
+
+def test_all_tables_become_one_document_and_one_page(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))  # no weights
+    keep_few(monkeypatch)
+    monkeypatch.setattr(paper, "measure_times", lambda *_: Measured({"time, s": {"VID2E": "0.1"}}))
+    configs, result = tmp_path / "configs", tmp_path / "paper.json.gz"
+    configs.mkdir()
+    (configs / "Texvent.toml").write_text('interpolate = "none"\n')
+    words = ["bench", "paper", "--all", "--scenes", "translate", "--configs", str(configs)]
+    bar = write_recording(tmp_path / "bar", moving_bar(frames=40))
+    words += ["--recordings", str(bar), "--no-oracle", "-q", "--jobs", "1", "-o", str(result)]
+    assert main(words) == 0
+    printed = capsys.readouterr().out
+    assert main(["bench", "page", str(result)]) == 0
+    page = (tmp_path / "paper.md").read_text()
+    for number in TABLES:
+        assert printed.count(f"## Table {number}: ") == page.count(f"## Table {number}: ") == 1
+    assert page.count("- Measured in ") == len(TABLES) - 2
+    assert not (tmp_path / "paper.svg").exists()
+    with pytest.raises(ConfigError, match="all takes every table; leave out"):
+        PaperConfig(all=True, table=1)

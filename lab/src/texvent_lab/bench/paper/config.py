@@ -25,6 +25,8 @@ from texvent_lab.registries import RECONSTRUCTORS
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
 """Tables of configs/paper."""
+CLASSIFIED = 9
+"""Table of N-ImageNet's classifier."""
 FROM_FILES = (1, 2, 8, 9)
 """Tables whose columns other programs may fill."""
 
@@ -38,7 +40,7 @@ class PaperConfig:
     """
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "table", "figure", "scenes", "recordings", "configs", "weights", "match_rate", "out",
+        "table", "figure", "all", "scenes", "recordings", "configs", "weights", "match_rate", "out",
         "overwrite", "quiet",
     )  # fmt: skip
 
@@ -46,6 +48,9 @@ class PaperConfig:
     """Table of the paper, 1 to 9; default: the ablations of both 4 and 5."""
     figure: int | None = None
     """Figure of the paper instead of a table: 5, 6, 7 or 12, of one recording; -o is its PNG."""
+    all: bool = False
+    """Every table with what is here; weights are those in the weights folder, --weights is the
+    classifier of Table 9. texvent bench page makes a page of -o."""
     scenes: str | None = None
     """Tables 4 and 5: names of scenes of bench fidelity, separated by commas; default: its own."""
     oracle: bool = True
@@ -101,7 +106,9 @@ class PaperConfig:
         check_range("jobs", self.jobs, 1)
         check_range("epochs", self.epochs, 1, 1_000_000)
         as_size(self.image_size)
-        if self.events and self.table not in FROM_FILES:
+        if self.all and (self.table, self.figure, self.network) != (None, None, None):
+            raise ConfigError("all takes every table; leave out table, figure and network")
+        if self.events and not (self.all or self.figure or self.table in FROM_FILES):
             tables = ", ".join(map(str, FROM_FILES))
             raise ConfigError(f"events fills columns of tables {tables}; name one with --table")
         if len(self.event_folders) < len(self.events):
@@ -119,6 +126,17 @@ class PaperConfig:
             RECONSTRUCTORS.load(self.network)
         if len(self.named_recordings) > 1:
             raise ConfigError(f"recordings is {self.recordings}; a figure shows one recording")
+
+    def of_table(self, number: int) -> PaperConfig:
+        """The same for one of all tables."""
+        return replace(
+            self,
+            all=False,
+            table=number,
+            events=self.events if number in FROM_FILES else (),
+            weights=self.weights if number == CLASSIFIED else None,
+            folder=self.folder if number == CLASSIFIED else None,
+        )
 
     @property
     def event_folders(self) -> Mapping[str, Path]:
