@@ -53,6 +53,7 @@ def test_the_fill_factor_of_a_sensor_scales_the_noise_of_texvent_alone(sensor):
         options = {"sensor": sensor.upper(), "preset": preset}
         assert resolve("simulate", options).simulate.noise_scale == pytest.approx(scale, abs=5e-4)
         assert resolve("simulate", {**options, "noise_scale": 3.0}).simulate.noise_scale == 3.0
+        assert resolve("simulate", {**options, "noise_rate_hz": 0.5}).simulate.noise_scale == 1.0
     physical = resolve("simulate", {"sensor": sensor, "simulator": "physical"})
     assert physical.simulate == SIMULATORS.load("physical").presets[physical.run.preset]
 

@@ -132,7 +132,7 @@ def _csv_rows(path: Path, text: str) -> Iterator[Row]:
                 f"{shown(' | '.join(columns))}"
             )
         try:
-            keys_once([(one, None) for one in columns])
+            keys_once([(one, None) for one in columns if one])
         except ValueError as error:
             raise FileFormatError(f"{path}: column {error}") from error
         for row in reader:

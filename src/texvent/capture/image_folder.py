@@ -338,7 +338,7 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
                 f"{file} names {shown(name)}, which is neither beside it nor in {folder}; "
                 "remove the line or restore the image"
             )
-        if not _is_below(path, folder):
+        if not path.parent.resolve().is_relative_to(folder.resolve()):
             raise InputError(
                 f"{file} names {path}, which is not in {folder}; give a frame rate (`fps`), or "
                 "`timestamps` that name the images of this folder"

@@ -1,7 +1,8 @@
 """YAML of any origin: plain values, of a size that the text shows.
 
-Plain words mean values as in the core schema of YAML 1.2. In 1.1, which PyYAML reads, 1:30 is
-90, 010 is 8, 1e-3 is a text, a date is none, and no, off and on are true or false.
+Plain words mean values as in the core schema of YAML 1.2, with _ between digits. In 1.1, which
+PyYAML reads, 1:30 is 90, 010 is 8, 1e-3 is a text, a date is none, and no, off and on are true or
+false.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ def _loader_type() -> Any:
     loader_type: Any = type("Loader", (yaml.SafeLoader,), {"yaml_implicit_resolvers": {}})
 
     def whole(loader: Any, node: Any) -> int:
-        text = loader.construct_scalar(node)
+        text = loader.construct_scalar(node).replace("_", "")
         return int(text, 0 if text[:2] in ("0o", "0x") else 10)
 
     for name, words in PLAIN_WORDS.items():

@@ -80,6 +80,7 @@ def base_settings(
     *,
     config: str | Path | None = None,
     has_motion: bool = False,
+    has_noise: bool = False,
     **deciding: Any,
 ) -> Settings:
     """Settings before single options: defaults, preset, sensor file, config file.
@@ -88,6 +89,7 @@ def base_settings(
         command: "generate" (from a prompt) or "simulate" (from frames).
         config: a TOML or YAML file with options, or an event file with those of its run.
         has_motion: whether the frames come with motion vectors that no option names.
+        has_noise: whether a single option gives the rate of the noise, which holds for the sensor.
         **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
             `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
             preset of that name, unless a preset is given.
@@ -118,7 +120,8 @@ def base_settings(
     elif has_motion or any(one is not None for one in named):
         usual = ALONG_MOTION
     defaults = _default_settings(command, **parts, interpolate=usual)
-    defaults = _with_noise_of(chosen.get("sensor"), defaults)
+    if not has_noise and chosen.get("noise_rate_hz") is None:
+        defaults = _with_noise_of(chosen.get("sensor"), defaults)
     try:
         return apply_options(defaults, chosen, where=where)
     except ConfigError as error:
@@ -242,7 +245,10 @@ def resolve(
     if "sensor" in single:
         single["sensor"] = _sensor_text(single["sensor"])
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
-    base = base_settings(command, config=config, has_motion=has_motion, **deciding)
+    has_noise = single.get("noise_rate_hz") is not None
+    base = base_settings(
+        command, config=config, has_motion=has_motion, has_noise=has_noise, **deciding
+    )
     settings = apply_options(base, single, where="options")
     warn_of_idle(settings.groups().values(), single)
     return settings

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,22 +85,22 @@ class RifeInterpolator:
             FileFormatError: the weights give numbers that are NaN or infinite.
         """
         lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
-        images, shared, torch = image_tensors(first, second), None, import_torch()
-        from texvent.interpolate.rife.network import MIDDLE, move_motion  # needs torch
-
+        images, prepared, torch = image_tensors(first, second), None, import_torch()
         for t_us in times_us:
             at = position(first, second, t_us)
             # Not around the yield: the caller must not inherit the mode.
             with torch.inference_mode(), _explain_memory(self._device):
-                if self._is_shared:
-                    shared = shared or self._estimate(images, MIDDLE)
-                    motion = move_motion(shared, at)
-                else:
-                    motion = self._estimate(images, at)
-                luma = self._luma_by(motion, lumas)
+                prepared = prepared or self._prepare(images)
+                luma = self._luma_at(prepared, lumas, at)
             if not bool(luma.isfinite().all()):
                 raise FileFormatError(f"{self._path}: the network's output is NaN or infinite")
             yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
+
+    def _prepare(self, images: Sequence[Tensor]) -> Any:
+        """Shared by all instants of a pair: the motion at its middle, or only its images."""
+        from texvent.interpolate.rife.network import MIDDLE  # needs torch
+
+        return self._estimate(images, MIDDLE) if self._is_shared else images
 
     def _estimate(self, images: Sequence[Tensor], at: float) -> Motion:
         from texvent.interpolate.rife.network import Motion  # needs torch
@@ -111,9 +111,11 @@ class RifeInterpolator:
         motion = self._network(*padded, at)
         return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
 
-    def _luma_by(self, motion: Motion, lumas: Sequence[Tensor]) -> Tensor:
-        from texvent.interpolate.rife.network import warp  # needs torch
+    def _luma_at(self, prepared: Any, lumas: Sequence[Tensor], at: float) -> Tensor:
+        from texvent.interpolate.rife.network import move_motion, warp  # needs torch
 
+        shared = self._is_shared
+        motion = move_motion(prepared, at) if shared else self._estimate(prepared, at)
         weight = import_torch().sigmoid(motion.mask)
         first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
         return (second + (first - second) * weight)[0, 0]

@@ -83,7 +83,9 @@ UNIT_NAME = re.compile(r"((t|ts|times?|timestamps?)[_ ]?)?units?")
 """Name of an attribute that states the unit of times."""
 ORIGIN = re.compile(r"(upper|top|lower|bottom)[ _-]*(left|right)?")
 """Attribute `origin`: the corner of the sensor from which x and y count."""
-RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
+BESIDE = re.compile("(^|[/_])(images?|frames?|triggers?|imu)([/_]|$)")
+"""Names of data sets of other sensors, or of what happened beside the events."""
+RESERVED = ("width", "height", "timestamp_scale_ms", "texvent", "origin", "y_up")
 
 
 @dataclass(frozen=True)
@@ -279,7 +281,7 @@ def data_sets_beside(path: Path) -> Iterator[str]:
     """Names of data sets of images, triggers or an IMU that hold something."""
     with open_hdf5(path) as file:
         for name, array in _arrays_of(file).items():
-            if re.search("image|frame|trigger|imu", name.lower()) and array.size:
+            if BESIDE.search(name.lower()) and array.size:
                 yield name
 
 

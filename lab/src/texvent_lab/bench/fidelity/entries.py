@@ -57,7 +57,7 @@ class Entry:
     is_rate_matched: bool = True
     """Whether the contrast threshold is fitted to the number of true events, or kept."""
     rife_flow: Literal["once", "each"] | None = None
-    """How often RIFE estimates the motion; default: the interpolator's own."""
+    """Instants at which RIFE estimates the motion; default: the interpolator's own."""
 
     @property
     def name(self) -> str:

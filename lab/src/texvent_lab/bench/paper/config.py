@@ -133,7 +133,7 @@ class PaperConfig:
             self,
             all=False,
             table=number,
-            events=self.events if number in FROM_FILES else (),
+            events=self.events if number in FROM_FILES and number != CLASSIFIED else (),
             weights=self.weights if number == CLASSIFIED else None,
             folder=self.folder if number == CLASSIFIED else None,
         )

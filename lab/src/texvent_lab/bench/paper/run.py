@@ -364,7 +364,10 @@ def measure_accuracy(config: PaperConfig, progress: Progress) -> Measured:
         raise InputError(
             f"{config.folder} has no sub-folder of Table 9's columns; name them {', '.join(absent)}"
         )
-    classes = {folder: {one.name for one in folder.iterdir()} for folder in folders.values()}
+    classes = {
+        folder: {one.name for one in folder.iterdir() if one.is_dir()}
+        for folder in folders.values()
+    }
     for folder, own in classes.items():
         if lacking := sorted(set().union(*classes.values()) - own):
             raise InputError(f"{folder} lacks {', '.join(lacking)}, which another column has")

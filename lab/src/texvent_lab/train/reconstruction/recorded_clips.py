@@ -40,7 +40,7 @@ class Clips(Protocol):
 
     @property
     def data(self) -> SequenceData:
-        """How they are cut."""
+        """Options of the cut."""
         ...
 
     def __len__(self) -> int:
