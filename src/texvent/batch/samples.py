@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import glob
 import json
+import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -117,7 +118,11 @@ def _folder_entries(folder: Path) -> Iterator[ListEntry]:
         "videos": [path for path in inside if path.suffix.lower() in FOLDER_VIDEOS],
         "images": [folder] if _holds_images(inside) else [],
         "folders of images": [
-            path for path in inside if path.is_dir() and _holds_images(path.iterdir())
+            path
+            for path in inside
+            if os.access(path, os.R_OK | os.X_OK)
+            and path.is_dir()
+            and _holds_images(path.iterdir())
         ],
     }
     found = [kind for kind, paths in kinds.items() if paths]
