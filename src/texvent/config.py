@@ -89,7 +89,7 @@ def check_choices(config: object) -> None:
 
 
 def warn_of_idle(configs: Iterable[Any], given: Iterable[str]) -> None:
-    """Warn of options that another one switches off.
+    """Warn of options that another one switches off, unless they have their default value.
 
     Args:
         configs: with the values of all options.
@@ -100,8 +100,10 @@ def warn_of_idle(configs: Iterable[Any], given: Iterable[str]) -> None:
     """
     configs = list(configs)
     for name in sorted(given):
-        for rules in (getattr(config, "idle_with", {}) for config in configs):
-            decider, values = rules.get(name, ("", ()))
+        for config in configs:
+            decider, values = getattr(config, "idle_with", {}).get(name, ("", ()))
+            if getattr(type(config), name, ...) == getattr(config, name, None):
+                continue
             owner = next((config for config in configs if hasattr(config, decider)), None)
             value = getattr(owner, decider, "")
             value = value.suffix.lower() if isinstance(value, Path) else value

@@ -142,6 +142,7 @@ NOT_OF_RUNS = ("RigConfig", "RenderConfig", "PromptOptions", "CalibrateOptions")
 def test_an_option_that_another_one_switches_off_is_said(tmp_path, owner, name, decider, values):
     config = CONFIGS[owner]
     if owner in NOT_OF_RUNS or name in ("interpolator_weights", "rife_flow"):
+        config = Namespace(idle_with=config.idle_with, **{name: "another"})
         for value in values:
             set_to = Path(f"o{value}") if str(value).startswith(".") else value
             with pytest.warns(TexventWarning, match=f"{name} has no effect: {decider} is"):
@@ -157,6 +158,7 @@ def test_an_option_that_another_one_switches_off_is_said(tmp_path, owner, name, 
         with pytest.warns(TexventWarning, match=f"{name} has no effect: {decider} is"):
             idle = texvent.simulate(clip, **options, **{name: other})
         assert idle.equals(texvent.simulate(clip, **options)), "it has an effect"
+        texvent.simulate(clip, **options, **{name: default})  # without a warning
 
 
 def test_a_file_of_all_options_names_none_that_is_switched_off(tmp_path):
