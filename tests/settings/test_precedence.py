@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pytest
 import tomli_w
@@ -29,6 +29,8 @@ TRIED: Mapping[str, tuple[Any, ...]] = {
     "interpolate": ("none", "blend"),
 }
 NUMBERS = (1, 2, 0, 0.25, 0.5, 16, 33, 720, 768)
+Case: TypeAlias = tuple[str, Any, Any]
+"""Option, and two values of it: of a weaker place and of a stronger one."""
 
 
 def configs_of(part: str) -> list[Any]:
@@ -62,13 +64,13 @@ def values_of(config: Any, option: Option) -> list[Any]:
     return found[:2]
 
 
-def cases_of(part: str) -> Iterator[tuple[str, Any, Any]]:
+def cases_of(part: str) -> Iterator[tuple[Case, Case]]:
     """Option, and two values of it, in both orders."""
     for config in configs_of(part):
         for option in declared_options(config):
             if option.name not in LEFT_OUT:
                 one, other = values_of(config, option)
-                yield from ((option.name, one, other), (option.name, other, one))
+                yield (option.name, one, other), (option.name, other, one)
 
 
 def settle(
@@ -102,9 +104,25 @@ def settle(
     return resolve_command(command, [*words, "--", "clip.mp4"], subject, description="")[0]
 
 
-def value_in(settings: Settings, name: str) -> Any:
-    owner = next(one for one in settings.groups().values() if name in option_names(type(one)))
-    return plain(getattr(owner, name))
+def values_in(settings: Settings, names: Iterable[str]) -> dict[str, Any]:
+    groups = settings.groups().values()
+    owners = {
+        name: next(one for one in groups if name in option_names(type(one))) for name in names
+    }
+    return {name: plain(getattr(owner, name)) for name, owner in owners.items()}
+
+
+def apart(folder: Path, part: str, cases: Sequence[Case]) -> Iterator[Sequence[Case]]:
+    """Groups of options that can be given at once, with either of their values."""
+    try:
+        for rank in (1, 2):
+            settle(folder, part, given={case[0]: case[rank] for case in cases})
+    except ConfigError:
+        assert len(cases) > 1, cases
+        half = len(cases) // 2
+        yield from (*apart(folder, part, cases[:half]), *apart(folder, part, cases[half:]))
+    else:
+        yield cases
 
 
 @pytest.fixture(autouse=True)
@@ -116,14 +134,16 @@ def _quiet():
 
 @pytest.mark.parametrize("part", [*SIMULATORS.builtin, *GENERATORS.builtin])
 def test_of_two_places_the_stronger_wins_and_the_weaker_beats_defaults(tmp_path, part):
-    for name, weaker, stronger in cases_of(part):
-        for weak, strong in itertools.combinations(PLACES, 2):
-            if (weak, strong) != ("given", "flags"):
-                found = settle(tmp_path, part, **{weak: {name: weaker}, strong: {name: stronger}})
-                assert value_in(found, name) == stronger, (name, weak, strong)
-        for place in PLACES:
-            found = settle(tmp_path, part, **{place: {name: weaker}})
-            assert value_in(found, name) == weaker, (name, place)
+    for both in zip(*cases_of(part), strict=True):
+        for tried in apart(tmp_path, part, both):
+            weaker, stronger = ({case[0]: case[rank] for case in tried} for rank in (1, 2))
+            for weak, strong in itertools.combinations(PLACES, 2):
+                if (weak, strong) != ("given", "flags"):
+                    found = settle(tmp_path, part, **{weak: weaker, strong: stronger})
+                    assert values_in(found, stronger) == stronger, (weak, strong)
+            for place in PLACES:
+                found = settle(tmp_path, part, **{place: weaker})
+                assert values_in(found, weaker) == weaker, place
 
 
 @pytest.mark.parametrize(
