@@ -42,6 +42,8 @@ PATIENCE_S, TEST_PATIENCE_S = 3600, 1200
 NOTICED, SURVIVED = "noticed", "SURVIVED"
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
+NOT_IMPORTED = "ImportError while loading conftest"
+"""Words of pytest where a change keeps all tests from being imported, with the code of its words."""
 
 
 class Mutation(NamedTuple):
@@ -101,7 +103,12 @@ def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
-            words, cwd=tree, env=environment, stdout=said, start_new_session=True
+            words,
+            cwd=tree,
+            env=environment,
+            stdout=said,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
         )
         code = None
         try:
@@ -113,7 +120,7 @@ def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
             process.wait()
         said.seek(0)
         output = said.read().decode(errors="replace")
-    if code in NOT_RUN:
+    if code in NOT_RUN and NOT_IMPORTED not in output:
         raise RuntimeError(f"{' '.join(words)} did not run: {output}")
     failed = re.search(r"^(?:FAILED|ERROR) (\S.*?)(?: - |$)", output, re.MULTILINE)
     return SURVIVED if code == 0 else NOTICED, failed[1] if failed else ""
