@@ -43,7 +43,7 @@ NOTICED, SURVIVED = "noticed", "SURVIVED"
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
 NOT_IMPORTED = "ImportError while loading conftest"
-"""Words of pytest where a change keeps all tests from being imported, with the code of its words."""
+"""Words of pytest where a change keeps all tests from being imported."""
 
 
 class Mutation(NamedTuple):
