@@ -10,8 +10,6 @@ from pathlib import Path
 
 from texvent._registry import suggest
 from texvent._version import full_version
-from texvent.batch.ledger import Ledger
-from texvent.batch.manifest import describe_differences
 from texvent.dataset.generation.shards import read_json
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import check_layout, doubts_of, find_classes, find_recipe
@@ -26,6 +24,7 @@ from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, OutputError, one_line, shown
 from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.run.ledger import Ledger, describe_differences
 from texvent.runtime.file_names import inside
 
 LAYOUTS: Mapping[str, Layout] = {

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from texvent.batch.engines import Engine, SerialEngine
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from
+from texvent.runtime.engines import Engine, SerialEngine
 
 
 def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:

@@ -15,7 +15,6 @@ from tests.dataset.conftest import CARS
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.batch.engines import ProcessEngine
 from texvent.dataset.generation import make_shard, sample
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe, load_recipe
@@ -29,6 +28,7 @@ from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
+from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 

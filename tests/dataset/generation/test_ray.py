@@ -13,7 +13,6 @@ import pytest
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.batch.engines import Outcome
 from texvent.dataset.generation.make import (
     ShardTask,
     Work,
@@ -24,6 +23,7 @@ from texvent.dataset.generation.make import (
 from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
+from texvent.runtime.engines import Outcome
 
 pytestmark = pytest.mark.dataset
 pytest.importorskip("ray")

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -23,6 +22,7 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.engines import Engine, Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 

@@ -12,11 +12,6 @@ from typing import Any, ClassVar
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.batch.engines import Outcome, local_engine
-from texvent.batch.manifest import SAMPLES_FILE, Manifest
-from texvent.batch.prompts import refuse_prompts, tally_prompts
-from texvent.batch.runner import BatchPlan, SampleTask
-from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, say_warning, write_out
@@ -24,12 +19,17 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
+from texvent.dataset.generation.event_files import BatchPlan, SampleTask
+from texvent.dataset.generation.manifest import SAMPLES_FILE, Manifest
+from texvent.dataset.specification.entries import Sample, are_videos, read_samples
+from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
 from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.engines import Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.scenes.report import ReportTally
 from texvent.settings.resolution import Settings

@@ -9,12 +9,12 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.engines import Outcome, local_engine
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FAILED, MADE, ShardRecord, size_in_tar
 from texvent.dataset.specification.items import Items
 from texvent.errors import TexventError
+from texvent.runtime.engines import Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 

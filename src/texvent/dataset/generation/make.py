@@ -9,8 +9,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.engines import Engine, Outcome, local_engine
-from texvent.batch.prompts import refuse_prompts
 from texvent.dataset.generation.make_shard import find_replaced, is_complete, make_together
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
@@ -20,10 +18,12 @@ from texvent.dataset.generation.recipe import (
     load_recipe_once,
 )
 from texvent.dataset.generation.shards import FAILED, ShardRecord
+from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
 from texvent.io.atomic import sweep
+from texvent.runtime.engines import Engine, Outcome, local_engine
 from texvent.runtime.progress import ProgressOption, open_progress
 
 OnOutcome = Callable[[Outcome], None]

@@ -13,7 +13,6 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.batch.manifest import describe_differences
 from texvent.dataset.generation.shards import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
@@ -36,6 +35,7 @@ from texvent.errors import (
 )
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.run.ledger import describe_differences
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve

@@ -7,17 +7,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.identity import digest
-from texvent.batch.ledger import Ledger
-from texvent.batch.samples import ID_DIGITS, Sample
 from texvent.capture.image_folder import find_timestamps
+from texvent.dataset.specification.entries import ID_DIGITS, Sample
 from texvent.errors import ConfigError, FileFormatError, one_line
 from texvent.io.atomic import atomic_file
+from texvent.run.ledger import Ledger, describe_differences
+from texvent.runtime.identity import digest
 from texvent.scenes.report import PromptReport
 from texvent.settings.provenance import describe_state, files_read, is_replaced
 from texvent.settings.resolution import Settings
@@ -27,8 +27,6 @@ VERSION = "texvent_version"
 """Name, in `batch.json`, of the version that made the samples."""
 REMEDY = "name another folder with -o"
 """What to do about a damaged file."""
-MOST_DIFFERENCES, MAX_VALUE = 3, 40
-"""Differences that an error names, and characters of a value."""
 
 
 class Manifest:
@@ -157,32 +155,3 @@ def _read_options(path: Path) -> Any:
 def _flag(name: str) -> str:
     """An option as it is given: `texvent_version` is none."""
     return "the version of texvent" if name == VERSION else f"--{name.replace('_', '-')}"
-
-
-def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
-    """Differences between two trees of options, at most three; empty if they are equal.
-
-    `name_of` gives an option's name from that in the tree.
-    """
-    found = list(_differences(old, new, name_of))
-    more = len(found) - MOST_DIFFERENCES
-    return "; ".join(found[:MOST_DIFFERENCES]) + (f" and {more} more" if more > 0 else "")
-
-
-def _differences(
-    old: Any, new: Any, name_of: Callable[[str], str], name: str = ""
-) -> Iterator[str]:
-    """Differences between two trees of options, as `name was this, is that`, leaf by leaf."""
-    if isinstance(old, Mapping) or isinstance(new, Mapping):
-        before, now = (one if isinstance(one, Mapping) else {} for one in (old, new))
-        for key in dict.fromkeys((*before, *now)):
-            yield from _differences(before.get(key), now.get(key), name_of, str(key))
-    elif old != new:
-        yield f"{name_of(name)[:40]} was {_value(old)}, is {_value(new)}"
-
-
-def _value(value: Any) -> str:
-    if value is None:
-        return "not set"
-    text = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
-    return text if len(text) <= MAX_VALUE else f"{text[: MAX_VALUE - 3]}..."

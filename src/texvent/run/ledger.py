@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -95,3 +95,36 @@ def _read_rows(path: Path, remedy: str) -> Iterator[dict[str, Any]]:
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             if number < len(lines) - 1:
                 raise FileFormatError(f"{path} line {number} is damaged; {remedy}") from None
+
+
+MOST_DIFFERENCES, MAX_VALUE = 3, 40
+"""Differences that an error names, and characters of a value."""
+
+
+def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
+    """Differences between two trees of options, at most three; empty if they are equal.
+
+    `name_of` gives an option's name from that in the tree.
+    """
+    found = list(_differences(old, new, name_of))
+    more = len(found) - MOST_DIFFERENCES
+    return "; ".join(found[:MOST_DIFFERENCES]) + (f" and {more} more" if more > 0 else "")
+
+
+def _differences(
+    old: Any, new: Any, name_of: Callable[[str], str], name: str = ""
+) -> Iterator[str]:
+    """Differences between two trees of options, as `name was this, is that`, leaf by leaf."""
+    if isinstance(old, Mapping) or isinstance(new, Mapping):
+        before, now = (one if isinstance(one, Mapping) else {} for one in (old, new))
+        for key in dict.fromkeys((*before, *now)):
+            yield from _differences(before.get(key), now.get(key), name_of, str(key))
+    elif old != new:
+        yield f"{name_of(name)[:40]} was {_value(old)}, is {_value(new)}"
+
+
+def _value(value: Any) -> str:
+    if value is None:
+        return "not set"
+    text = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+    return text if len(text) <= MAX_VALUE else f"{text[: MAX_VALUE - 3]}..."

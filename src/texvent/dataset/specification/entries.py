@@ -11,10 +11,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.identity import derived_seed, digest
-from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list, scene_entry
+from texvent.dataset.specification.list_files import (
+    LIST_EXTENSIONS,
+    ListEntry,
+    read_list,
+    scene_entry,
+)
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.runtime.identity import derived_seed, digest
 from texvent.scenes.spec.data import scene_to_data
 from texvent.scenes.spec.files import is_scene_file
 from texvent.scenes.spec.scene import Scene

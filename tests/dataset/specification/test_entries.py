@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.batch.samples import are_videos, read_samples
+from texvent.dataset.specification.entries import are_videos, read_samples
 from texvent.errors import InputError, TexventWarning
 
 

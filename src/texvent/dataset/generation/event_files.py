@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.manifest import files_of
-from texvent.batch.samples import Sample
+from texvent.dataset.generation.manifest import files_of
+from texvent.dataset.specification.entries import Sample
 from texvent.errors import warnings_to
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_source

@@ -16,8 +16,7 @@ from multiprocessing import connection
 from typing import Any, Protocol
 
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError
-from texvent.io.atomic import remove_own_parts
-from texvent.runtime.interrupts import raise_interrupted
+from texvent.runtime.interrupts import clean_up, raise_interrupted
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
@@ -247,7 +246,7 @@ def interruptible() -> Iterator[None]:
         with raise_interrupted():
             yield
     except KeyboardInterrupt:
-        remove_own_parts()
+        clean_up()
         os._exit(INTERRUPTED_EXIT)
 
 
