@@ -289,7 +289,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
     assert counts[FAILED] == 1
     bad.write_bytes(good)
     (task,) = find_work(recipe, folder, retry_failed=True).todo
-    shard = folder / task.shards[0].path
+    shard = folder / task.units[0].path
     with pytest.MonkeyPatch.context() as patch:
 
         def killed(*words: object) -> None:
@@ -297,7 +297,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
 
         patch.setattr(make_shard, "write_record", killed)
         with pytest.raises(KeyboardInterrupt):
-            make_shard.make_together(recipe, folder, task.shards, retry_failed=True)
+            make_shard.make_together(recipe, folder, task.units, retry_failed=True)
     assert shard.exists()
     assert not shard.with_suffix(".json").exists()
     assert len(find_work(recipe, folder).todo) == 1

@@ -14,9 +14,10 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.generation.make import Work, begin, find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import FAILED, MADE
+from texvent.dataset.generation.work import Work
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
@@ -89,22 +90,16 @@ def run_make(arguments: Sequence[str]) -> int:
         ConsoleProgress(is_quiet=options.quiet) as progress,
     ):
         later.callback(remove_dead_parts, recipe, folder)
-        total = len(work.complete) + work.to_make
-        progress.advance("shards", len(work.complete), total)
-
-        def note(outcome: Outcome) -> None:
+        for outcome in work.make(engine, progress):
             _announce(outcome, progress)
-            progress.advance("shards", len(work.complete), total)
-
-        make_shards(work, engine, note)
     return _finish(folder, work, options, is_whole=part[1] == 1)
 
 
 def _announce(outcome: Outcome, progress: Progress) -> None:
     """Print the results of shards."""
-    for shard in outcome.task.shards if outcome.failure is not None else ():
+    for shard in outcome.task.units if outcome.failure is not None else ():
         progress.announce(f"failed   {shard.path}: {outcome.failure}")
-    for shard, record in zip(outcome.task.shards, outcome.result or (), strict=False):
+    for shard, record in zip(outcome.task.units, outcome.result or (), strict=False):
         for sample in record.samples:
             if sample.status == FAILED:
                 progress.announce(f"failed   {shard.path} {sample.key}: {sample.reason}")

@@ -35,7 +35,7 @@ from texvent.errors import (
 )
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
-from texvent.run.ledger import describe_differences
+from texvent.run.ledger import describe_differences, write_note
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
@@ -188,8 +188,7 @@ class Recipe:
             "labels": list(self.items.labels),
             "specification": self.specification.tables,
         }
-        with atomic_file(folder / SPECIFICATION_FILE, overwrite=True) as part:
-            part.write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+        write_note(folder / SPECIFICATION_FILE, facts)
 
     def refuse_other(self, wanted: Recipe, folder: Path) -> None:
         """Refuse to go on with another specification than the one of the folder.
