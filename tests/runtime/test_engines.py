@@ -86,7 +86,7 @@ def test_no_more_processes_than_asked_for() -> None:
 PROGRAM = """
 import os, sys, time
 from pathlib import Path
-from texvent.runtime.engines import interruptible, processes, start_pool, stop_pools
+from texvent.runtime.engines import interruptible, start_pool, stop_pools
 from texvent.io.atomic import hidden_file
 
 def work(folder):

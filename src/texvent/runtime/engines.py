@@ -223,19 +223,6 @@ def stop_pools(*pools: ProcessPoolExecutor) -> None:
 
 
 @contextmanager
-def processes(count: int) -> Iterator[ProcessPoolExecutor]:
-    """A pool; if the block fails, its processes are ended and clean up."""
-    pool = start_pool(count)
-    try:
-        yield pool
-    except BaseException:
-        stop_pools(pool)
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-@contextmanager
 def interruptible() -> Iterator[None]:
     """Inside a process of the pool: a signal ends the block, then the process, cleanly.
 

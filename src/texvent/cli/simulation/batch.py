@@ -17,7 +17,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
-from texvent.dataset.generation.event_files import BatchPlan, EventFiles
+from texvent.dataset.generation.event_files import WARNINGS, BatchPlan, EventFiles
 from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import Sample, are_videos, read_samples
 from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
@@ -171,10 +171,10 @@ def _make_all(
                 if outcome.failure is not None:
                     say(f"failed   {sample.where}: {outcome.failure}")
                 for made in outcome.result or ():
-                    for text in made.warnings:
+                    for text in made[WARNINGS]:
                         say_warning(f"{sample.where}: {text}")
                     folder.add(sample, made)
-                    events = f"{made.facts['events']:,} events"
+                    events = f"{made['events']:,} events"
                     progress.announce(f"made     {plan.files_of(sample).events}, {events}")
             tally = folder.end(samples)
             if tally.prompts:

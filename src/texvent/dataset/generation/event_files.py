@@ -31,6 +31,7 @@ from texvent.video import Frame
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"
 """Name, in `batch.json`, of the version that made the samples."""
+WARNINGS = "warnings"
 REMEDY = "name another folder with -o"
 """What to do about a damaged file."""
 
@@ -80,16 +81,6 @@ class BatchPlan:
         }
 
 
-@dataclass(frozen=True)
-class MadeSample:
-    """Record of a sample whose files are complete."""
-
-    facts: Mapping[str, Any]
-    """What the ledger says of it."""
-    warnings: tuple[str, ...]
-    """Doubts, such as words that are not understood."""
-
-
 @dataclass(frozen=True, eq=False)
 class SampleTask:
     """A sample to make, for an engine."""
@@ -103,8 +94,8 @@ class SampleTask:
         """The key of the sample."""
         return (self.sample.key,)
 
-    def run(self) -> list[MadeSample]:
-        """Make the files.
+    def run(self) -> list[dict[str, Any]]:
+        """Make the files; facts of them, with the warnings.
 
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all samples would meet.
@@ -122,7 +113,7 @@ class SampleTask:
         with warnings_to(found.append):
             simulation = plan.prepare(sample)
             write_run(simulation, files, on_step=count)
-        facts = {
+        made = {
             "name": sample.name,
             "seed": sample.seed,
             "prompt": sample.prompt,
@@ -131,7 +122,7 @@ class SampleTask:
             "events": events,
             REPORT_KEY: simulation.video.metadata.get(REPORT_KEY),
         }
-        return [MadeSample(facts, tuple(found))]
+        return [{**made, WARNINGS: found}]
 
 
 class EventFiles:
@@ -196,39 +187,36 @@ class EventFiles:
         """
         plan = self._plan
         options = plan.options(samples[0])
-        if not plan.files.overwrite:
-            self._refuse_other(json.loads(json.dumps(options)))
         work = self.find_work(samples)
         if not plan.files.overwrite:
-            self._refuse_files_of_others(task.sample for task in work.todo)
+            self._refuse(json.loads(json.dumps(options)), work)
         plan.folder.mkdir(parents=True, exist_ok=True)
         self._ledger.begin(task.sample.key for task in work.todo)
         write_note(plan.folder / OPTIONS_FILE, options)
         return work
 
-    def _refuse_other(self, options: Mapping[str, Any]) -> None:
-        if self._noted is None:
-            return
-        differences = describe_differences(self._noted, options, name_of=_flag)
+    def _refuse(self, options: Mapping[str, Any], work: Work) -> None:
+        known = options if self._noted is None else self._noted
+        differences = describe_differences(known, options, name_of=_flag)
         if differences:
             raise ConfigError(
                 f"{self._plan.folder} was made with other options: {differences}; name another "
                 "folder with -o, or replace all with --overwrite"
             )
+        new = (task.sample for task in work.todo if task.sample.key not in self._ledger)
+        for path in (path for one in new for path in self._plan.files_of(one).outputs):
+            if path.exists():
+                raise OutputError(
+                    f"{path} exists already, and {SAMPLES_FILE} beside it does not know it; name "
+                    "another folder with -o, or replace all with --overwrite"
+                )
 
-    def _refuse_files_of_others(self, samples: Iterable[Sample]) -> None:
-        new = (self._plan.files_of(one) for one in samples if one.key not in self._ledger)
-        for path in (path for files in new for path in files.outputs if path.exists()):
-            raise OutputError(
-                f"{path} exists already, and {SAMPLES_FILE} beside it does not know it; name "
-                "another folder with -o, or replace all with --overwrite"
-            )
-
-    def add(self, sample: Sample, made: MadeSample) -> None:
+    def add(self, sample: Sample, made: Mapping[str, Any]) -> None:
         """Note that a sample is complete; durable before it returns."""
+        facts = {name: one for name, one in made.items() if name != WARNINGS}
         files = self._plan.files_of(sample)
         beside = self._plan.folder.glob(f"{glob.escape(files.events.name)}.*")  # their metadata
-        self._ledger.add(sample.key, [*files.outputs, *sorted(beside)], **made.facts)
+        self._ledger.add(sample.key, [*files.outputs, *sorted(beside)], **facts)
 
     def end(self, samples: Iterable[Sample]) -> ReportTally:
         """Leave one line for each sample; counts of the prompts of those that are complete."""

@@ -3,36 +3,27 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
-from texvent.runtime.engines import Engine, Outcome, Task
+from texvent.runtime.engines import Engine, Outcome
 from texvent.runtime.progress import NO_PROGRESS, Progress
-
-
-class MakerTask(Task, Protocol):
-    """A task that makes results, and returns a record of each."""
-
-    @property
-    def units(self) -> Sequence[Hashable]:
-        """The results that it makes, by what stands for them."""
-        ...
-
-    @property
-    def after(self) -> Hashable | None:
-        """A result that must be complete before; None: it needs none."""
-        ...
 
 
 @dataclass
 class Work:
-    """Results that are complete or to be made, and failures."""
+    """Results that are complete or to be made, and failures.
+
+    Beside what an engine asks of a task, each has `units`, which stand for the results that it
+    makes, and `after`, a result that must be complete before, or None; `run` returns a record of
+    each result.
+    """
 
     complete: dict[Any, Any] = field(default_factory=dict)
     """Complete results, each with a summary of its record."""
     todo: list[Any] = field(default_factory=list)
-    """Tasks (`MakerTask`), in order."""
+    """Tasks, in order."""
     failures: dict[Any, str] = field(default_factory=dict)
     """Results that could not be made."""
     summary: Callable[[Any], Any] = lambda record: None
@@ -59,13 +50,12 @@ class Work:
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all tasks would meet.
         """
-        waiting = defaultdict[Hashable, list[Any]](list)
         to_make = {unit for task in self.todo for unit in task.units}
-        ready = [task for task in self.todo if task.after not in to_make]
+        waiting = defaultdict[Any, list[Any]](list)
         for task in self.todo:
-            if task.after in to_make:
-                waiting[task.after].append(task)
-        total, running = len(self.complete) + self.to_make, 0
+            waiting[task.after if task.after in to_make else None].append(task)
+        ready = waiting.pop(None, [])
+        total, running = len(self.complete) + len(to_make), 0
         while True:
             progress.advance(noun, len(self.complete), total)
             for task in ready:
