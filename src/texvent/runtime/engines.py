@@ -223,6 +223,16 @@ def stop_pools(*pools: ProcessPoolExecutor) -> None:
 
 
 @contextmanager
+def processes(count: int) -> Iterator[ProcessPoolExecutor]:
+    """A pool, whose processes end with the block and clean up what they are at."""
+    pool = start_pool(count)
+    try:
+        yield pool
+    finally:
+        stop_pools(pool)
+
+
+@contextmanager
 def interruptible() -> Iterator[None]:
     """Inside a process of the pool: a signal ends the block, then the process, cleanly.
 

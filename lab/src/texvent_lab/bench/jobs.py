@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeAlias
 
-from texvent.runtime.engines import interruptible, start_pool, stop_pools
+from texvent.runtime.engines import interruptible, processes
 
 
 def run_jobs(
@@ -25,12 +25,9 @@ def run_jobs(
     if jobs == 1:
         yield from itertools.starmap(function, arguments)
         return
-    pool = start_pool(jobs)
-    try:
+    with processes(jobs) as pool:
         for future in [pool.submit(_call, function, one) for one in arguments]:
             yield future.result()
-    finally:
-        stop_pools(pool)
 
 
 def _call(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
