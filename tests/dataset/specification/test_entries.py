@@ -112,10 +112,7 @@ def test_under_a_camera_every_image_is_a_sample(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_named(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    sources: tuple[str, ...],
-    why: str,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sources: tuple[str, ...], why: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("empty").mkdir()

@@ -32,6 +32,7 @@ OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"
 """Name, in `batch.json`, of the version that made the samples."""
 WARNINGS = "warnings"
+"""Name, in what a task returns of a sample, of doubts such as words that are not understood."""
 REMEDY = "name another folder with -o"
 """What to do about a damaged file."""
 
@@ -156,7 +157,7 @@ class EventFiles:
             return taken is not None
         row = self._ledger.row(sample.key)
         is_elsewhere = row.get("video") not in (None, str(sample.video))
-        return is_elsewhere and is_replaced(sample.video, row["inputs"][0])
+        return is_elsewhere and any(is_replaced(sample.video, one) for one in _inputs_of(row)[:1])
 
     def find_work(self, samples: Iterable[Sample]) -> Work:
         """Complete samples, by their keys, and tasks that make the others.
@@ -175,7 +176,7 @@ class EventFiles:
         """True if its files are there, as they were, and so is all that it was made of."""
         if self._noted is None or not self._ledger.is_complete(sample.key):
             return False
-        files, states = self._plan.inputs_of(sample), self._ledger.row(sample.key)["inputs"]
+        files, states = self._plan.inputs_of(sample), _inputs_of(self._ledger.row(sample.key))
         return len(files) == len(states) and not any(map(is_replaced, files, states))
 
     def begin(self, samples: Sequence[Sample]) -> Work:
@@ -226,6 +227,11 @@ class EventFiles:
             if report is not None:
                 tally.add(PromptReport.from_json(report))
         return tally
+
+
+def _inputs_of(row: Mapping[str, Any]) -> list[Any]:
+    """States of the files that a sample was made of; none in a row of another version."""
+    return [*(row.get("inputs") or ())]
 
 
 def _flag(name: str) -> str:
