@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,15 +82,18 @@ def run_make(arguments: Sequence[str]) -> int:
     recipe, folder = _open(options)
     begin(recipe, folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
-    with (
-        _told_how_to_go_on(folder),
-        contextlib.ExitStack() as later,
-        closing(_engine(options, work)) as engine,
-        ConsoleProgress(is_quiet=options.quiet) as progress,
-    ):
-        later.callback(remove_dead_parts, recipe, folder)
-        for outcome in work.make(engine, progress):
-            _announce(outcome, progress)
+    try:
+        with (
+            closing(_engine(options, work)) as engine,
+            ConsoleProgress(is_quiet=options.quiet) as progress,
+        ):
+            for outcome in work.make(engine, progress):
+                _announce(outcome, progress)
+    except KeyboardInterrupt:
+        say(f"kept     every finished shard; to go on: texvent dataset make {folder}")
+        raise
+    finally:
+        remove_dead_parts(recipe, folder)
     return _finish(folder, work, options, is_whole=part[1] == 1)
 
 
@@ -107,15 +109,6 @@ def _announce(outcome: Outcome, progress: Progress) -> None:
             f"made     {shard.path}: {record.count(MADE)} samples, {record.events:,} events, "
             f"{record.seconds:.1f} s"
         )
-
-
-@contextlib.contextmanager
-def _told_how_to_go_on(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except KeyboardInterrupt:
-        say(f"kept     every finished shard; to go on: texvent dataset make {folder}")
-        raise
 
 
 def parse_part(text: str | None) -> tuple[int, int]:
