@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from texvent.batch.identity import derived_seed, digest
 from texvent.config import InterpolateConfig
 from texvent.dataset.specification.items import KEY_DIGITS, Item, Items
 from texvent.dataset.specification.specification import (
@@ -20,6 +19,7 @@ from texvent.dataset.specification.specification import (
 from texvent.errors import ConfigError
 from texvent.options.values import option_names
 from texvent.run.prepare import check_run
+from texvent.runtime.identity import derived_seed, digest
 from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve
 
