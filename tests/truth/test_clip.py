@@ -16,6 +16,7 @@ from texvent.truth.boxes import BOX_RECORD, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
 from texvent.truth.layout import CLIP_FILES
 from texvent.truth.recorder import TruthRecorder
+from texvent.truth.sinks import SampleSink
 
 TIMES = [0, 40_000, 80_000, 120_000]
 Files = dict[str, bytes]
@@ -29,11 +30,12 @@ def read(files: Files, **facts: Any) -> ClipTruth:
 @pytest.fixture(scope="module")
 def stored() -> Files:
     video = board_video(duration=0.12)
-    recorder = TruthRecorder(video, tuple(CLIP_FILES), {"cone": "hazard", "box": "obstacle"})
+    sink = SampleSink(video, tuple(CLIP_FILES), {"cone": "hazard", "box": "obstacle"})
+    recorder = TruthRecorder(sink)
     for frame in (*itertools.islice(video, 2), video.at(60_000), *itertools.islice(video, 2, None)):
-        recorder.add(frame)
-    files = recorder.finish()
-    return {**files, "json": json.dumps({"truth": recorder.facts}).encode()}
+        recorder.append(frame)
+    recorder.finish()
+    return {**sink.members, "json": json.dumps({"truth": sink.facts}).encode()}
 
 
 def test_the_board_is_where_it_moves(stored: Files) -> None:
@@ -50,13 +52,13 @@ def test_the_board_is_where_it_moves(stored: Files) -> None:
     np.testing.assert_array_equal(boxes["x"], np.round(left))
     assert set(boxes["w"].tolist()) <= {21.0, 22.0}
     assert truth.visibility.tolist() == [1.0] * 4
-    board = truth.instance == 3
-    flow = truth.flow[..., 0]
+    board = truth.instance() == 3
+    flow = truth.flow()[..., 0]
     np.testing.assert_allclose(flow[board[:3]], SPEED_PX_PER_FRAME, rtol=5e-4)
     assert not flow[~board[:3]].any()
-    np.testing.assert_allclose(truth.depth[board], DEPTH_M, rtol=5e-4)
-    assert np.isinf(truth.depth).any()  # the sky
-    assert truth.occluded.shape == (3, *SIZE.shape)
+    np.testing.assert_allclose(truth.depth()[board], DEPTH_M, rtol=5e-4)
+    assert np.isinf(truth.depth()).any()  # the sky
+    assert truth.occluded().shape == (3, *SIZE.shape)
     np.testing.assert_allclose(truth.poses[:, :3, 3], [[0.0, -8.0, 1.5]] * 4)
     np.testing.assert_allclose(truth.intrinsics, [[80.0, 80.0, 39.5, 29.5]] * 4)
     flow_file = np.load(io.BytesIO(stored["flow.npz"]))

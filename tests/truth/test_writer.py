@@ -20,8 +20,7 @@ from texvent.scenes.models.tables import CLASS_IDS
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.truth.loading import encode_flow
-from texvent.truth.writer import write_png
+from texvent.truth.sinks import encode_flow, write_png
 from texvent.video import Frame, Motion, Video
 
 from .hand_video import DEPTH_M, SPEED_PX_PER_FRAME, board_video, level

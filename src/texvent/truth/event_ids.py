@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npy_file import growing_array
-from texvent.truth.source import InstancesStream, Snapshot, TruthSource
+from texvent.truth.source import InstancesStream, Snapshot
+from texvent.video import FrameStream
 
 CORNER = 0.5 - 1e-6
 """From the middle of a pixel to its corners, which belong to it alone, pixels."""
@@ -49,6 +50,13 @@ class Interval:
     start_us: int
     stop_us: int
     events: EventStream
+
+
+def ids_between(video: FrameStream, before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
+    """The instance that each event between two frames shows, [n], 0 for none."""
+    if isinstance(video, InstancesStream):
+        return ids_of_scene(video, interval)
+    return ids_of_frames(before, after, interval)
 
 
 def ids_of_scene(scene: InstancesStream, interval: Interval) -> Ids:
@@ -129,26 +137,22 @@ def _with_depth(truth: Snapshot) -> tuple[Ids, Float32Array]:
 
 
 @contextmanager
-def open_event_ids(folder: Path, source: TruthSource) -> Iterator[Callable[[Ids], None]]:
+def open_event_ids(folder: Path) -> Iterator[Callable[..., None]]:
     """`events.npz` in a folder: arrays `instance` and `class_id`, one row per event.
 
     Args:
         folder: where it is written; complete when the `with` block ends.
-        source: knows the classes of instances.
 
     Yields:
-        A function that takes the instances of further events.
+        A function that takes the columns of further events.
     """
     parts = {name: folder / f"events-{name}.part" for name in COLUMNS}
     with ExitStack() as stack:
-        append = {
-            name: stack.enter_context(growing_array(part, dtype="<u2"))
-            for name, part in parts.items()
-        }
+        append = [stack.enter_context(growing_array(one, dtype="<u2")) for one in parts.values()]
 
-        def add(instance: Ids) -> None:
-            append["instance"](instance)
-            append["class_id"](source.class_of(instance))
+        def add(*columns: NDArray[np.uint16]) -> None:
+            for append_rows, rows in zip(append, columns, strict=True):
+                append_rows(rows)
 
         yield add
     with zipfile.ZipFile(folder / FILE, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -22,7 +23,9 @@ from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
+from texvent.truth.boxes import box_records
 from texvent.truth.layout import PARTS
+from texvent.truth.poses import intrinsics, pose_matrix
 from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 
@@ -89,23 +92,40 @@ class Snapshot:
 class TruthSource:
     """Ground truth of a stream, frame by frame.
 
-    Attributes:
+    Args:
         video: the frames.
         parts: names of the parts that are wanted.
+        classes: object → its class; only these objects have boxes, and classes are numbered from 0
+            in this order. Empty: all objects, by the class ids of nouns.
+
+    Attributes:
+        video: the frames, or the scene that knows their truth.
+        parts: as given.
         class_names: instance id → class name.
         class_ids: class name → id, of all objects that have a name.
         classes: class id → name; objects without a name join when one is seen.
+        numbers: object → class id, of the classes given.
 
     Raises:
         ConfigError: the stream does not know one of the parts.
     """
 
-    def __init__(self, video: FrameStream, parts: Sequence[str]) -> None:
+    def __init__(
+        self,
+        video: FrameStream,
+        parts: Sequence[str],
+        classes: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         self.video, self.parts = without_preparation(video), parts
         names: Mapping[int, str] = dict(getattr(self.video, "class_names", {}))
         self.class_names = names
         self.class_ids: Mapping[str, int] = class_ids_of(names.values())
         self.classes = dict(sorted((number, name) for name, number in self.class_ids.items()))
+        self.numbers: dict[str, int] = {}
+        if classes:
+            chosen = tuple(dict.fromkeys(classes.values()))
+            self.classes = dict(enumerate(chosen))
+            self.numbers = {noun: chosen.index(name) for noun, name in classes.items()}
         if "poses" in self.parts and not isinstance(self.video, CameraStream):
             others = ",".join(part for part in PARTS if part != "poses")
             raise ConfigError(
@@ -132,6 +152,45 @@ class TruthSource:
             self.classes[UNNAMED] = UNNAMED_OBJECT
         return found
 
+    def rows(self, truth: Snapshot) -> dict[str, dict[str, Any]]:
+        """Part → its values at a frame by name, of the parts that are wanted and known.
+
+        * flow, flow-back: `to_t`, `flow`, and `occluded` where it is known; depth: `depth`;
+          ids: `instance`; poses: `pose`, `intrinsics`.
+        * boxes: `boxes`, records of `BOX_RECORD`, `visibility`, and `area`, visible pixels.
+
+        Raises:
+            InputError: an id does not fit.
+        """
+        found: dict[str, dict[str, Any]] = {}
+        for part, flow in (("flow", truth.flow), ("flow-back", truth.flow_back)):
+            if flow is not None:
+                found[part] = {"to_t": flow.to_us, "flow": flow.vectors}
+                found[part] |= {} if flow.occluded is None else {"occluded": flow.occluded}
+        if truth.depth is not None:
+            found["depth"] = {"depth": truth.depth}
+        if truth.camera is not None:
+            lens = np.array(intrinsics(truth.camera, self.size))
+            found["poses"] = {"pose": pose_matrix(truth.camera), "intrinsics": lens}
+        if "ids" in self.parts and truth.instance is not None:
+            found["ids"] = {"instance": as_ids(truth.instance)}
+        if "boxes" in self.parts and truth.instance is not None:
+            found["boxes"] = self._box_row(truth, truth.instance)
+        return {part: found[part] for part in self.parts if part in found}
+
+    def _box_row(self, truth: Snapshot, instance: NDArray[np.int32]) -> dict[str, Any]:
+        boxes = truth.boxes
+        if self.numbers:
+            boxes = tuple(box for box in boxes if box.class_name in self.numbers)
+        ids = np.array([box.instance for box in boxes], np.int64)
+        named = [self.numbers[box.class_name] for box in boxes] if self.numbers else None
+        class_ids = self.class_of(ids).tolist() if named is None else named
+        return {
+            "boxes": box_records(truth.t_us, boxes, class_ids),
+            "visibility": np.array([box.visibility for box in boxes], np.float64),
+            "area": np.bincount(instance.ravel(), minlength=1)[ids],
+        }
+
     def at(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
         """Ground truth of a source frame.
 
@@ -147,7 +206,8 @@ class TruthSource:
             return self._of_scene(self.video, frame.t_us, previous_us, next_us)
         return self._of_frame(frame, previous_us, next_us)
 
-    def _camera(self, t_us: int) -> Camera | None:
+    def camera_at(self, t_us: int) -> Camera | None:
+        """The camera at an instant; None where it is not known."""
         return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
 
     def _of_scene(
@@ -155,7 +215,7 @@ class TruthSource:
     ) -> Snapshot:
         needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
         if not needed & set(self.parts):
-            return Snapshot(t_us, camera=self._camera(t_us))
+            return Snapshot(t_us, camera=self.camera_at(t_us))
         to_us = next_us if "flow" in self.parts else None
         truth = video.ground_truth(t_us, t_us if to_us is None else to_us)
         back = None
@@ -169,7 +229,7 @@ class TruthSource:
             depth=truth.depth,
             instance=truth.instance,
             boxes=truth.boxes,
-            camera=self._camera(t_us),
+            camera=self.camera_at(t_us),
         )
 
     def _of_frame(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
@@ -193,8 +253,22 @@ class TruthSource:
             depth=motion.depth,
             instance=instance,
             boxes=() if instance is None else boxes_of(instance, self.class_names),
-            camera=self._camera(frame.t_us),
+            camera=self.camera_at(frame.t_us),
         )
+
+
+def as_ids(instance: NDArray[np.int32]) -> NDArray[np.uint16]:
+    """Instance ids in the 16 bits in which they are stored.
+
+    Raises:
+        InputError: one does not fit.
+    """
+    if instance.size and not 0 <= int(instance.min()) <= int(instance.max()) < MOST_INSTANCES:
+        raise InputError(
+            f"instance ids run from {int(instance.min())} to {int(instance.max())}; files hold "
+            f"0..{MOST_INSTANCES - 1}"
+        )
+    return instance.astype(np.uint16)
 
 
 def _flow(vectors: NDArray[np.float32] | None, to_us: int | None) -> Flow | None:
