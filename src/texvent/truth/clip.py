@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from texvent.io.input_checks import existing_file, existing_folder
 from texvent.runtime.image_files import decode_image
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.boxes import BOX_RECORD, COCO, PROPHESEE
-from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
+from texvent.truth.layout import CLIP_FILES, DIRECTIONS, FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
 
 EDGE_PX = 1e-3
@@ -52,10 +52,8 @@ class ClipTruth:
     there is no such file."""
     where: str
     """The folder or the sample, for messages."""
-    _held: dict[str, NDArray[Any]] = field(default_factory=dict)
+    _held: dict[str, NDArray[Any]] = field(default_factory=dict, init=False)
     """Arrays of all frames that have been read."""
-
-    _remedy: ClassVar[str] = "name {} in `truth` of the specification, and make the data set again"
 
     def __repr__(self) -> str:
         return f"ClipTruth({len(self)} frames, {', '.join(self.parts) or 'nothing'})"
@@ -251,7 +249,7 @@ class ClipTruth:
         if part not in self.parts:
             raise InputError(
                 f"{self.where} has no {part}: the truth that it stores is "
-                f"{', '.join(self.parts) or 'none'}; {self._remedy.format(part)}"
+                f"{', '.join(self.parts) or 'none'}; {self._remedy(part)}"
             )
         if index is not None and index not in numbers:
             there = f"{numbers.start}..{numbers.stop - 1}" if numbers else "none"
@@ -269,6 +267,11 @@ class ClipTruth:
         """An array that is not one of frames."""
         self._check_frame(part, range(0), None)
         return self._table(part, name)
+
+    def _remedy(self, part: str) -> str:
+        if part not in CLIP_FILES:
+            return "only folders that --truth writes have it"
+        return f"name {part} in `truth` of the specification, and make the data set again"
 
     def _read_facts(self) -> dict[str, Any]:
         run = json.loads(self.read_file("json"))
@@ -310,12 +313,13 @@ class ClipTruth:
 class FolderTruth(ClipTruth):
     """Ground truth of a clip in a folder; arrays of frames are in a file each."""
 
-    _remedy: ClassVar[str] = "write it again with {} in --truth"
-
     @property
     def folder(self) -> Path:
         """Folder of the truth."""
         return Path(self.where)
+
+    def _remedy(self, part: str) -> str:
+        return f"write it again with {part} in --truth"
 
     def _read_facts(self) -> dict[str, Any]:
         facts = json.loads(self.read_file(FACTS))
