@@ -27,7 +27,6 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npy_file import growing_array
 from texvent.truth.source import InstancesStream, Snapshot
-from texvent.video import FrameStream
 
 CORNER = 0.5 - 1e-6
 """From the middle of a pixel to its corners, which belong to it alone, pixels."""
@@ -50,13 +49,6 @@ class Interval:
     start_us: int
     stop_us: int
     events: EventStream
-
-
-def ids_between(video: FrameStream, before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
-    """The instance that each event between two frames shows, [n], 0 for none."""
-    if isinstance(video, InstancesStream):
-        return ids_of_scene(video, interval)
-    return ids_of_frames(before, after, interval)
 
 
 def ids_of_scene(scene: InstancesStream, interval: Interval) -> Ids:
@@ -82,7 +74,7 @@ def ids_of_frames(before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
     closer in time.
     """
     events, span_us = interval.events, max(after.t_us - before.t_us, 1)
-    if before.instance is None or after.instance is None or not len(events):
+    if before.motion.instance is None or after.motion.instance is None or not len(events):
         return np.zeros(len(events), dtype=np.int32)
     found = []
     for t_us in (interval.start_us, interval.stop_us):
@@ -101,7 +93,7 @@ def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Flo
     """
     ids, depth = _with_depth(before)
     later, later_depth = _with_depth(after)
-    vectors = None if before.flow is None else before.flow.vectors
+    vectors = before.motion.forward
     if vectors is None:
         return (later, later_depth) if share >= 0.5 else (ids, depth)
     height, width = later.shape
@@ -129,11 +121,12 @@ def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Flo
 
 def _with_depth(truth: Snapshot) -> tuple[Ids, Float32Array]:
     """Ids and depth of a frame that has ids."""
-    if truth.instance is None:
+    instance, depth = truth.motion.instance, truth.motion.depth
+    if instance is None:
         raise InputError(f"the ids of the frame at {truth.t_us} µs are not known")
-    if truth.depth is not None:
-        return truth.instance, truth.depth
-    return truth.instance, np.where(truth.instance > 0, 1.0, 2.0).astype(np.float32)
+    if depth is None:
+        depth = np.where(instance > 0, 1.0, 2.0).astype(np.float32)
+    return instance, depth
 
 
 @contextmanager

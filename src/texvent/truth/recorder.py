@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.atomic import AtomicOutput
-from texvent.truth.event_ids import Interval, ids_between
+from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene
 from texvent.truth.layout import PARTS, parse_parts
 from texvent.truth.sinks import FolderSink, SampleSink
-from texvent.truth.source import Snapshot, as_ids
+from texvent.truth.source import InstancesStream, Snapshot, as_ids
 from texvent.video import Frame, FrameStream
 
 OF_FRAMES = ",".join(part for part in PARTS if part != "events")
@@ -94,7 +94,7 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
         """Record what is true at a frame, and of the events before it; after the last, too."""
         source, before = self._sink.source, self._before
         truth = source.at(frame, None if before is None else before.t_us, next_us)
-        rows = source.rows(truth)
+        rows = dict(truth.rows)
         if "events" in source.parts:
             ids = [self._ids(before or truth, truth, one) for one in intervals]
             if next_us is None:
@@ -106,7 +106,10 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
     def _ids(self, before: Snapshot, after: Snapshot, interval: Interval) -> NDArray[np.uint16]:
         """Instances of the events between two frames, which are handed on with them."""
         source = self._sink.source
-        ids = as_ids(ids_between(source.video, before, after, interval))
+        if isinstance(source.video, InstancesStream):
+            ids = as_ids(ids_of_scene(source.video, interval))
+        else:
+            ids = as_ids(ids_of_frames(before, after, interval))
         if self._on_events is not None:
             self._on_events(interval.events.with_ids(ids, source.class_of(ids)))
         return ids

@@ -42,7 +42,7 @@ from texvent.truth.poses import (
     intrinsics_row,
     pose_row,
 )
-from texvent.truth.source import TruthSource
+from texvent.truth.source import Rows, TruthSource
 from texvent.video import FrameStream
 
 STEPS_PER_PX = 128.0
@@ -57,7 +57,6 @@ _TABLES = {
 """Part → its tables in a folder, and how they begin; "" is written with any part."""
 HALVED = ("flow", "depth")
 """Arrays that samples hold as float16: 11 bits, an error below 0.05 %."""
-Rows = Mapping[str, Mapping[str, Any]]
 
 
 class FolderSink:
@@ -112,7 +111,7 @@ class FolderSink:
             self._append_ids = self._files.enter_context(open_event_ids(self._part))
 
     def add(self, t_us: int, rows: Rows) -> None:
-        """Write the files of a frame, and its rows of others; `TruthSource.rows` describes them."""
+        """Write the files of a frame, and its rows of others."""
         number = f"{self._count:06d}"
         self._tables[TIMES].write(f"{t_us}\n")
         for part, row in rows.items():
