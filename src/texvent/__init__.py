@@ -46,8 +46,8 @@ if TYPE_CHECKING:
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.simulate.build import check_simulator
-    from texvent.truth.loading import load_truth
-    from texvent.truth.writer import save_truth
+    from texvent.truth.clip import load_truth
+    from texvent.truth.recorder import save_truth
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -76,8 +76,8 @@ _HOMES = {
     ),
     "run.truth": ("TruthFolder",),
     "simulate.build": ("check_simulator",),
-    "truth.loading": ("load_truth",),
-    "truth.writer": ("save_truth",),
+    "truth.clip": ("load_truth",),
+    "truth.recorder": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }

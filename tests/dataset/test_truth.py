@@ -53,10 +53,10 @@ def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: P
             np.testing.assert_array_equal(truth.boxes[column], boxes[column])
         np.testing.assert_array_equal(truth.boxes["class_id"], names[names != "cone"] == "man")
         for index in range(3):
-            np.testing.assert_allclose(truth.depth[index], wanted.depth(index), rtol=5e-4)
-            np.testing.assert_array_equal(truth.instance[index], wanted.instance(index))
-        np.testing.assert_allclose(truth.flow[1], wanted.flow(1), rtol=5e-4, atol=1e-6)
-        np.testing.assert_array_equal(truth.occluded[1], wanted.occluded(1))
+            np.testing.assert_allclose(truth.depth(index), wanted.depth(index), rtol=5e-4)
+            np.testing.assert_array_equal(truth.instance(index), wanted.instance(index))
+        np.testing.assert_allclose(truth.flow(1), wanted.flow(1), rtol=5e-4, atol=1e-6)
+        np.testing.assert_array_equal(truth.occluded(1), wanted.occluded(1))
         np.testing.assert_allclose(truth.poses, wanted.poses, atol=1e-8)
     assert digests(make_set(tmp_path / "again", **TRUTH)) == digests(labelled)
 
@@ -103,11 +103,11 @@ def test_targets_are_those_of_the_slice(labelled: Path, cars: Path) -> None:
     samples = texvent.dataset.open(labelled, variant="paper").with_targets("boxes", "flow", "depth")
     truth, made = samples[0].truth, samples.make(0)
     assert made["boxes"]["times"].tolist() == [0, 41_667, 83_333]
-    np.testing.assert_array_equal(made["flow"], np.moveaxis(truth.flow, -1, 1))
+    np.testing.assert_array_equal(made["flow"], np.moveaxis(truth.flow(), -1, 1))
     sliced = samples.represented("voxel-e2vid", slice_us=41_667).make(0)
     assert sliced["representation"].shape == (1, 5, 24, 32)
     assert [one["times"].tolist() for one in sliced["boxes"]] == [[41_667]]
-    np.testing.assert_array_equal(sliced["depth"][0], truth.depth[1:2])
+    np.testing.assert_array_equal(sliced["depth"][0], truth.depth()[1:2])
     np.testing.assert_array_equal(sliced["flow"][0], made["flow"][:1])
     with pytest.raises(ConfigError, match="changes the events, and targets stay"):
         samples.augmented(lambda events, chance: events.flip("x"))

@@ -1,24 +1,39 @@
-"""What is recorded of a clip is what can be computed by hand, and reads back from NumPy alone."""
+"""What is read of a clip, from a folder or a sample, is what can be computed by hand."""
 
 from __future__ import annotations
 
 import io
 import itertools
 import json
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from tests.truth.hand_video import DEPTH_M, SIZE, SPEED_PX_PER_FRAME, board_video
 
+import texvent
 from texvent.errors import FileFormatError, InputError
 from texvent.truth.boxes import BOX_RECORD, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
-from texvent.truth.layout import CLIP_FILES
+from texvent.truth.layout import CLIP_FILES, parse_parts
 from texvent.truth.recorder import TruthRecorder
+from texvent.truth.sinks import FolderSink, SampleSink
 
 TIMES = [0, 40_000, 80_000, 120_000]
 Files = dict[str, bytes]
+FOLDER_PARTS = parse_parts("flow,flow-back,depth,ids,boxes,poses")
+
+
+def record(sink: FolderSink | SampleSink) -> None:
+    """Four source frames of the board, and one between two of them."""
+    recorder, video = TruthRecorder(sink), board_video(duration=0.12)
+    with recorder:
+        recorder.append(next(iter(video)))
+        recorder.append(replace(video.at(20_000), is_source=False))
+        for frame in itertools.islice(video, 1, None):
+            recorder.append(frame)
 
 
 def read(files: Files, **facts: Any) -> ClipTruth:
@@ -28,46 +43,91 @@ def read(files: Files, **facts: Any) -> ClipTruth:
 
 @pytest.fixture(scope="module")
 def stored() -> Files:
-    video = board_video(duration=0.12)
-    recorder = TruthRecorder(video, tuple(CLIP_FILES), {"cone": "hazard", "box": "obstacle"})
-    for frame in (*itertools.islice(video, 2), video.at(60_000), *itertools.islice(video, 2, None)):
-        recorder.add(frame)
-    files = recorder.finish()
-    return {**files, "json": json.dumps({"truth": recorder.facts}).encode()}
+    classes = {"cone": "hazard", "box": "obstacle"}
+    sink = SampleSink(board_video(duration=0.12), tuple(CLIP_FILES), classes)
+    record(sink)
+    return {**sink.members, "json": json.dumps({"truth": sink.facts}).encode()}
 
 
-def test_the_board_is_where_it_moves(stored: Files) -> None:
-    truth = read(stored)
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("clip") / "board.truth"
+    record(FolderSink(path, board_video(duration=0.12), FOLDER_PARTS, metadata={}))
+    return path
+
+
+@pytest.fixture(params=["folder", "sample"])
+def truth(request: pytest.FixtureRequest, stored: Files, folder: Path) -> ClipTruth:
+    return read(stored) if request.param == "sample" else texvent.load_truth(folder)
+
+
+def test_what_is_read_of_the_board_is_its_closed_form(truth: ClipTruth) -> None:
     truth.check(SIZE)
     assert truth.times_us.tolist() == truth.box_times_us.tolist() == TIMES
-    assert (truth.classes, truth.instances) == ({0: "hazard", 1: "obstacle"}, {3: "box"})
+    assert truth.instances == {3: "box"}
     boxes = truth.boxes
     assert boxes["t"].tolist() == TIMES
-    assert boxes["class_id"].tolist() == [1] * 4
     assert boxes["track_id"].tolist() == [3] * 4
+    assert {truth.classes[one] for one in boxes["class_id"].tolist()} <= {"box", "obstacle"}
     # 2 m wide, 7.5 m away, a focal length of 80 px: 21.33 px, its left edge at 40 − 2 · 80 / 7.5.
     left = 40 - 2 * 80 / DEPTH_M + SPEED_PX_PER_FRAME * np.arange(4)
     np.testing.assert_array_equal(boxes["x"], np.round(left))
     assert set(boxes["w"].tolist()) <= {21.0, 22.0}
+    assert truth.boxes_at(2).tolist() == boxes[2:3].tolist()
     assert truth.visibility.tolist() == [1.0] * 4
-    board = truth.instance == 3
-    flow = truth.flow[..., 0]
+    board = truth.instance() == 3
+    assert board.sum(axis=(1, 2)).min() > 300
+    flow = truth.flow()[..., 0]
     np.testing.assert_allclose(flow[board[:3]], SPEED_PX_PER_FRAME, rtol=5e-4)
-    assert not flow[~board[:3]].any()
-    np.testing.assert_allclose(truth.depth[board], DEPTH_M, rtol=5e-4)
-    assert np.isinf(truth.depth).any()  # the sky
-    assert truth.occluded.shape == (3, *SIZE.shape)
+    assert np.abs(flow[~board[:3]]).max() < 1e-9
+    np.testing.assert_allclose(truth.depth()[board], DEPTH_M, rtol=5e-4)
+    assert np.isinf(truth.depth()).any()  # the sky
+    hidden = truth.occluded() & ~board[:3]
+    np.testing.assert_array_equal(hidden, board[1:] & ~board[:3])
     np.testing.assert_allclose(truth.poses[:, :3, 3], [[0.0, -8.0, 1.5]] * 4)
+    np.testing.assert_allclose(truth.poses[:, :3, 2], [[0.0, 1.0, 0.0]] * 4, atol=1e-8)
     np.testing.assert_allclose(truth.intrinsics, [[80.0, 80.0, 39.5, 29.5]] * 4)
+    assert truth.camera_matrices[3].tolist() == [[80, 0, 39.5], [0, 80, 29.5], [0, 0, 1]]
+
+
+@pytest.mark.parametrize("name", ["flow", "depth", "instance", "occluded"])
+def test_a_frame_is_that_of_all_frames(truth: ClipTruth, name: str) -> None:
+    method, last = getattr(truth, name), 3 - (name in ("flow", "occluded"))
+    whole = method()
+    np.testing.assert_array_equal(whole, [method(index) for index in range(last + 1)])
+    for index in (-1, last + 1):
+        with pytest.raises(InputError, match=rf"there are those of 0\.\.{last}"):
+            method(index)
+
+
+def test_the_way_back_is_the_way_there_where_nothing_is_hidden(folder: Path) -> None:
+    truth = texvent.load_truth(folder)
+    board = truth.instance() == 3
+    np.testing.assert_allclose(truth.flow_back()[board[1:]][:, 0], -SPEED_PX_PER_FRAME, atol=1e-4)
+    hidden = truth.occluded(part="flow-back") & ~board[1:]
+    np.testing.assert_array_equal(hidden, board[:-1] & ~board[1:])
+    np.testing.assert_array_equal(truth.flow_back(2), truth.flow_back()[1])
+    with pytest.raises(InputError, match=r"frame 0 has no flow-back; there are those of 1\.\.3"):
+        truth.flow_back(0)
+
+
+def test_samples_have_classes_in_training_order_and_times_in_archives(stored: Files) -> None:
+    truth = read(stored)
+    assert truth.classes == {0: "hazard", 1: "obstacle"}
+    assert truth.boxes["class_id"].tolist() == [1] * 4
     flow_file = np.load(io.BytesIO(stored["flow.npz"]))
     assert (flow_file["t"].tolist(), flow_file["to_t"].tolist()) == (TIMES[:3], TIMES[1:])
+    with pytest.raises(InputError, match="sample k does not say the class of pixels"):
+        truth.class_id(0)
 
 
-def test_a_part_that_is_not_stored_is_named() -> None:
-    truth = ClipTruth({"json": b"{}"}.__getitem__, "sample k")
-    truth.check(SIZE)
-    with pytest.raises(InputError, match=r"sample k has no boxes: .* stores is none"):
-        truth.boxes  # noqa: B018
+def test_a_part_that_is_not_stored_is_named(truth: ClipTruth) -> None:
+    none = ClipTruth({"json": b"{}"}.__getitem__, "sample k")
+    none.check(SIZE)
+    with pytest.raises(InputError, match=r"sample k has no boxes: .* stores is none; name boxes"):
+        none.boxes  # noqa: B018
+    with pytest.raises(InputError, match=r"has no events: the truth that it stores is .*boxes"):
+        truth.event_instance  # noqa: B018
 
 
 def npy(array: np.ndarray) -> bytes:

@@ -12,7 +12,8 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.scenes.scene import Shape
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
-from texvent.truth.source import Flow, Snapshot
+from texvent.truth.source import Snapshot
+from texvent.video import Motion
 
 from ..scenes.hand_scenes import HandScene, MovingShape, moving, still
 from .hand_video import FPS, SIZE, board_video, level
@@ -27,12 +28,12 @@ def events_at(columns, row=0, size=SMALL, t=0):
 
 def snapshot(t_us, ids, depth=None, flow_x=None):
     flow = None if flow_x is None else np.stack([[flow_x], np.zeros((1, 8))], axis=2)
-    return Snapshot(
-        t_us,
-        flow=None if flow is None else Flow(flow.astype(np.float32), t_us + 1000),
+    motion = Motion(
+        None if flow is None else flow.astype(np.float32),
         depth=None if depth is None else np.array([depth], np.float32),
         instance=np.array([ids], np.int32),
     )
+    return Snapshot(t_us, motion, {})
 
 
 def test_an_event_of_a_scene_is_what_its_pixel_touches_at_either_instant():

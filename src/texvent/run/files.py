@@ -15,6 +15,7 @@ from texvent.io.block_writer import BlockWriter
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
+from texvent.run.truth import TruthFolder
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
 from texvent.truth.layout import truth_folder
@@ -131,8 +132,11 @@ def write_run(
             append(packet if writer.keeps_labels else packet.with_ids(None, None))
 
         # The truth ends before the event file does, for it may give it its events.
-        truth = _open_truth(outputs, simulation, files, facts, append_labelled)
-        if truth is not None:
+        truth = None
+        if files.truth_folder is not None:
+            folder = TruthFolder(files.truth_folder, files.truth, files.overwrite)
+            recorder = folder.recorder(simulation, append_labelled, facts)
+            truth = outputs.enter_context(recorder)
             sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
         if "events" not in files.truth:
             sinks.append(lambda frame, packet: append(packet))
@@ -207,27 +211,3 @@ def _open_previews(
         metadata=facts,
     )
     return outputs.enter_context(preview)
-
-
-def _open_truth(
-    outputs: ExitStack,
-    simulation: Simulation,
-    files: RunFiles,
-    facts: Mapping[str, Any],
-    on_events: Callable[[EventStream], None],
-) -> Any:
-    """The folder of truth, open; None where none is wanted."""
-    if files.truth_folder is None:
-        return None
-    # Imported here: it brings the ray caster and OpenCV.
-    from texvent.truth.writer import TruthWriter
-
-    writer = TruthWriter(
-        files.truth_folder,
-        simulation.video,
-        files.truth,
-        metadata=facts,
-        overwrite=files.overwrite,
-        on_events=on_events,
-    )
-    return outputs.enter_context(writer)

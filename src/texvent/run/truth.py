@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
@@ -16,7 +16,8 @@ from texvent.runtime.progress import Progress
 from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:
-    from texvent.truth.writer import TruthWriter
+    from texvent.truth.recorder import TruthRecorder
+    from texvent.truth.sinks import FolderSink
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,29 @@ class TruthFolder:
         self.names  # noqa: B018
         check_truth_folder(Path(self.path), overwrite=self.overwrite)
 
+    def recorder(
+        self,
+        run: Simulation,
+        on_events: Callable[[EventStream], None],
+        metadata: Mapping[str, Any] | None = None,
+    ) -> TruthRecorder[FolderSink]:
+        """Recorder of the truth of a run, to be opened by `with`.
+
+        Args:
+            run: the run.
+            on_events: as `TruthRecorder` takes it.
+            metadata: stored with the truth; default: the provenance of the run.
+        """
+        # Imported here: they bring the ray caster and OpenCV.
+        from texvent.truth.recorder import TruthRecorder
+        from texvent.truth.sinks import FolderSink
+
+        facts = metadata or run.provenance
+        sink = FolderSink(
+            self.path, run.video, self.names, metadata=facts, overwrite=self.overwrite
+        )
+        return TruthRecorder(sink, on_events=on_events)
+
 
 def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> EventStream:
     """The events of a run, in memory; its truth is written meanwhile.
@@ -79,7 +103,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
     packets = [EventStream.empty(run.video.size)]
     has_ids, done = "events" in folder.names, 0
     with ExitStack() as stack:
-        writer = stack.enter_context(_truth_writer(run, folder, packets.append))
+        writer = stack.enter_context(folder.recorder(run, packets.append))
         background = stack.enter_context(BackgroundWriter(writer))
         for frame, packet in replace(run, warns=True).steps():
             background.append(frame, packet)
@@ -88,19 +112,3 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
     return EventStream.concat(packets).with_metadata(run.provenance)
-
-
-def _truth_writer(
-    run: Simulation, folder: TruthFolder, on_events: Callable[[EventStream], None]
-) -> TruthWriter:
-    # Imported here: it brings the ray caster and OpenCV.
-    from texvent.truth.writer import TruthWriter
-
-    return TruthWriter(
-        folder.path,
-        run.video,
-        folder.names,
-        metadata=run.provenance,
-        overwrite=folder.overwrite,
-        on_events=on_events,
-    )

@@ -19,7 +19,6 @@ from typing import IO, TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.arrays.npy_file import growing_array
 from texvent.sensor import SensorSize
 
 if TYPE_CHECKING:
@@ -109,57 +108,6 @@ def detection_target(boxes: NDArray[np.void]) -> dict[str, NDArray[Any]]:
         "boxes": np.stack([x, y, x + w, y + h], axis=1).astype(np.float32),
         **{name: boxes[column].astype(np.int64) for name, column in whole.items()},
     }
-
-
-class BoxFiles:
-    """Open box files; use `open_boxes`."""
-
-    def __init__(self, size: SensorSize, coco: CocoFile, append: Any) -> None:
-        self._size, self._coco, self._append = size, coco, append
-
-    def add(
-        self,
-        index: int,
-        t_us: int,
-        boxes: Sequence[Box],
-        *,
-        class_ids: Sequence[int],
-        areas: Sequence[int],
-    ) -> None:
-        """Write the boxes of a frame.
-
-        Args:
-            index: of the frame, from 0.
-            t_us: its time, µs.
-            boxes: visible objects.
-            class_ids: class of each.
-            areas: visible pixels of each.
-        """
-        self._coco.add_image(index, f"{index:06d}.png", self._size, t_us)
-        for box, class_id, area in zip(boxes, class_ids, areas, strict=True):
-            sides = box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0
-            more = {} if np.isnan(box.visibility) else {"visibility": box.visibility}
-            self._coco.add_box(class_id, sides, area, track_id=box.instance, **more)
-        self._append(box_records(t_us, boxes, class_ids))
-
-
-@contextmanager
-def open_boxes(
-    folder: Path, *, size: SensorSize, classes: Mapping[int, str], info: Mapping[str, Any]
-) -> Iterator[BoxFiles]:
-    """Box files in a folder, complete when the `with` block ends.
-
-    Args:
-        folder: an empty folder.
-        size: of the images, pixels.
-        classes: class id → name, of all objects; read at the end.
-        info: facts of the run; COCO's "info".
-    """
-    with (
-        growing_array(folder / PROPHESEE, dtype=BOX_RECORD) as append,
-        open_coco(folder / COCO, classes=classes, info=info) as coco,
-    ):
-        yield BoxFiles(size, coco, append)
 
 
 class CocoFile:

@@ -1,52 +1,79 @@
-"""Ground truth of a clip as a data set stores it: NumPy files, read when they are asked for."""
+"""Ground truth of a clip read back, from a folder or from a sample of a data set.
+
+Both are read by one class, part by part, when they are asked for.
+"""
 
 from __future__ import annotations
 
 import io
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, one_line
-from texvent.io.arrays.npz import NPZ_DAMAGE
-from texvent.sensor import SensorSize
-from texvent.truth.boxes import BOX_RECORD
+from texvent.errors import FileFormatError, InputError, one_line, shown
+from texvent.io.arrays.npz import NPZ_DAMAGE, open_arrays
+from texvent.io.input_checks import existing_file, existing_folder
+from texvent.runtime.image_files import decode_image
+from texvent.sensor import SensorSize, checked_size
+from texvent.truth.boxes import BOX_RECORD, COCO, PROPHESEE
+from texvent.truth.layout import CLIP_FILES, DIRECTIONS, FACTS, FORMAT, TIMES
+from texvent.truth.poses import rotation_matrix
 
 EDGE_PX = 1e-3
 """Rounding of a right or lower edge that is summed in float32."""
+SOME_KNOW = {"occluded": "what is occluded", "class_id": "the class of pixels"}
+"""Arrays that not every source brings."""
+NOT_UNIT = 1e-3
+"""Most that the length of a quaternion may be off 1."""
+_FACT_TYPES = {
+    **dict.fromkeys(("frames", "width", "height"), int),
+    **{"parts": list, "classes": dict, "instances": dict, "run": dict},
+}
+FACT_DAMAGE = (ValueError, TypeError, AttributeError, KeyError, OverflowError, RecursionError)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ClipTruth:
     """Ground truth of a clip; arrays are read when they are asked for.
 
-    There are N frames. A part that is not stored raises InputError, a damaged file FileFormatError.
+    There are N frames, numbered from 0. A method that takes `index` gives the array of that frame,
+    without it those of all frames, stacked. A part that is not stored raises InputError, a damaged
+    file FileFormatError.
     """
 
     read_file: Callable[[str], bytes]
-    """Content of a file of the sample by name; KeyError: there is none. Its `json` has the facts,
-    under `truth`."""
+    """Content of a file by name. The `json` of a sample has the facts, under `truth`; KeyError:
+    there is no such file."""
     where: str
-    """What it is the truth of, for messages."""
+    """The folder or the sample, for messages."""
+    _held: dict[str, NDArray[Any]] = field(default_factory=dict, init=False)
+    """Arrays of all frames that have been read."""
 
     def __repr__(self) -> str:
-        return f"ClipTruth({len(self.times_us)} frames, {', '.join(self.parts) or 'nothing'})"
+        return f"ClipTruth({len(self)} frames, {', '.join(self.parts) or 'nothing'})"
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.times_us)
 
     @cached_property
     def facts(self) -> Mapping[str, Any]:
-        """Parts, times, classes and instances; nothing where no truth is stored."""
+        """Parts, times, classes, instances and size; no parts where no truth is stored."""
         try:
-            facts: Mapping[str, Any] = json.loads(self.read_file("json")).get("truth", {})
+            facts = self._read_facts()
             for name in ("times_us", "box_times_us"):
                 np.array(facts.get(name, ()), np.int64)
             named = [one for of in ("classes", "instances") for one in facts.get(of, {}).items()]
             texts = [*facts.get("parts", ()), *(name for number, name in named if int(number) >= 0)]
-        except (ValueError, TypeError, AttributeError, KeyError, OverflowError) as error:
+        except FileFormatError:
+            raise
+        except FACT_DAMAGE as error:
             raise FileFormatError(f"{self.where} is damaged ({one_line(error)})") from error
         self._refuse(not all(isinstance(one, str) for one in texts), "its truth has no names")
         return facts
@@ -55,6 +82,17 @@ class ClipTruth:
     def parts(self) -> tuple[str, ...]:
         """Names of the parts that are stored."""
         return tuple(self.facts.get("parts", ()))
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return checked_size(self.facts["width"], self.facts["height"])
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Provenance: prompt, seed, options, version."""
+        run: Mapping[str, Any] = self.facts["run"]
+        return run
 
     @property
     def times_us(self) -> NDArray[np.int64]:
@@ -68,7 +106,10 @@ class ClipTruth:
 
     @property
     def classes(self) -> dict[int, str]:
-        """Class id → name: all of the data set where it names its classes, else of the clip."""
+        """Class id → name: all of the data set where it names its classes, else of the clip.
+
+        0, the background, is not among those of the clip.
+        """
         return {int(number): name for number, name in self.facts.get("classes", {}).items()}
 
     @property
@@ -76,67 +117,87 @@ class ClipTruth:
         """Instance id → name of the object, of the objects of the clip that have a name."""
         return {int(number): name for number, name in self.facts.get("instances", {}).items()}
 
+    def flow(self, index: int | None = None) -> NDArray[np.float32]:
+        """[H, W, 2] px from frame `index` to the next, N − 1 of them; NaN where not known."""
+        return self._frames("flow", "flow", index).astype(np.float32)
+
+    def flow_back(self, index: int | None = None) -> NDArray[np.float32]:
+        """[H, W, 2] px from frame `index` to the one before, from 1 on; NaN where not known."""
+        return self._frames("flow-back", "flow", index).astype(np.float32)
+
+    def occluded(self, index: int | None = None, part: str = "flow") -> NDArray[np.bool_]:
+        """[H, W] whether what frame `index` shows is hidden at the next.
+
+        Args:
+            index: number of the frame.
+            part: "flow-back": hidden at the frame before.
+
+        Raises:
+            InputError: the source of the frames does not tell.
+        """
+        if part not in DIRECTIONS:
+            raise InputError(f"part is {shown(part)}; it must be one of {', '.join(DIRECTIONS)}")
+        return self._frames(part, "occluded", index).astype(np.bool_)
+
+    def depth(self, index: int | None = None) -> NDArray[np.float32]:
+        """[H, W] m along the optical axis; inf for the sky."""
+        return self._frames("depth", "depth", index).astype(np.float32)
+
+    def instance(self, index: int | None = None) -> NDArray[np.int32]:
+        """[H, W] instance ids; 0 is the background."""
+        return self._frames("ids", "instance", index).astype(np.int32)
+
+    def class_id(self, index: int | None = None) -> NDArray[np.int32]:
+        """[H, W] class ids; 0 is the background. Samples of data sets do not store it."""
+        return self._frames("ids", "class_id", index).astype(np.int32)
+
     @cached_property
     def boxes(self) -> NDArray[np.void]:
         """[k] records t (µs), x, y, w, h (px), class_id, track_id, class_confidence, in order of t.
 
         `track_id` is the instance; 0 where it is not known.
         """
-        boxes = self._load("boxes", "boxes.npy")
+        boxes = self._whole("boxes", "boxes")
         is_wrong = boxes.dtype != BOX_RECORD or boxes.ndim != 1
         self._refuse(is_wrong, f"boxes.npy holds {boxes.dtype} {boxes.shape}")
         return boxes
 
+    def boxes_at(self, index: int) -> NDArray[np.void]:
+        """The boxes at the time of one frame."""
+        self._check_frame("boxes", range(len(self)), index)
+        return np.asarray(self.boxes[self.boxes["t"] == self.times_us[index]])
+
     @cached_property
     def visibility(self) -> NDArray[np.float32]:
         """[k] visible share of the object of each box; NaN where it is not known."""
-        return self._load("boxes", "visibility.npy")
+        return self._whole("boxes", "visibility")
 
-    @property
-    def flow(self) -> NDArray[np.float32]:
-        """[N − 1, H, W, 2] px from each frame to the next; NaN where it is not known."""
-        return self._load("flow", "flow.npz", "flow").astype(np.float32)
-
-    @property
-    def occluded(self) -> NDArray[np.bool_]:
-        """[N − 1, H, W] whether the next frame hides it; refused where the source does not tell."""
-        return self._load("flow", "flow.npz", "occluded")
-
-    @property
-    def depth(self) -> NDArray[np.float32]:
-        """[N, H, W] m along the optical axis; inf for the sky."""
-        return self._load("depth", "depth.npz", "depth").astype(np.float32)
-
-    @property
-    def instance(self) -> NDArray[np.int32]:
-        """[N, H, W] instance ids; 0 is the background."""
-        return self._load("ids", "ids.npz", "instance").astype(np.int32)
-
-    @property
+    @cached_property
     def poses(self) -> NDArray[np.float64]:
         """[N, 4, 4] camera-to-world, m; camera axes x right, y down, z forward."""
-        return self._load("poses", "poses.npz", "pose")
+        return self._whole("poses", "pose")
 
-    @property
+    @cached_property
     def intrinsics(self) -> NDArray[np.float64]:
         """[N, 4] fx, fy, cx, cy, px; pixel centres have whole coordinates."""
-        return self._load("poses", "poses.npz", "intrinsics")
+        return self._whole("poses", "intrinsics")
 
-    def _load(self, part: str, file: str, name: str = "") -> NDArray[Any]:
-        """An array of a file; `name` in an archive."""
-        if part not in self.parts:
-            stored = ", ".join(self.parts) or "none"
-            raise InputError(
-                f"{self.where} has no {part}: the truth that its data set stores is {stored}; name "
-                f"{part} in `truth` of its specification, and make it again"
-            )
-        try:
-            loaded = np.load(io.BytesIO(self.read_file(file)), allow_pickle=False)
-            return np.asarray(loaded[name] if name else loaded)
-        except NPZ_DAMAGE as error:
-            raise FileFormatError(
-                f"{self.where}: {file} holds no {name or 'array'} ({one_line(error)})"
-            ) from error
+    @property
+    def camera_matrices(self) -> NDArray[np.float64]:
+        """[N, 3, 3] the same intrinsics as matrices."""
+        matrices = np.tile(np.eye(3), (len(self.intrinsics), 1, 1))
+        matrices[:, [0, 1, 0, 1], [0, 1, 2, 2]] = self.intrinsics
+        return matrices
+
+    @cached_property
+    def event_instance(self) -> NDArray[np.uint16]:
+        """[n] instance of each event, in the order of the event file."""
+        return self._whole("events", "instance")
+
+    @cached_property
+    def event_class_id(self) -> NDArray[np.uint16]:
+        """[n] class of each event, in the order of the event file."""
+        return self._whole("events", "class_id")
 
     def check(self, size: SensorSize) -> None:
         """Refuse truth that cannot be that of a clip.
@@ -148,16 +209,17 @@ class ClipTruth:
             FileFormatError: times out of order, boxes outside the sensor, ids that no object has,
                 or images of another size.
         """
-        frames = len(self.times_us)
+        frames = len(self)
         shapes = {"flow": (frames - 1, *size.shape, 2), "depth": (frames, *size.shape),
                   "instance": (frames, *size.shape), "poses": (frames, 4, 4)}  # fmt: skip
         for name, shape in shapes.items():
             if ("ids" if name == "instance" else name) in self.parts:
-                found = getattr(self, name).shape
+                value = getattr(self, name)
+                found = np.shape(value() if callable(value) else value)
                 self._refuse(found != shape, f"{name} has the shape {found}, not {shape}")
         objects = {0, *self.instances}
         if "ids" in self.parts and self.instances:
-            self._refuse_unknown("object", self.instance, objects)
+            self._refuse_unknown("object", self.instance(), objects)
         if "boxes" not in self.parts:
             return
         boxes, known = self.boxes, self.box_times_us
@@ -181,3 +243,180 @@ class ClipTruth:
     def _refuse_unknown(self, what: str, found: NDArray[Any], known: set[int]) -> None:
         strange = set(np.unique(found).tolist()) - known
         self._refuse(bool(strange), f"{what} {min(strange, default=0)} is not known")
+
+    def _check_frame(self, part: str, numbers: range, index: int | None) -> None:
+        """Refuse a part that is not stored, and a frame that there is not."""
+        if part not in self.parts:
+            raise InputError(
+                f"{self.where} has no {part}: the truth that it stores is "
+                f"{', '.join(self.parts) or 'none'}; {self._remedy(part)}"
+            )
+        if index is not None and index not in numbers:
+            there = f"{numbers.start}..{numbers.stop - 1}" if numbers else "none"
+            raise InputError(f"frame {index} has no {part}; there are those of {there}")
+
+    def _frames(self, part: str, name: str, index: int | None) -> NDArray[Any]:
+        """An array of one frame, or of all that have it."""
+        numbers = range(int(part == "flow-back"), len(self) - int(part == "flow"))
+        self._check_frame(part, numbers, index)
+        if not numbers:
+            return np.zeros((0, *self.size.shape, *(2,) * (name == "flow")))
+        return self._stored(part, name, numbers, index)
+
+    def _whole(self, part: str, name: str) -> NDArray[Any]:
+        """An array that is not one of frames."""
+        self._check_frame(part, range(0), None)
+        return self._table(part, name)
+
+    def _remedy(self, part: str) -> str:
+        if part not in CLIP_FILES:
+            return "only folders that --truth writes have it"
+        return f"name {part} in `truth` of the specification, and make the data set again"
+
+    def _read_facts(self) -> dict[str, Any]:
+        run = json.loads(self.read_file("json"))
+        size = {name: run.get(name) for name in ("width", "height")}
+        return {**size, "run": run, **run.get("truth", {})}
+
+    def _stored(self, part: str, name: str, numbers: range, index: int | None) -> NDArray[Any]:
+        if name not in self._held:
+            rows = self._load(f"{part}.npz", name)
+            is_wrong = rows.shape[:1] != (len(numbers),)
+            what = f"{name} has the shape {rows.shape}, and {len(numbers)} frames have it"
+            self._refuse(is_wrong, what)
+            self._held[name] = rows
+        return self._held[name] if index is None else self._held[name][index - numbers.start]
+
+    def _table(self, part: str, name: str) -> NDArray[Any]:
+        if part == "boxes":
+            return self._load(f"{name}.npy")
+        return self._load(f"{part}.npz", name)
+
+    def _load(self, file: str, name: str = "") -> NDArray[Any]:
+        """An array of a file; `name` in an archive."""
+        try:
+            loaded = self._open(file)
+            if name in SOME_KNOW and name not in loaded:
+                raise InputError(f"{self.where} does not say {SOME_KNOW[name]}: its source did not")
+            return np.asarray(loaded[name] if name else loaded)
+        except InputError:
+            raise
+        except NPZ_DAMAGE as error:
+            raise FileFormatError(
+                f"{self.where}: {file} holds no {name or 'array'} ({one_line(error)})"
+            ) from error
+
+    def _open(self, file: str) -> Any:
+        return np.load(io.BytesIO(self.read_file(file)), allow_pickle=False)
+
+
+class FolderTruth(ClipTruth):
+    """Ground truth of a clip in a folder; arrays of frames are in a file each."""
+
+    @property
+    def folder(self) -> Path:
+        """Folder of the truth."""
+        return Path(self.where)
+
+    def _remedy(self, part: str) -> str:
+        return f"write it again with {part} in --truth"
+
+    def _read_facts(self) -> dict[str, Any]:
+        facts = json.loads(self.read_file(FACTS))
+        if not isinstance(facts, dict) or facts.get("format") != FORMAT:
+            raise FileFormatError(f"{self.folder / FACTS} is not of the format {FORMAT!r}")
+        for name, kind in _FACT_TYPES.items():
+            value = facts.get(name)
+            self._refuse(not isinstance(value, kind), f"{name} of {FACTS} is {shown(value)}")
+        times = np.loadtxt(io.BytesIO(self.read_file(TIMES)), np.int64, ndmin=1)
+        counted = f"{FACTS} counts {facts['frames']} frames, {TIMES} {len(times)}"
+        self._refuse(len(times) != facts["frames"], counted)
+        names = {number: one["class"] for number, one in facts["instances"].items()}
+        return {**facts, "instances": names, "times_us": times.tolist()}
+
+    def _stored(self, part: str, name: str, numbers: range, index: int | None) -> NDArray[Any]:
+        if index is None:
+            return np.stack([self._stored(part, name, numbers, one) for one in numbers])
+        if part == "ids":
+            image = self._image(f"{name.removesuffix('_id')}/{index:06d}.png")
+        else:
+            place = f"flow/{DIRECTIONS[part]}_npz" if part in DIRECTIONS else part
+            image = self._load(f"{place}/{index:06d}.npz", name)
+        what = f"{name} of frame {index} has the shape {image.shape}, in frames of {self.size}"
+        self._refuse(image.shape[:2] != self.size.shape, what)
+        return image
+
+    def _table(self, part: str, name: str) -> NDArray[Any]:
+        if name == "boxes":
+            return self._load(f"boxes/{PROPHESEE}")
+        if name == "visibility":
+            return self._visibility()
+        if name == "pose":
+            return self._poses()
+        if name == "intrinsics":
+            return self._rows("intrinsics.txt", 5)[:, 1:]
+        return self._load(f"{part}.npz", name)
+
+    def _open(self, file: str) -> Any:
+        # An archive of a user may claim to unpack to anything.
+        is_archive = file.endswith(".npz")
+        return open_arrays(existing_file(self.folder / file)) if is_archive else super()._open(file)
+
+    def _image(self, name: str) -> NDArray[np.uint16]:
+        import cv2
+
+        pixels = decode_image(existing_file(self.folder / name), cv2.IMREAD_UNCHANGED)
+        if pixels.dtype != np.uint16:
+            raise FileFormatError(f"{self.folder / name} is no 16-bit PNG")
+        return pixels
+
+    def _visibility(self) -> NDArray[np.float32]:
+        try:
+            boxes = json.loads(self.read_file(f"boxes/{COCO}"))["annotations"]
+            return np.array([box.get("visibility", np.nan) for box in boxes], np.float32)
+        except FACT_DAMAGE as error:
+            what = f"{self.folder / 'boxes' / COCO} holds no boxes ({one_line(error)})"
+            raise FileFormatError(what) from error
+
+    def _poses(self) -> NDArray[np.float64]:
+        rows = self._rows("poses.txt", 8)
+        lengths = np.linalg.norm(rows[:, 4:], axis=1)
+        if not (np.isfinite(rows).all() and (np.abs(lengths - 1.0) < NOT_UNIT).all()):
+            raise FileFormatError(
+                f"{self.folder / 'poses.txt'} holds numbers that are no poses; a line is t_s, x, "
+                "y, z, then a quaternion qx qy qz qw of length 1"
+            )
+        poses = np.tile(np.eye(4), (len(rows), 1, 1))
+        poses[:, :3, 3] = rows[:, 1:4]
+        poses[:, :3, :3] = [rotation_matrix(row[4:]) for row in rows]
+        return poses
+
+    def _rows(self, name: str, columns: int) -> NDArray[np.float64]:
+        try:
+            text = io.BytesIO(self.read_file(name))
+            return np.loadtxt(text, dtype=np.float64).reshape(-1, columns)
+        except ValueError as error:
+            what = f"{self.folder / name} cannot be read ({one_line(error)})"
+            raise FileFormatError(what) from error
+
+
+def load_truth(folder: str | Path) -> ClipTruth:
+    """Ground truth that `texvent generate --truth` or `texvent.save_truth` wrote.
+
+    Args:
+        folder: such as "out.truth".
+
+    Raises:
+        InputError: there is no such folder.
+        FileFormatError: it holds no truth, or is damaged.
+    """
+    path = existing_folder(folder)
+    if not (path / FACTS).is_file():
+        raise FileFormatError(f"{path} holds no {FACTS}; give a folder that --truth wrote")
+    truth = FolderTruth(partial(_content, path), str(path))
+    truth.facts  # noqa: B018
+    return truth
+
+
+def _content(folder: Path, name: str) -> bytes:
+    return existing_file(folder / name).read_bytes()

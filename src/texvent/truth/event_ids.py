@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npy_file import growing_array
-from texvent.truth.source import InstancesStream, Snapshot, TruthSource
+from texvent.truth.source import InstancesStream, Snapshot
 
 CORNER = 0.5 - 1e-6
 """From the middle of a pixel to its corners, which belong to it alone, pixels."""
@@ -74,7 +74,7 @@ def ids_of_frames(before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
     closer in time.
     """
     events, span_us = interval.events, max(after.t_us - before.t_us, 1)
-    if before.instance is None or after.instance is None or not len(events):
+    if before.motion.instance is None or after.motion.instance is None or not len(events):
         return np.zeros(len(events), dtype=np.int32)
     found = []
     for t_us in (interval.start_us, interval.stop_us):
@@ -93,7 +93,7 @@ def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Flo
     """
     ids, depth = _with_depth(before)
     later, later_depth = _with_depth(after)
-    vectors = None if before.flow is None else before.flow.vectors
+    vectors = before.motion.forward
     if vectors is None:
         return (later, later_depth) if share >= 0.5 else (ids, depth)
     height, width = later.shape
@@ -121,34 +121,31 @@ def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Flo
 
 def _with_depth(truth: Snapshot) -> tuple[Ids, Float32Array]:
     """Ids and depth of a frame that has ids."""
-    if truth.instance is None:
+    instance, depth = truth.motion.instance, truth.motion.depth
+    if instance is None:
         raise InputError(f"the ids of the frame at {truth.t_us} µs are not known")
-    if truth.depth is not None:
-        return truth.instance, truth.depth
-    return truth.instance, np.where(truth.instance > 0, 1.0, 2.0).astype(np.float32)
+    if depth is None:
+        depth = np.where(instance > 0, 1.0, 2.0).astype(np.float32)
+    return instance, depth
 
 
 @contextmanager
-def open_event_ids(folder: Path, source: TruthSource) -> Iterator[Callable[[Ids], None]]:
+def open_event_ids(folder: Path) -> Iterator[Callable[..., None]]:
     """`events.npz` in a folder: arrays `instance` and `class_id`, one row per event.
 
     Args:
         folder: where it is written; complete when the `with` block ends.
-        source: knows the classes of instances.
 
     Yields:
-        A function that takes the instances of further events.
+        A function that takes the columns of further events.
     """
     parts = {name: folder / f"events-{name}.part" for name in COLUMNS}
     with ExitStack() as stack:
-        append = {
-            name: stack.enter_context(growing_array(part, dtype="<u2"))
-            for name, part in parts.items()
-        }
+        append = [stack.enter_context(growing_array(one, dtype="<u2")) for one in parts.values()]
 
-        def add(instance: Ids) -> None:
-            append["instance"](instance)
-            append["class_id"](source.class_of(instance))
+        def add(*columns: NDArray[np.uint16]) -> None:
+            for append_rows, rows in zip(append, columns, strict=True):
+                append_rows(rows)
 
         yield add
     with zipfile.ZipFile(folder / FILE, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:

@@ -110,9 +110,8 @@ def intrinsics(camera: Camera, size: SensorSize) -> tuple[float, float, float, f
     return focal, focal, (size.width - 1) / 2, (size.height - 1) / 2
 
 
-def intrinsics_row(t_us: int, camera: Camera, size: SensorSize) -> str:
+def intrinsics_row(t_us: int, values: NDArray[np.float64]) -> str:
     """Time in µs and fx, fy, cx, cy in pixels: a zoom changes them."""
-    values = intrinsics(camera, size)
     return f"{t_us} {' '.join(f'{value:.9g}' for value in values)}\n"
 
 

@@ -1,141 +1,163 @@
-"""Ground truth of a clip recorded frame by frame, and turned into files for a data set."""
+"""Ground truth recorded frame by frame, during a run or of frames alone."""
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.truth.boxes import BOX_RECORD, box_records
-from texvent.truth.poses import intrinsics, pose_matrix
-from texvent.truth.source import Snapshot, TruthSource
-from texvent.truth.writer import check_instances
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.io.atomic import AtomicOutput
+from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene
+from texvent.truth.layout import PARTS, parse_parts
+from texvent.truth.sinks import FolderSink, SampleSink
+from texvent.truth.source import InstancesStream, Snapshot, as_ids
 from texvent.video import Frame, FrameStream
 
+OF_FRAMES = ",".join(part for part in PARTS if part != "events")
+"""Parts that are known without events."""
+Sink = TypeVar("Sink", bound=FolderSink | SampleSink)
 
-class TruthRecorder:
-    """Records what is true at the source frames of a clip.
 
-    Flow and depth are float16: 11 bits, an error below 0.05 %.
+class TruthRecorder(AtomicOutput, Generic[Sink]):
+    """Records what is true at the source frames of a clip, and of the events before them.
+
+    Files of a folder are complete when the `with` block ends without error; members of a sample
+    when `finish` returns. Memory holds the events between two source frames.
 
     Args:
-        video: the frames, whose truth is known.
-        parts: names of `CLIP_FILES`.
-        classes: object → its class; only these objects have boxes, and classes are numbered from 0
-            in this order. Empty: all objects, by the class ids of nouns.
-        place_labels: `Labels.place` of the video, where boxes are those of its labels.
-
-    Attributes:
-        facts: of the truth, for the `json` of the sample.
-
-    Raises:
-        ConfigError: the video does not know one of the parts.
+        sink: knows the truth of the frames, and writes it.
+        on_events: given all events in order, with the ids of their objects, where "events" is among
+            the parts; a few frames late.
     """
 
     def __init__(
-        self,
-        video: FrameStream,
-        parts: Sequence[str],
-        classes: Mapping[str, str],
-        *,
-        place_labels: Callable[..., tuple[NDArray[np.void], NDArray[np.int64]]] | None = None,
+        self, sink: Sink, *, on_events: Callable[[EventStream], None] | None = None
     ) -> None:
-        self._parts = tuple(dict.fromkeys(parts))
-        of_frames = [part for part in self._parts if place_labels is None or part != "boxes"]
-        self._source = TruthSource(video, of_frames)
-        self._place_labels = place_labels
-        self._names = tuple(dict.fromkeys(classes.values()))
-        self._numbers = {noun: self._names.index(name) for noun, name in classes.items()}
-        self._pending: Frame | None = None
-        self._times: list[int] = []
-        self._rows: dict[str, dict[str, list[Any]]] = {}
-        self._boxes, self._visibility = np.empty(0, BOX_RECORD), np.empty(0, np.float32)
-        self.facts: dict[str, Any] = {}
+        super().__init__()
+        self._sink: Sink = sink
+        self._on_events = on_events
+        self._last_us: int | None = None
+        self._intervals: list[Interval] = []
+        self._pending: tuple[Frame, list[Interval]] | None = None
+        self._before: Snapshot | None = None
 
-    def add(self, frame: Frame) -> None:
-        """Take a dense frame; truth is recorded of source frames.
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Store more facts of the run, known only now."""
+        self._sink.facts.update(facts)
+
+    def append(self, frame: Frame, packet: EventStream | None = None) -> None:
+        """Take a dense frame and the events before it; truth is recorded of source frames.
 
         Raises:
             InputError: the frame does not bring the truth that is wanted.
         """
+        if packet is not None and len(packet):
+            start_us = int(packet.t[0]) if self._last_us is None else self._last_us
+            self._intervals.append(Interval(start_us, frame.t_us, packet))
+        self._last_us = frame.t_us
         if not frame.is_source:
             return
         if self._pending is not None:
-            self._record(self._pending, frame.t_us)
-        self._pending = frame
+            self._record(*self._pending, frame.t_us)
+        self._pending = frame, self._taken_intervals()
 
-    def finish(self) -> dict[str, bytes]:
-        """Files of the truth of all frames, name → content; `facts` are known from now on.
+    def finish(self) -> Sink:
+        """Record the last frame, and what is known at the end; the sink is complete.
 
         Raises:
-            InputError: as `add`, and as `Labels.place`.
+            InputError: as `append`; or no frame was given.
         """
-        if self._pending is not None:
-            self._record(self._pending, None)
-        source = self._source
-        classes = dict(enumerate(self._names)) if self._names else source.classes
-        self.facts = {
-            "parts": list(self._parts),
-            "times_us": self._times,
-            "classes": {str(number): name for number, name in classes.items()},
-            "instances": {str(one): name for one, name in source.class_names.items()},
-        }
-        if self._place_labels is not None:
-            times = np.array(self._times, np.int64)
-            self._boxes, known = self._place_labels(times, source.size, self._numbers)
-            self._visibility = np.full(len(self._boxes), np.nan, np.float32)
-            self.facts["box_times_us"] = known.tolist()
-        files = {
-            f"{part}.npz": _content(np.savez_compressed, **rows)
-            for part, rows in self._rows.items()
-        }
-        if "boxes" in self._parts:
-            files["boxes.npy"] = _content(np.save, self._boxes)
-            files["visibility.npy"] = _content(np.save, self._visibility)
-        return files
+        if self._pending is None:
+            raise InputError("no frame was given, so there is no truth to write")
+        self._record(*self._pending, None)
+        self._sink.close()
+        return self._sink
 
-    def _record(self, frame: Frame, next_us: int | None) -> None:
-        truth = self._source.at(frame, None, next_us)
-        self._times.append(truth.t_us)
-        values: dict[str, dict[str, Any]] = {}
-        if truth.flow is not None:
-            values["flow"] = {"to_t": truth.flow.to_us, "flow": np.float16(truth.flow.vectors)}
-            if truth.flow.occluded is not None:
-                values["flow"]["occluded"] = truth.flow.occluded
-        if truth.depth is not None:
-            with np.errstate(over="ignore"):  # farther than 65 km is as good as the sky
-                values["depth"] = {"depth": truth.depth.astype(np.float16)}
-        if truth.instance is not None:
-            check_instances(truth.instance)
-            values["ids"] = {"instance": truth.instance.astype(np.uint16)}
-            self._record_boxes(truth)
-        if truth.camera is not None:
-            lens = np.array(intrinsics(truth.camera, self._source.size))
-            values["poses"] = {"pose": pose_matrix(truth.camera), "intrinsics": lens}
-        for part in self._parts:
-            for name, value in {"t": truth.t_us, **values.get(part, {})}.items():
-                if part in values:
-                    self._rows.setdefault(part, {}).setdefault(name, []).append(value)
+    def _open(self, stack: ExitStack) -> None:
+        self._sink.open(stack)
 
-    def _record_boxes(self, truth: Snapshot) -> None:
-        boxes = truth.boxes
-        if self._names:
-            boxes = tuple(box for box in boxes if box.class_name in self._numbers)
-            class_ids = [self._numbers[box.class_name] for box in boxes]
+    def _complete(self) -> None:
+        self.finish()
+
+    def _taken_intervals(self) -> list[Interval]:
+        """The events gathered so far; gathering restarts."""
+        taken, self._intervals = self._intervals, []
+        return taken
+
+    def _record(self, frame: Frame, intervals: list[Interval], next_us: int | None) -> None:
+        """Record what is true at a frame, and of the events before it; after the last, too."""
+        source, before = self._sink.source, self._before
+        truth = source.at(frame, None if before is None else before.t_us, next_us)
+        rows = dict(truth.rows)
+        if "events" in source.parts:
+            ids = [self._ids(before or truth, truth, one) for one in intervals]
+            if next_us is None:
+                ids += [self._ids(truth, truth, one) for one in self._taken_intervals()]
+            rows["events"] = {"instance": np.concatenate([np.zeros(0, np.uint16), *ids])}
+        self._sink.add(truth.t_us, rows)
+        self._before = truth
+
+    def _ids(self, before: Snapshot, after: Snapshot, interval: Interval) -> NDArray[np.uint16]:
+        """Instances of the events between two frames, which are handed on with them."""
+        source = self._sink.source
+        if isinstance(source.video, InstancesStream):
+            ids = as_ids(ids_of_scene(source.video, interval))
         else:
-            instances = np.array([box.instance for box in boxes], np.int64)
-            class_ids = self._source.class_of(instances).tolist()
-        records = box_records(truth.t_us, boxes, class_ids)
-        visibility = np.array([box.visibility for box in boxes], np.float32)
-        self._boxes = np.append(self._boxes, records)
-        self._visibility = np.append(self._visibility, visibility)
+            ids = as_ids(ids_of_frames(before, after, interval))
+        if self._on_events is not None:
+            self._on_events(interval.events.with_ids(ids, source.class_of(ids)))
+        return ids
 
 
-def _content(save: Callable[..., None], *arrays: Any, **named: Any) -> bytes:
-    """Content of a file of NumPy; equal arrays give equal bytes."""
-    file = io.BytesIO()
-    save(file, *arrays, **named)
-    return file.getvalue()
+def save_truth(
+    video: FrameStream,
+    folder: str | Path,
+    parts: str | Iterable[str] = OF_FRAMES,
+    *,
+    overwrite: bool = False,
+) -> Path:
+    """Write what is true of a video's scene into a folder, as `texvent generate --truth` does.
+
+    Args:
+        video: frames whose truth is known: those of `texvent.video(prompt)`, or a stream of yours
+            with `ground_truth(t0_us, t1_us)`, or with `Frame.motion`.
+        folder: where to, such as "out.truth".
+        parts: flow, flow-back, depth, ids, boxes, poses, with commas between; default:
+            all of them.
+        overwrite: whether a folder of truth may be replaced.
+
+    Returns:
+        The folder, for `load_truth`.
+
+    Raises:
+        ConfigError: an unknown part, or one that the video does not know.
+        InputError: a frame does not bring the truth that is asked for.
+        OutputError: the folder exists already, or cannot be written.
+
+    Example:
+        >>> import tempfile, texvent
+        >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     truth = texvent.load_truth(save_truth(frames, f"{folder}/ball.truth", "boxes"))
+        ...     truth, truth.boxes["w"].max() > 0
+        (ClipTruth(3 frames, boxes), np.True_)
+    """
+    wanted = parse_parts(parts)
+    if not wanted or "events" in wanted:
+        raise ConfigError(
+            f"parts is {parts!r:.80}; give some of {OF_FRAMES}: instances and classes of events "
+            "are written by a run, texvent.generate(..., truth_folder=...)"
+        )
+    sink = FolderSink(
+        folder, video, wanted, metadata={"source": video.metadata}, overwrite=overwrite
+    )
+    with TruthRecorder(sink) as recorder:
+        for frame in video:
+            recorder.append(frame)
+    return Path(folder)

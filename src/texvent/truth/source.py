@@ -9,7 +9,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -22,7 +23,9 @@ from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
+from texvent.truth.boxes import box_records
 from texvent.truth.layout import PARTS
+from texvent.truth.poses import intrinsics, pose_matrix
 from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 
@@ -57,55 +60,67 @@ class InstancesStream(Protocol):
         ...
 
 
-@dataclass(frozen=True, eq=False)
-class Flow:
-    """Where the pixels of a frame are at another."""
+Rows = Mapping[str, Mapping[str, Any]]
+"""Part → its values at a frame by name.
 
-    vectors: NDArray[np.float32]
-    """[H, W, 2] px; NaN where it is not known."""
-    to_us: int
-    """Time of the other frame, µs."""
-    occluded: NDArray[np.bool_] | None = None
-    """[H, W] what is seen here is hidden there; None where that is not known."""
+* flow, flow-back: `to_t`, `flow`, and `occluded` where it is known; depth: `depth`; ids:
+  `instance`; poses: `pose`, `intrinsics`.
+* boxes: `boxes`, records of `BOX_RECORD`, `visibility`, and `area`, visible pixels.
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Ground truth of a frame; None where it is not known."""
+    """Ground truth of a frame."""
 
     t_us: int
-    flow: Flow | None = None
-    """To the next frame; None at the last."""
-    flow_back: Flow | None = None
-    """To the frame before; None at the first."""
-    depth: NDArray[np.float32] | None = None
-    """[H, W] m; inf where there is no surface."""
-    instance: NDArray[np.int32] | None = None
-    """[H, W] ids; 0 is the background."""
-    boxes: tuple[Box, ...] = ()
-    camera: Camera | None = None
+    motion: Motion
+    """As far as it is known; vectors to frames that are not there are None."""
+    rows: Rows
+    """Of the parts that are wanted and known."""
+
+
+_Known = tuple[Motion, dict[str, dict[str, Any]], tuple[Box, ...]]
+"""Motion, masks of what is hidden by part, and boxes."""
 
 
 class TruthSource:
     """Ground truth of a stream, frame by frame.
 
-    Attributes:
+    Args:
         video: the frames.
         parts: names of the parts that are wanted.
+        classes: object → its class; only these objects have boxes, and classes are numbered from 0
+            in this order. Empty: all objects, by the class ids of nouns.
+
+    Attributes:
+        video: the frames, or the scene that knows their truth.
+        parts: as given.
         class_names: instance id → class name.
         class_ids: class name → id, of all objects that have a name.
         classes: class id → name; objects without a name join when one is seen.
+        numbers: object → class id, of the classes given.
 
     Raises:
         ConfigError: the stream does not know one of the parts.
     """
 
-    def __init__(self, video: FrameStream, parts: Sequence[str]) -> None:
+    def __init__(
+        self,
+        video: FrameStream,
+        parts: Sequence[str],
+        classes: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         self.video, self.parts = without_preparation(video), parts
         names: Mapping[int, str] = dict(getattr(self.video, "class_names", {}))
         self.class_names = names
         self.class_ids: Mapping[str, int] = class_ids_of(names.values())
         self.classes = dict(sorted((number, name) for name, number in self.class_ids.items()))
+        self.numbers: dict[str, int] = {}
+        if classes:
+            chosen = tuple(dict.fromkeys(classes.values()))
+            self.classes = dict(enumerate(chosen))
+            self.numbers = {noun: chosen.index(name) for noun, name in classes.items()}
         if "poses" in self.parts and not isinstance(self.video, CameraStream):
             others = ",".join(part for part in PARTS if part != "poses")
             raise ConfigError(
@@ -132,6 +147,10 @@ class TruthSource:
             self.classes[UNNAMED] = UNNAMED_OBJECT
         return found
 
+    def camera_at(self, t_us: int) -> Camera | None:
+        """The camera at an instant; None where it is not known."""
+        return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
+
     def at(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
         """Ground truth of a source frame.
 
@@ -141,38 +160,63 @@ class TruthSource:
             next_us: time of the next source frame, µs; None: it is the last.
 
         Raises:
-            InputError: the frame does not bring what is wanted.
+            InputError: the frame does not bring what is wanted, or an id does not fit.
         """
         if isinstance(self.video, GroundTruthStream):
-            return self._of_scene(self.video, frame.t_us, previous_us, next_us)
-        return self._of_frame(frame, previous_us, next_us)
+            motion, hidden, boxes = self._of_scene(self.video, frame.t_us, previous_us, next_us)
+        else:
+            motion, hidden, boxes = self._of_frame(frame, previous_us, next_us)
+        found: dict[str, dict[str, Any]] = {}
+        for part, vectors, to_us in (
+            ("flow", motion.forward, next_us),
+            ("flow-back", motion.backward, previous_us),
+        ):
+            if vectors is not None:
+                found[part] = {"to_t": to_us, "flow": vectors, **hidden.get(part, {})}
+        if motion.depth is not None:
+            found["depth"] = {"depth": motion.depth}
+        if "ids" in self.parts and motion.instance is not None:
+            found["ids"] = {"instance": as_ids(motion.instance)}
+        if "boxes" in self.parts and motion.instance is not None:
+            found["boxes"] = self._box_row(frame.t_us, boxes, motion.instance)
+        camera = self.camera_at(frame.t_us)
+        if camera is not None:
+            lens = np.array(intrinsics(camera, self.size))
+            found["poses"] = {"pose": pose_matrix(camera), "intrinsics": lens}
+        rows = {part: found[part] for part in self.parts if part in found}
+        return Snapshot(frame.t_us, motion, rows)
 
-    def _camera(self, t_us: int) -> Camera | None:
-        return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
+    def _box_row(
+        self, t_us: int, boxes: Sequence[Box], instance: NDArray[np.int32]
+    ) -> dict[str, Any]:
+        if self.numbers:
+            boxes = [box for box in boxes if box.class_name in self.numbers]
+        ids = np.array([box.instance for box in boxes], np.int64)
+        class_ids = [self.numbers.get(box.class_name, 0) for box in boxes]
+        return {
+            "boxes": box_records(
+                t_us, boxes, class_ids if self.numbers else self.class_of(ids).tolist()
+            ),
+            "visibility": np.array([box.visibility for box in boxes], np.float64),
+            "area": np.bincount(instance.ravel(), minlength=1)[ids],
+        }
 
     def _of_scene(
         self, video: GroundTruthStream, t_us: int, previous_us: int | None, next_us: int | None
-    ) -> Snapshot:
+    ) -> _Known:
         needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
         if not needed & set(self.parts):
-            return Snapshot(t_us, camera=self._camera(t_us))
+            return Motion(), {}, ()
         to_us = next_us if "flow" in self.parts else None
         truth = video.ground_truth(t_us, t_us if to_us is None else to_us)
-        back = None
+        hidden, back = {"flow": {"occluded": truth.occluded}}, None
         if "flow-back" in self.parts and previous_us is not None:
             past = video.ground_truth(t_us, previous_us)
-            back = Flow(past.flow, previous_us, past.occluded)
-        return Snapshot(
-            t_us,
-            flow=None if to_us is None else Flow(truth.flow, to_us, truth.occluded),
-            flow_back=back,
-            depth=truth.depth,
-            instance=truth.instance,
-            boxes=truth.boxes,
-            camera=self._camera(t_us),
-        )
+            back, hidden["flow-back"] = past.flow, {"occluded": past.occluded}
+        forward = None if to_us is None else truth.flow
+        return Motion(forward, back, truth.depth, truth.instance), hidden, truth.boxes
 
-    def _of_frame(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
+    def _of_frame(self, frame: Frame, previous_us: int | None, next_us: int | None) -> _Known:
         motion = frame.motion if frame.motion is not None else Motion()
         missing = {
             "flow": motion.forward is None and next_us is not None,
@@ -185,20 +229,26 @@ class TruthSource:
             raise InputError(
                 f"truth {lacking[0]!r} is not known of the frame at {frame.t_us} µs: {WHO_KNOWS}"
             )
-        instance = motion.instance
-        return Snapshot(
-            frame.t_us,
-            flow=_flow(motion.forward, next_us),
-            flow_back=_flow(motion.backward, previous_us),
-            depth=motion.depth,
-            instance=instance,
-            boxes=() if instance is None else boxes_of(instance, self.class_names),
-            camera=self._camera(frame.t_us),
+        boxes: tuple[Box, ...] = ()
+        if "boxes" in self.parts and motion.instance is not None:
+            boxes = boxes_of(motion.instance, self.class_names)
+        forward = None if next_us is None else motion.forward
+        back = None if previous_us is None else motion.backward
+        return replace(motion, forward=forward, backward=back), {}, boxes
+
+
+def as_ids(instance: NDArray[np.int32]) -> NDArray[np.uint16]:
+    """Instance ids in the 16 bits in which they are stored.
+
+    Raises:
+        InputError: one does not fit.
+    """
+    if instance.size and not 0 <= int(instance.min()) <= int(instance.max()) < MOST_INSTANCES:
+        raise InputError(
+            f"instance ids run from {int(instance.min())} to {int(instance.max())}; files hold "
+            f"0..{MOST_INSTANCES - 1}"
         )
-
-
-def _flow(vectors: NDArray[np.float32] | None, to_us: int | None) -> Flow | None:
-    return None if vectors is None or to_us is None else Flow(vectors, to_us)
+    return instance.astype(np.uint16)
 
 
 def without_preparation(video: FrameStream) -> FrameStream:

@@ -248,7 +248,7 @@ class _ShardSamples:
             video = fit_to_sensor(self._stored.open(clip), settings)
             simulation = prepare_video(video, settings, prompt=item.prompt)
         recorder = record_truth(specification, item, simulation) if specification.truth else None
-        on_frame = None if recorder is None else recorder.add
+        on_frame = None if recorder is None else recorder.append
         simulated = simulate_sample(simulation, specification.filters, on_frame)
         known = {
             "signal_events": simulated.signal_events,
@@ -264,7 +264,7 @@ class _ShardSamples:
             "width": width,
             "height": height,
         }
-        truth = {} if recorder is None else recorder.finish()
+        truth = None if recorder is None else recorder.finish()
         facts = {
             **simulation.provenance,
             **known,
@@ -273,14 +273,14 @@ class _ShardSamples:
             "split": clip.split,
             "variant": self._shard.variant,
             "label": item.label,
-            **({} if recorder is None else {"truth": recorder.facts}),
+            **({} if truth is None else {"truth": truth.facts}),
         }
         members = sample_members(
             simulated,
             facts,
             class_number=None if item.label is None else self._labels[item.label],
             preview=specification.previews,
-            truth=truth,
+            truth={} if truth is None else truth.members,
         )
         return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
 

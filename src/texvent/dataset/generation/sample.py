@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from texvent.scenes.raycast.ground_truth import Box, GroundTruth
     from texvent.scenes.raycast.reuse import FrameMemory
     from texvent.truth.recorder import TruthRecorder
+    from texvent.truth.sinks import SampleSink
 
 
 MOST_BYTES = 2**29
@@ -114,7 +115,9 @@ def with_seed(settings: Settings, seed: int) -> Settings:
     return replace(settings, run=replace(settings.run, seed=seed))
 
 
-def record_truth(specification: Specification, item: Item, simulation: Simulation) -> TruthRecorder:
+def record_truth(
+    specification: Specification, item: Item, simulation: Simulation
+) -> TruthRecorder[SampleSink]:
     """Recorder of the truth that a specification asks for, of the frames of a clip or its labels.
 
     Raises:
@@ -122,6 +125,7 @@ def record_truth(specification: Specification, item: Item, simulation: Simulatio
     """
     from texvent.truth.labels import read_labels  # brings OpenCV
     from texvent.truth.recorder import TruthRecorder  # brings the ray caster
+    from texvent.truth.sinks import SampleSink
 
     video, place = simulation.video, None
     if item.boxes is not None:
@@ -130,7 +134,8 @@ def record_truth(specification: Specification, item: Item, simulation: Simulatio
         rate_hz = None if item.box_rate is None else Fraction(item.box_rate)
         labels, is_whole = read_labels(Path(item.boxes), size), capture.stop is None
         place = partial(labels.place, fit=capture.fit, rate_hz=rate_hz, is_whole=is_whole)
-    return TruthRecorder(video, specification.truth, specification.class_of, place_labels=place)
+    classes = specification.class_of
+    return TruthRecorder(SampleSink(video, specification.truth, classes, place_labels=place))
 
 
 COLUMNS = ("x", "y", "t", "p")

@@ -67,5 +67,5 @@ def _timed(truth: ClipTruth, target: str) -> tuple[NDArray[np.int64], NDArray[An
     if target == "boxes":
         return truth.boxes["t"], truth.boxes
     if target == "flow":
-        return truth.times_us[1:], np.moveaxis(truth.flow, -1, 1)
-    return truth.times_us, truth.depth
+        return truth.times_us[1:], np.moveaxis(truth.flow(), -1, 1)
+    return truth.times_us, truth.depth()

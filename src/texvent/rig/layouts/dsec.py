@@ -44,7 +44,7 @@ from texvent.rig.recording import Recording
 from texvent.runtime.progress import Progress
 from texvent.scenes.lens import Lens, distort, normalised
 from texvent.sensor import SensorSize
-from texvent.truth.writer import write_png
+from texvent.truth.sinks import write_png
 from texvent.video import MICROSECONDS
 
 
