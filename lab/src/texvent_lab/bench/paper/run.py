@@ -114,19 +114,24 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
     if config.table == 1:
         scenes = [open_scene(source) for source in config.sources]
         found.append(measure_event_frames(scenes, config, progress))
+    return join_measured([*found, *measure_by_network(config, progress)])
+
+
+def measure_by_network(config: PaperConfig, progress: Progress) -> list[Measured]:
+    """Tables 1, 7 and 8 by the network that is named, else by the paper's or its stand-in."""
     measure = measure_noise if config.table == 7 else measure_images
     names = [config.network] if config.network else [NETWORKS[config.table or 1], STAND_IN]
-    for name in names:
+    absent: list[Measured] = []
+    for name in dict.fromkeys(names):
         try:
             network = load_reconstructor(name, config.weights)
         except (InputError, MissingDependencyError) as error:
             if config.weights is not None:
                 raise
-            found.append(Measured(needs=[f"images by {name}; {error}"]))
+            absent.append(Measured(needs=[f"images by {name}; {error}"]))
         else:
-            found.append(measure(config, network, progress))
-            break
-    return join_measured(found)
+            return [*absent, measure(config, network, progress)]
+    return absent
 
 
 def find_columns(config: PaperConfig) -> dict[str, Entry]:
