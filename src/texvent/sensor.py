@@ -45,14 +45,14 @@ class Sensor:
 SENSORS: dict[str, Sensor] = {
     sensor.name: sensor
     for sensor in (
-        Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008", 0.081),
+        Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008", 0.094),
         Sensor("davis240c", SensorSize(240, 180), "iniLabs DAVIS240C", "Brandli 2014", 0.22),
         Sensor("davis346", SensorSize(346, 260), "iniVation DAVIS346", "Gallego 2022", 0.22),
         Sensor(
             "gen3-vga",
             SensorSize(640, 480),
             "Samsung Gen3 VGA (N-ImageNet)",
-            "Son 2017, Gallego 2022",
+            "Gallego 2022 (DVS-Gen3)",
             0.12,
         ),
         Sensor("gen4-hd", SensorSize(1280, 720), "Prophesee Gen4 HD", "Finateu 2020", 0.77),

@@ -103,6 +103,16 @@ def recording_name(source: str) -> str:
     return source if source in DATA_SETS else Path(source).expanduser().resolve().stem
 
 
+def resolve_source(source: str, folder: Path) -> str:
+    """A source that a file in `folder` names: a path counts from there, a data set keeps its name.
+
+    Example:
+        >>> resolve_source("one.aedat4", Path("here")), resolve_source("slider_depth", Path())
+        ('here/one.aedat4', 'slider_depth')
+    """
+    return source if source in DATA_SETS else str(folder / source)
+
+
 def locate_source(source: str) -> tuple[Path, int]:
     """Path of a recording, and the frozen offset of its frames, µs.
 

@@ -15,12 +15,12 @@ import ctypes
 import functools
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, InputError
 
 SHARE = 0.8
 """Of the machine's memory, or of its control group's, that a run uses at most by default."""
@@ -64,6 +64,21 @@ def check_claim(claimed: int, path: Path, *, copies: int = 1) -> None:
             f"{usable_bytes() / 1e9:.1f} GB of this machine; make it smaller, or take a machine "
             "with more memory"
         )
+
+
+@contextlib.contextmanager
+def explain_memory(what: str) -> Iterator[None]:
+    """Turn torch's failure of memory into one line.
+
+    Raises:
+        InputError: it says `what`.
+    """
+    try:
+        yield
+    except RuntimeError as error:
+        if "memory" not in str(error):
+            raise
+        raise InputError(what) from error
 
 
 def check_proportion(claimed: int, path: Path) -> None:

@@ -75,11 +75,19 @@ def keys_once(pairs: Sequence[tuple[Any, Any]]) -> dict[Any, Any]:
     Raises:
         ValueError: a key is named twice.
     """
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        twice = next(key for key, times in Counter(key for key, _ in pairs).items() if times > 1)
+    check_once([key for key, _ in pairs])
+    return dict(pairs)
+
+
+def check_once(names: Sequence[Any]) -> None:
+    """Refuse names of which one is there twice.
+
+    Raises:
+        ValueError: it says which.
+    """
+    if len(set(names)) < len(names):
+        twice = next(name for name, times in Counter(names).items() if times > 1)
         raise ValueError(f"{shown(twice)} is named twice")
-    return found
 
 
 def _count(node: Any, counted: dict[int, int]) -> int:
@@ -90,6 +98,6 @@ def _count(node: Any, counted: dict[int, int]) -> int:
         if isinstance(inside, str):
             inside = ()
         parts = [part for one in inside for part in (one if isinstance(one, tuple) else (one,))]
-        keys_once([(str(one[0].value), None) for one in inside if isinstance(one, tuple)])
+        check_once([str(one[0].value) for one in inside if isinstance(one, tuple)])
         counted[id(node)] = 1 + sum(_count(part, counted) for part in parts)
     return counted[id(node)]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -38,17 +37,6 @@ def locate_weights(
         f"{what}; texvent neither carries nor downloads them: {where_from}. Pass its path with "
         f"`{option}`, or put it at {place}"
     )
-
-
-@contextmanager
-def explain_memory(what: str) -> Iterator[None]:
-    """Turn torch's failure of memory into an InputError that says `what`."""
-    try:
-        yield
-    except RuntimeError as error:
-        if "memory" not in str(error):
-            raise
-        raise InputError(what) from error
 
 
 @dataclass(frozen=True)

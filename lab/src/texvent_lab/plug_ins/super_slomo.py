@@ -20,8 +20,9 @@ from texvent.networks.weight_files import (
     named_tensors,
     read_mapping,
 )
+from texvent.runtime.memory import explain_memory
 from texvent.video import Frame, FrameStream
-from texvent_lab.networks import EXTRA, explain_memory, locate_weights
+from texvent_lab.networks import EXTRA, locate_weights
 
 FILE = "SuperSloMo.ckpt"
 WHERE_FROM = f"the project avinashpaliwal/Super-SloMo on GitHub links to the published {FILE}"

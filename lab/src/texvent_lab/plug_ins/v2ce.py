@@ -20,11 +20,12 @@ from texvent.events import EventStream
 from texvent.extending import require
 from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.pairs.frame_pair import FramePair
+from texvent.runtime.memory import explain_memory
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, check_event_number, make_packet
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import Frame
-from texvent_lab.networks import EXTRA, explain_memory, locate_weights
+from texvent_lab.networks import EXTRA, locate_weights
 
 Array: TypeAlias = NDArray[np.float64]
 FILE = "v2ce_3d.pt"

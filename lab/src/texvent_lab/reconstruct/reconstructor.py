@@ -16,8 +16,9 @@ from texvent.events import EventStream
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.runtime.memory import explain_memory
 from texvent.sensor import SensorSize
-from texvent_lab.networks import EXTRA, Padding, explain_memory
+from texvent_lab.networks import EXTRA, Padding
 from texvent_lab.reconstruct.checkpoint import find_weights, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 

@@ -17,6 +17,7 @@ from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.options.values import plain, with_options
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.settings.config_files import read_document
+from texvent_lab.frame_recordings import resolve_source
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
 from texvent_lab.train.schedule import EXTRA, Hardware, TrainingConfig
@@ -62,6 +63,9 @@ def with_tables(config: Config, tables: Mapping[str, Any], *, folder: Path, wher
             config = dataclasses.replace(config, **{name: inner})  # type: ignore[type-var]
         elif Path in (hints.get(name), *typing.get_args(hints.get(name))):
             values[name] = str(folder / str(value))
+        elif name in getattr(config, "names_or_paths", ()):
+            several = value if isinstance(value, list) else [value]
+            values[name] = [resolve_source(str(one), folder) for one in several]
         else:
             values[name] = value
     return with_options(config, values, where=where)

@@ -22,7 +22,7 @@ from texvent.errors import (
 )
 from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
-from texvent.runtime.yaml_text import keys_once
+from texvent.runtime.yaml_text import check_once, keys_once
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.scenes.spec.scene import Scene
 
@@ -137,7 +137,7 @@ def _csv_rows(path: Path, text: str) -> Iterator[Row]:
                 f"{shown(' | '.join(columns))}"
             )
         try:
-            keys_once([(one, None) for one in columns if one])
+            check_once([one for one in columns if one])
         except ValueError as error:
             raise FileFormatError(f"{path}: column {error}") from error
         for row in reader:

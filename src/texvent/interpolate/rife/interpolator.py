@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
 from texvent.interpolate.rife.weights import (
     Tensor,
     describe_rife_weights,
@@ -19,6 +18,7 @@ from texvent.interpolate.rife.weights import (
     read_rife_weights,
 )
 from texvent.pairs.instants import matching_levels, position
+from texvent.runtime.memory import explain_memory
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
@@ -86,10 +86,14 @@ class RifeInterpolator:
         """
         lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
         images, prepared, torch = image_tensors(first, second), None, import_torch()
+        what = (
+            f"a pair of frames does not fit into the memory of device {self._device}; choose a "
+            "smaller `sensor`, or hide the GPU with CUDA_VISIBLE_DEVICES="
+        )
         for t_us in times_us:
             at = position(first, second, t_us)
             # Not around the yield: the caller must not inherit the mode.
-            with torch.inference_mode(), _explain_memory(self._device):
+            with torch.inference_mode(), explain_memory(what):
                 prepared = prepared or self._prepare(images)
                 luma = self._luma_at(prepared, lumas, at)
             if not bool(luma.isfinite().all()):
@@ -161,21 +165,3 @@ def pad_to_multiple(image: Tensor, multiple: int) -> Tensor:
     below, right = -height % multiple, -width % multiple
     pad = import_torch().nn.functional.pad
     return pad(image, (0, right, 0, below), mode="replicate")
-
-
-@contextmanager
-def _explain_memory(device: str) -> Iterator[None]:
-    """Turn torch's failure of memory into one line.
-
-    Raises:
-        InputError: the images do not fit into the device's memory.
-    """
-    try:
-        yield
-    except RuntimeError as error:
-        if "memory" in str(error):
-            raise InputError(
-                f"a pair of frames does not fit into the memory of device {device}; choose a "
-                "smaller `sensor`, or hide the GPU with CUDA_VISIBLE_DEVICES="
-            ) from error
-        raise

@@ -20,6 +20,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
+from texvent_lab.bench.kept_frames import keep_frames
 from texvent_lab.bench.oracle.recording import TrueFrames, render_video
 from texvent_lab.bench.oracle.scenes import Scene
 
@@ -145,11 +146,14 @@ def missing_rife() -> str | None:
 
 
 def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
-    """Events of a video with a contrast threshold, log units, or the settings' own (None)."""
+    """Events of a video with a contrast threshold, log units, or the settings' own (None).
+
+    Frames of a network are made once for all runs; see `kept_frames`.
+    """
     if threshold is not None:
         simulate = with_contrast_threshold(settings.simulate, threshold)
         settings = dataclasses.replace(settings, simulate=simulate)
-    return prepare_video(video, settings).packets.collect()
+    return keep_frames(prepare_video(video, settings)).packets.collect()
 
 
 NAMED_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate", "paper")}

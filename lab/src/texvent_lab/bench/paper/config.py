@@ -68,8 +68,8 @@ class PaperConfig:
     weights: Path | None = None
     """Tables 1, 7, 8: published weights of the network; table 9: those of the classifier."""
     network: str | None = None
-    """Tables 1, 7, 8: network that reconstructs images; default: e2vid as in the
-    paper, for table 8 pie-net in place of its ET-Net."""
+    """Tables 1, 7, 8: network that reconstructs images; default: e2vid as in the paper where its
+    weights are, else pie-net, which is also in place of table 8's ET-Net."""
     rvt_weights: Path | None = None
     """Table 2: RVT's published weights, for EQS; or weights.pt of train detection, for eqs (own
     RVT)."""

@@ -29,6 +29,7 @@ from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 from texvent_lab.bench.fidelity.entries import Entry, FileEntry
 from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.kept_frames import keep_frames
 from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
 from texvent_lab.frame_recordings import FrameRecording
@@ -283,7 +284,7 @@ def simulate_recording(
         simulate: Any = settings.simulate
         linear = dataclasses.replace(simulate, gamma=plan.frames_gamma)
         settings = dataclasses.replace(settings, simulate=linear)
-    simulation = video_to_events(recording.frames, settings)
+    simulation = keep_frames(video_to_events(recording.frames, settings))
     if not plan.is_rate_matched or _threshold_of(simulation) is None:
         return simulation
     return match_rate(simulation, recorded_rate_hz(recording), seconds=MATCH_SECONDS)[0]

@@ -86,7 +86,8 @@ def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
 
 
 def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
-    """Tables 4 and 5, or one of them, on scenes and recordings."""
+    """Tables 4 and 5, or one of them, on scenes and recordings, with the time of the one run."""
+    started = time.perf_counter()
     entries = read_ablations(config.configs, is_rate_matched=config.match_rate)
     if config.table is not None:
         entries = leave_out_other_tables(config.table, entries)
@@ -107,6 +108,7 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
         measured = join_measured([*parts, e8] if number == 4 else parts)
         write_out(f"{compare_with_paper(TABLES[number], measured)}\n")
         tables[f"table {number}"] = asdict(measured)
+        tables[f"seconds {number}"] = time.perf_counter() - started
     for report in reports:
         write_out(f"{fidelity_tables(report, baseline=config.baseline)}\n")
     return {**tables, "reports": [report.document() for report in reports]}

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import h5py
 import numpy as np
@@ -30,11 +30,14 @@ from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips
 class SequenceData:
     """Clips of a data set specification, simulated when they are first needed."""
 
+    names_or_paths: ClassVar[tuple[str, ...]] = ("recordings",)
+    """Of these, what is no name of a data set is a path from the training file's folder."""
+
     specification: Path = Path()
     """Of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made before."""
     recordings: tuple[str, ...] = ()
-    """Recordings of frames and events in place of a specification: paths from the working folder,
-    or names of pulled data sets. Windows go from frame to frame; the last fifth is scored."""
+    """Recordings of frames and events in place of a specification: paths, or names of pulled data
+    sets. Windows go from frame to frame; the last fifth is scored."""
     variant: str | None = None
     """None: the only one."""
     split: str = "train"
