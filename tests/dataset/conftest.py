@@ -11,9 +11,8 @@ import pytest
 from tests.dataset.generation.small_sets import make
 
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.events import EventStream
 
 CARS: dict[str, Any] = {
@@ -49,7 +48,7 @@ def make_set(folder: Path, **changes: Any) -> Path:
 def samples_of(folder: Path, variant: str = "paper") -> dict[str, tuple[str, str, EventStream]]:
     """Key → split, class, events."""
     return {
-        sample.key: (shard.record.split, sample.label or "", read_events(shard.path, sample))
+        sample.key: (shard.record.split, sample.label or "", shard.files(sample).events())
         for shard in StoredDataset.open(folder).shards(variant)
         for sample in shard.samples
     }

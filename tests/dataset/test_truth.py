@@ -17,9 +17,9 @@ from texvent.cli.app import main
 from texvent.dataset.export import export
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.shards import read_record, write_record
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, InputError
 from texvent.view.drawing.panels import BOX_COLOUR
@@ -131,7 +131,7 @@ def test_simulated_samples_have_boxes_too() -> None:
 @pytest.mark.torch
 def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
     torch = pytest.importorskip("torch")
-    from texvent.dataset.loading.torch_samples import SampleDataset, collate
+    from texvent.dataset.torch_samples import SampleDataset, collate
 
     samples = texvent.dataset.open(labelled, variant="paper").with_targets("boxes", "flow")
     batch = collate([SampleDataset(samples)[number] for number in (0, 1)])

@@ -18,9 +18,9 @@ from texvent.config import check_range
 from texvent.dataset.generation.make import Work, begin, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import FAILED, MADE
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.progress import Progress

@@ -18,8 +18,7 @@ import numpy as np
 from texvent._version import full_version
 from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
-from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.sample import (
+from texvent.dataset.generation.make_sample import (
     KeptFrames,
     count_boxes,
     prepare_clip,
@@ -28,6 +27,7 @@ from texvent.dataset.generation.sample import (
     simulate_sample,
     with_seed,
 )
+from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.shards import (
     FAILED,
     FILTERED,

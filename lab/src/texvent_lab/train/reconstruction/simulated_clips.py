@@ -7,8 +7,8 @@ import json
 from pathlib import Path
 
 from texvent.batch.identity import digest
+from texvent.dataset.generation.make_sample import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.sample import prepare_clip, with_seed
 from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.generation.sample import SimulatedClip, sample_members
+from texvent.dataset.generation.make_sample import SimulatedClip, sample_members
 from texvent.dataset.generation.shards import (
     FILTERED,
     SampleRecord,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.dataset.loading.written_set import random_events, write_set, write_shard
+from tests.dataset.stored.written_set import random_events, write_set, write_shard
 
 import texvent.dataset
-from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.events import EventStream
 
 pytestmark = pytest.mark.torch
@@ -20,7 +20,7 @@ for _index in range(4):
 
 def batches(samples, *, batch_size, workers=0, **options):
     """Batches of torch's loader."""
-    from texvent.dataset.loading.torch_samples import SampleDataset, collate
+    from texvent.dataset.torch_samples import SampleDataset, collate
 
     context = {"num_workers": workers, "multiprocessing_context": "spawn"} if workers else {}
     dataset = SampleDataset(samples, **options)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.errors import ConfigError, InputError
 from texvent.represent.time_surface import time_surface
 from texvent.represent.voxel_grid import voxel_e2vid

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.loading.written_set import (
+from tests.dataset.stored.written_set import (
     DURATION_US,
     LABELS,
     SIZE,
@@ -22,7 +22,7 @@ from tests.dataset.loading.written_set import (
 )
 
 import texvent.dataset
-from texvent.dataset.loading.stored_samples import StoredSamples
+from texvent.dataset.stored.stored_samples import StoredSamples
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
