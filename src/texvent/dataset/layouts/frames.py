@@ -15,7 +15,6 @@ from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.make_shard import StoredVideos
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.specification.clips import clip_settings
 from texvent.dataset.stored.folder import StoredShard
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError
@@ -62,13 +61,7 @@ def clip_frames(recipe: Recipe, stored: StoredShard, sample: SampleRecord) -> It
     name = clip.item.video
     if name is not None and is_replaced(name, record.inputs.get(name, {"seen": ""})):
         raise InputError(f"{name} is not the video that the events of {sample.key} are of")
-    settings = clip_settings(
-        recipe.specification,
-        recipe.variants[shard.variant],
-        clip,
-        recipe.command,
-        is_stored=recipe.stores_videos,
-    )
+    settings = recipe.settings[shard.variant].of(clip)
     if not recipe.stores_videos:
         video = prepare_clip(recipe, clip, settings).video
         if name is None:
