@@ -20,7 +20,7 @@ REPRESENTATIONS: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize("options", REPRESENTATIONS)
-@pytest.mark.parametrize("length", [{}, {"slice_us": 3000}, {"slice_events": 15}])
+@pytest.mark.parametrize("length", [{}, {"slice_us": 3000}, {"slice_events": 10}])
 def test_arrays_are_those_of_the_whole_slices_of_the_events(
     table: SampleTable, length: dict[str, int], options: dict[str, Any]
 ) -> None:

@@ -16,12 +16,13 @@ from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
 
-Sample: TypeAlias = dict[str, Any]
+Arrays: TypeAlias = dict[str, Any]
+"""By name."""
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
 Augmentation: TypeAlias = Callable[[EventStream, np.random.Generator], EventStream]
 """Gives a changed copy of events, by draws of the generator alone."""
-Targets: TypeAlias = Callable[[Sequence[Window] | None], Sample]
+Targets: TypeAlias = Callable[[Sequence[Window] | None], Arrays]
 """Gives the targets of a clip by name: of windows, or (None) of the whole clip."""
 
 
@@ -86,7 +87,7 @@ class SampleTable(ABC):
     def seed_of(self, number: int) -> int:
         """Seed of the simulation of a sample."""
 
-    def make(self, number: int, *, epoch: int = 0) -> Sample:
+    def make(self, number: int, *, epoch: int = 0) -> Arrays:
         """Arrays of a sample by name, for training.
 
         Args:
@@ -187,10 +188,10 @@ class SampleTable(ABC):
         """Events, whole windows of `slice_us` (without one: that of the clip), and targets."""
 
     @abstractmethod
-    def _facts(self, number: int) -> Sample:
+    def _facts(self, number: int) -> Arrays:
         """Further facts that `make` gives."""
 
-    def _part(self, events: EventStream, window: Window) -> Sample:
+    def _part(self, events: EventStream, window: Window) -> Arrays:
         stop = {"stop_us": np.int64(window[1])}
         if self.representation is None:
             return {"events": events, **stop}
@@ -213,7 +214,7 @@ class SampleTable(ABC):
         return [(part, (int(part.t[0]), int(part.t[-1]) + 1)) for part in parts]
 
 
-def stack_windows(parts: Sequence[Mapping[str, Any]]) -> Sample:
+def stack_windows(parts: Sequence[Mapping[str, Any]]) -> Arrays:
     """Arrays by name of several windows, along a first axis of time; others as tuples."""
     columns = {name: [part[name] for part in parts] for name in parts[0]}
     return {

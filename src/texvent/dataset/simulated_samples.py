@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent.api import Source
 from texvent.config import check_range
-from texvent.dataset.sample_table import Sample, SampleTable, Targets, Window, stack_windows
+from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
@@ -200,14 +200,14 @@ class SimulatedSamples(SampleTable):
         clip = record_clip(self._simulation(number), self.slice_us)
         return clip.events, clip.windows, partial(self._targets, clip)
 
-    def _targets(self, clip: SlicedClip, windows: Sequence[Window] | None) -> Sample:
+    def _targets(self, clip: SlicedClip, windows: Sequence[Window] | None) -> Arrays:
         parts = [
             {name: target_of(clip, cast(Target, name), window) for name in self.targets}
             for window in windows or clip.windows
         ]
         return parts[0] if windows is None else stack_windows(parts)
 
-    def _facts(self, number: int) -> Sample:
+    def _facts(self, number: int) -> Arrays:
         return {"source": number % self.count}
 
     def _resolve(self, number: int) -> Settings:

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from texvent.dataset.sample_table import Sample, SampleTable, Targets, Window
+from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.index import MEMBERS, Choice, Index, choose, read_index
 from texvent.dataset.stored.sample_files import SampleFiles
@@ -265,8 +265,8 @@ class StoredSamples(SampleTable):
             windows = [(stop - step, stop) for stop in range(start + step, end + 1, step)]
         return files.columns(), windows, partial(self._targets, files.truth())
 
-    def _targets(self, truth: ClipTruth, windows: Sequence[Window] | None) -> Sample:
-        found: Sample = {}
+    def _targets(self, truth: ClipTruth, windows: Sequence[Window] | None) -> Arrays:
+        found: Arrays = {}
         for name in self.targets:
             times, values = _timed(truth, name)
             if windows is None:
@@ -276,7 +276,7 @@ class StoredSamples(SampleTable):
             found[name] = tuple(map(detection_target, parts) if name == "boxes" else parts)
         return found
 
-    def _facts(self, number: int) -> Sample:
+    def _facts(self, number: int) -> Arrays:
         caption, key = self.index.captions[self.index.caption[number]], self.index.key[number]
         number = self.class_number(number)
         return {"class_number": number, "caption": caption or "", "key": str(key)}
