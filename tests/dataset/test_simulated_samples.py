@@ -77,8 +77,6 @@ def test_videos_give_the_last_frame_of_each_slice():
         simulation={"fps": 50, "interpolate": "none"},
     )
     sample = samples.make(0)
-    assert sample["representation"].shape == (3, 5, 12, 16)
-    assert sample["stop_us"].tolist() == [30_000, 60_000, 90_000]
     # Frames lie at 0, 20, .. 100 ms; a frame at the very end of a slice is its last.
     np.testing.assert_array_equal(sample["frame"], CLIP[[1, 3, 4]].astype(np.float32))
 
