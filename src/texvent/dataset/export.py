@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -13,10 +12,8 @@ import numpy as np
 
 from texvent._registry import suggest
 from texvent._version import full_version
-from texvent.batch.ledger import Ledger
-from texvent.batch.manifest import describe_differences
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.shards import SampleRecord, read_json
+from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import (
     check_layout,
@@ -35,7 +32,8 @@ from texvent.dataset.layouts.rvt import RVT
 from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import ConfigError, OutputError, one_line, shown
-from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.io.atomic import is_hidden_part
+from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.runtime.file_names import inside
 from texvent.truth.boxes import BOX_RECORD
 
@@ -197,6 +195,7 @@ def _begin(
 
     Raises:
         OutputError: it is of something else.
+        FileFormatError: its note is damaged.
     """
     first = LAYOUTS[layout].first_class
     note = {
@@ -208,19 +207,17 @@ def _begin(
         "classes": list(classes.names),
         "class_numbers": {name: first + one for name, one in classes.numbers.items()},
     }
-    path = folder / NOTE_FILE
     try:
-        before = read_json(path.read_bytes()) if path.is_file() else None
+        before = read_note(folder / NOTE_FILE, remedy=REMEDY)
         if before == note:
             return
-        if isinstance(before, dict):
+        if before is not None:
             change = describe_differences(before, note)
             raise OutputError(f"{folder} is another export: {change}; {REMEDY}")
         found = folder.iterdir() if folder.exists() else ()
         if not all(map(is_hidden_part, found)):  # a part is all that a kill before the note leaves
             raise OutputError(f"{folder} holds something else; {REMEDY}")
         folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError, RecursionError) as error:
+    except OSError as error:
         raise OutputError(f"cannot go on in {folder} ({one_line(error)}); {REMEDY}") from error
-    with atomic_file(path, overwrite=False) as part:
-        part.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
+    write_note(folder / NOTE_FILE, note)

@@ -27,6 +27,7 @@ from typing import Any, Self
 from texvent.errors import OutputError, shown
 from texvent.runtime.file_locks import is_locked, locked
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.runtime.interrupts import clean_ups
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
 PREFIX = ".texvent-"
@@ -347,6 +348,9 @@ def remove_own_parts() -> None:
             with contextlib.suppress(OSError):
                 _remove(part)
         _own.discard(part)
+
+
+clean_ups.append(remove_own_parts)
 
 
 def sweep(folder: Path) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import SIMULATORS
-from texvent.batch.identity import derived_seed
 from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
 from texvent.generate.scene_input import Subject, prompt_of
@@ -37,6 +36,7 @@ from texvent.rig.imu import (
 from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
 from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
 from texvent.run.prepare import check_run, prepare_video
+from texvent.runtime.identity import derived_seed
 from texvent.runtime.progress import Progress
 from texvent.scenes.lens import lens_reach
 from texvent.scenes.scene import Scene

@@ -24,6 +24,14 @@ AGAIN_S = 0.05
 """After this time an interrupt that Python dropped is raised again."""
 
 Handler = Callable[[int, FrameType | None], object]
+clean_ups: list[Callable[[], None]] = []
+"""Calls that a process makes before it ends early."""
+
+
+def clean_up() -> None:
+    """Make all calls of `clean_ups`."""
+    for one in clean_ups:
+        one()
 
 
 class Interrupted(KeyboardInterrupt):

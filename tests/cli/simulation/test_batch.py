@@ -141,6 +141,16 @@ def test_another_video_of_the_same_name_is_not_taken_for_done(folder, capsys):
     assert "kept     2 of 2 samples, done before" in capsys.readouterr().err
 
 
+def test_the_folder_of_another_version_is_refused_whatever_its_rows_hold(folder, capsys):
+    write_video(folder / "v.npy", 0)
+    assert run("batch", "v.npy", "-o", "out", *FLAT) == 0
+    for name, key in (("batch.json", "texvent_version"), ("samples.jsonl", "inputs")):
+        facts = json.loads((folder / "out" / name).read_text())
+        (folder / "out" / name).write_text(json.dumps(dict(facts, **{key: None})) + "\n")
+    assert run("batch", "v.npy", "-o", "out", *FLAT) == 2
+    assert "made with other options: the version of texvent was not set" in capsys.readouterr().err
+
+
 def test_several_processes_make_the_same_files(folder, monkeypatch):
     (folder / "p.txt").write_text("a red car drives left\na dog runs\na ball bounces\n")
     seen = {"1": set(), "2": set()}

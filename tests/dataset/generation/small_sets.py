@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from texvent.batch.engines import Engine, SerialEngine
-from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import specification_from
+from texvent.runtime.engines import Engine, SerialEngine
 
 
 def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:
@@ -39,7 +40,7 @@ def make(recipe: Recipe, folder: Path, engine: Engine | None = None, **options: 
     recipe.begin(folder)
     work = find_work(recipe, folder, **options)
     with closing(engine or SerialEngine()) as running:
-        make_shards(work, running, lambda outcome: None)
+        list(work.make(running))
     return work
 
 

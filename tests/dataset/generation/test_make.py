@@ -15,7 +15,6 @@ from tests.dataset.conftest import CARS
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.batch.engines import ProcessEngine
 from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.make_sample import simulate_sample
@@ -29,6 +28,7 @@ from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
+from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 
@@ -289,7 +289,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
     assert counts[FAILED] == 1
     bad.write_bytes(good)
     (task,) = find_work(recipe, folder, retry_failed=True).todo
-    shard = folder / task.shards[0].path
+    shard = folder / task.units[0].path
     with pytest.MonkeyPatch.context() as patch:
 
         def killed(*words: object) -> None:
@@ -297,7 +297,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
 
         patch.setattr(make_shard, "write_record", killed)
         with pytest.raises(KeyboardInterrupt):
-            make_shard.make_together(recipe, folder, task.shards, retry_failed=True)
+            make_shard.make_together(recipe, folder, task.units, retry_failed=True)
     assert shard.exists()
     assert not shard.with_suffix(".json").exists()
     assert len(find_work(recipe, folder).todo) == 1

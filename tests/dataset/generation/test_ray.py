@@ -13,16 +13,10 @@ import pytest
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.batch.engines import Outcome
-from texvent.dataset.generation.make import (
-    ShardTask,
-    Work,
-    find_work,
-    make_shards,
-    remove_dead_parts,
-)
+from texvent.dataset.generation.make import ShardTask, find_work, remove_dead_parts
 from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
+from texvent.dataset.generation.work import Work
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
 
 pytestmark = pytest.mark.dataset
@@ -121,7 +115,7 @@ def test_a_node_without_texvent_or_with_other_packages_ends_the_run_in_one_line(
             no_cpu_of_the_head(cluster),
             pytest.raises(MissingDependencyError, match=message) as found,
         ):
-            make_shards(find_work(recipe, folder), engine, lambda outcome: None)
+            list(find_work(recipe, folder).make(engine))
     finally:
         cluster.remove_node(node, allow_graceful=False)
     assert "\n" not in str(found.value)
@@ -139,18 +133,14 @@ def test_a_cluster_that_is_not_there() -> None:
 def make_losing(cluster: Any, node: Any, recipe: Recipe, folder: Path) -> tuple[Work, int]:
     """Make a data set and lose a node after the first shard: what was done, in how many shards."""
     recipe.begin(folder)
-    work, seen = find_work(recipe, folder), list[Outcome]()
-
-    def lose_a_node(outcome: Outcome) -> None:
-        seen.append(outcome)
-        if len(seen) == 1:
-            cluster.remove_node(node, allow_graceful=False)
-
+    work, seen = find_work(recipe, folder), 0
     with closing(RayEngine(cluster.address)) as engine:
-        make_shards(work, engine, lose_a_node)
+        for seen, _ in enumerate(work.make(engine), start=1):
+            if seen == 1:
+                cluster.remove_node(node, allow_graceful=False)
     remove_dead_parts(recipe, folder)
     assert not work.failures
-    return work, len(seen)
+    return work, seen
 
 
 def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.list_files import read_list
+from texvent.dataset.specification.list_files import read_list
 from texvent.errors import FileFormatError
 
 FEWEST_WORDS, MOST_WORDS = 39, 124

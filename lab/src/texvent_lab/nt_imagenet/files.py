@@ -14,9 +14,9 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.identity import derived_seed
 from texvent.errors import FileFormatError, OutputError, one_line
 from texvent.io.atomic import atomic_file
+from texvent.runtime.identity import derived_seed
 from texvent_lab.nt_imagenet.selection import Stream
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"

@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.generation.make import Work, begin, find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import FAILED, MADE
+from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.engines import Engine, Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 
@@ -82,29 +82,26 @@ def run_make(arguments: Sequence[str]) -> int:
     recipe, folder = _open(options)
     begin(recipe, folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
-    with (
-        _told_how_to_go_on(folder),
-        contextlib.ExitStack() as later,
-        closing(_engine(options, work)) as engine,
-        ConsoleProgress(is_quiet=options.quiet) as progress,
-    ):
-        later.callback(remove_dead_parts, recipe, folder)
-        total = len(work.complete) + work.to_make
-        progress.advance("shards", len(work.complete), total)
-
-        def note(outcome: Outcome) -> None:
-            _announce(outcome, progress)
-            progress.advance("shards", len(work.complete), total)
-
-        make_shards(work, engine, note)
+    try:
+        with (
+            closing(_engine(options, work)) as engine,
+            ConsoleProgress(is_quiet=options.quiet) as progress,
+        ):
+            for outcome in work.make(engine, progress):
+                _announce(outcome, progress)
+    except KeyboardInterrupt:
+        say(f"kept     every finished shard; to go on: texvent dataset make {folder}")
+        raise
+    finally:
+        remove_dead_parts(recipe, folder)
     return _finish(folder, work, options, is_whole=part[1] == 1)
 
 
 def _announce(outcome: Outcome, progress: Progress) -> None:
     """Print the results of shards."""
-    for shard in outcome.task.shards if outcome.failure is not None else ():
+    for shard in outcome.task.units if outcome.failure is not None else ():
         progress.announce(f"failed   {shard.path}: {outcome.failure}")
-    for shard, record in zip(outcome.task.shards, outcome.result or (), strict=False):
+    for shard, record in zip(outcome.task.units, outcome.result or (), strict=False):
         for sample in record.samples:
             if sample.status == FAILED:
                 progress.announce(f"failed   {shard.path} {sample.key}: {sample.reason}")
@@ -112,15 +109,6 @@ def _announce(outcome: Outcome, progress: Progress) -> None:
             f"made     {shard.path}: {record.count(MADE)} samples, {record.events:,} events, "
             f"{record.seconds:.1f} s"
         )
-
-
-@contextlib.contextmanager
-def _told_how_to_go_on(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except KeyboardInterrupt:
-        say(f"kept     every finished shard; to go on: texvent dataset make {folder}")
-        raise
 
 
 def parse_part(text: str | None) -> tuple[int, int]:

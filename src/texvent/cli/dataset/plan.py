@@ -11,7 +11,6 @@ from typing import ClassVar
 
 from rich.table import Table
 
-from texvent.batch.prompts import tally_prompts
 from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
@@ -20,6 +19,7 @@ from texvent.config import check_range
 from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FILTERED
+from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.runtime.displays.console_progress import ConsoleProgress

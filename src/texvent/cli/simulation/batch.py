@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import glob
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from texvent._registry import GENERATORS
-from texvent._version import full_version
-from texvent.batch.engines import Outcome, local_engine
-from texvent.batch.manifest import SAMPLES_FILE, Manifest
-from texvent.batch.prompts import refuse_prompts, tally_prompts
-from texvent.batch.runner import BatchPlan, SampleTask
-from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, say_warning, write_out
@@ -24,14 +17,17 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
+from texvent.dataset.generation.event_files import WARNINGS, BatchPlan, EventFiles
+from texvent.dataset.generation.work import Work
+from texvent.dataset.specification.entries import Sample, are_videos, read_samples
+from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
 from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
-from texvent.run.prepare import check_run, prepare_prompt, prepare_source
+from texvent.run.prepare import check_run
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.progress import Progress
-from texvent.scenes.report import ReportTally
+from texvent.runtime.engines import local_engine
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 
@@ -105,22 +101,15 @@ def run(arguments: Sequence[str]) -> int:
     if (samples[0].video is not None) != is_of_videos:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)
-    manifest = Manifest(plan.folder, settings)
-    samples = tuple(manifest.settled(samples))
+    folder = EventFiles(plan)
+    samples = tuple(folder.settled(samples))
     if output.dry_run:
-        return _describe(plan, samples, manifest)
+        return _describe(plan, samples, folder.find_work(samples))
     if not is_of_videos:
         refuse_prompts([(sample.where, sample.subject) for sample in samples], settings)
     if isinstance(own, PromptBatchOptions):
         warn_low_fps(own.generator)
-    options = _options(plan, is_of_videos)
-    if not output.overwrite:
-        manifest.check_options(options)
-    todo = [one for one in samples if output.overwrite or not manifest.is_done(one)]
-    _refuse_files_of_others(plan, [one for one in todo if not manifest.is_known(one)])
-    plan.folder.mkdir(parents=True, exist_ok=True)
-    manifest.begin(options, todo)
-    return _make_all(plan, samples, todo, manifest, jobs=own.jobs, is_quiet=output.quiet)
+    return _make_all(plan, samples, folder, jobs=own.jobs, is_quiet=output.quiet)
 
 
 def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> BatchPlan:
@@ -148,115 +137,55 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         truth=output.truth_parts,
         overwrite=output.overwrite,
     )
-    return BatchPlan(settings, folder, extension, files)
+    return BatchPlan(settings, extension, files)
 
 
-def _refuse_files_of_others(plan: BatchPlan, samples: Sequence[Sample]) -> None:
-    """Refuse to replace what no batch in this folder has begun.
-
-    Raises:
-        OutputError: a file or folder of such a sample is there.
-    """
-    for sample in samples if not plan.files.overwrite else ():
-        for path in plan.files_of(sample).outputs:
-            if path.exists():
-                raise OutputError(
-                    f"{path} exists already, and {SAMPLES_FILE} beside it does not know it; name "
-                    "another folder with -o, or replace all with --overwrite"
-                )
-
-
-def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
-    """Options that must be the same when the batch goes on."""
-    truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
-    return {
-        **truth,
-        "texvent_version": full_version(),
-        "samples": "videos" if is_of_videos else "prompts",
-        "settings": plan.settings.as_tables(),
-        "format": plan.files.format or plan.extension,
-        "previews": list(plan.files.previews),
-    }
-
-
-def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) -> int:
+def _describe(plan: BatchPlan, samples: Sequence[Sample], work: Work) -> int:
     """Print the number of samples left and an estimate of the first."""
-    todo = [sample for sample in samples if not manifest.is_done(sample)]
-    write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
+    write_out(f"{len(samples)} samples, {len(work.complete)} done already\n")
     if samples[0].video is None:
         tally = tally_prompts([sample.subject for sample in samples], plan.settings)
         if tally is not None:
             write_out(f"prompts  {tally.line(verb='understood word for word')}\n")
-    if todo:
-        first = todo[0]
-        settings = plan.settings_of(first)
-        if first.video is not None:
-            simulation = prepare_source(first.video, settings, prompt=first.prompt)
-        else:
-            simulation = prepare_prompt(first.subject, settings)
-        write_out(f"the first, {first.name}:\n")
-        write_out(estimate_run(simulation) + "\n")
+    if work.todo:
+        first = work.todo[0].sample
+        write_out(f"the first, {first.name}:\n{estimate_run(plan.prepare(first))}\n")
     return 0
 
 
 def _make_all(
-    plan: BatchPlan,
-    samples: Sequence[Sample],
-    todo: Sequence[Sample],
-    manifest: Manifest,
-    *,
-    jobs: int,
-    is_quiet: bool,
+    plan: BatchPlan, samples: Sequence[Sample], folder: EventFiles, *, jobs: int, is_quiet: bool
 ) -> int:
-    tasks = [SampleTask(plan, sample) for sample in todo]
-    done, failed = len(samples) - len(tasks), 0
+    work = folder.begin(samples)
+    jobs = min(jobs, work.to_make or 1)
     try:
         with (
             ConsoleProgress(is_quiet=is_quiet) as progress,
-            closing(local_engine(min(jobs, len(tasks) or 1))) as engine,
+            closing(local_engine(jobs)) as engine,
         ):
-            if done:
-                progress.announce(f"kept     {done} of {len(samples)} samples, done before")
-            progress.advance("samples", done, len(samples))
-            for task in tasks:
-                engine.submit(task)
-            for _ in tasks:
-                outcome = engine.next()
-                if outcome.failure is None:
-                    done += 1
-                    _note(plan, manifest, outcome, progress)
-                    progress.advance("samples", done, len(samples))
-                else:
-                    failed += 1
-                    say(f"failed   {outcome.task.sample.where}: {outcome.failure}")
-            manifest.end()
-            tally = ReportTally()
-            for report in filter(None, map(manifest.report_of, samples)):
-                tally.add(report)
+            if work.complete:
+                done = f"{len(work.complete)} of {len(samples)} samples"
+                progress.announce(f"kept     {done}, done before")
+            for outcome in work.make(engine, progress, "samples"):
+                sample = outcome.task.sample
+                if outcome.failure is not None:
+                    say(f"failed   {sample.where}: {outcome.failure}")
+                for made in outcome.result or ():
+                    for text in made[WARNINGS]:
+                        say_warning(f"{sample.where}: {text}")
+                    folder.add(sample, made)
+                    events = f"{made['events']:,} events"
+                    progress.announce(f"made     {plan.files_of(sample).events}, {events}")
+            tally = folder.end(samples)
             if tally.prompts:
                 progress.announce(f"prompts  {tally.line()}")
     except KeyboardInterrupt:
-        say(f"kept     {done} of {len(samples)} samples; the same command goes on")
+        done = f"{len(work.complete)} of {len(samples)} samples"
+        say(f"kept     {done}; the same command goes on")
         raise
-    if failed:
+    if work.failures:
         raise TexventError(
-            f"{failed} of {len(samples)} samples failed; the others are in {plan.folder}"
+            f"{len(work.failures)} of {len(samples)} samples failed; the others are in "
+            f"{plan.folder}"
         )
     return 0
-
-
-def _note(plan: BatchPlan, manifest: Manifest, outcome: Outcome, progress: Progress) -> None:
-    """Note a complete sample, and say so."""
-    sample, made = outcome.task.sample, outcome.result
-    for text in made.warnings:
-        say_warning(f"{sample.where}: {text}")
-    files = plan.files_of(sample)
-    beside = plan.folder.glob(f"{glob.escape(files.events.name)}.*")  # formats without metadata
-    manifest.add(
-        sample,
-        [*files.outputs, *sorted(beside)],
-        events=made.events,
-        report=made.report,
-        inputs=made.inputs,
-    )
-    progress.announce(f"made     {files.events}, {made.events:,} events")

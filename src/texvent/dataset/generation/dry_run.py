@@ -9,12 +9,12 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.engines import Outcome, local_engine
-from texvent.dataset.generation.make import find_work, make_shards
+from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FAILED, MADE, ShardRecord, size_in_tar
 from texvent.dataset.specification.items import Items
 from texvent.errors import TexventError
+from texvent.runtime.engines import Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 
@@ -79,7 +79,7 @@ def try_samples(
     def note(outcome: Outcome) -> None:
         if outcome.failure is not None:
             raise TexventError(f"the trial failed: {outcome.failure}")
-        for shard, record in zip(outcome.task.shards, outcome.result, strict=True):
+        for shard, record in zip(outcome.task.units, outcome.result, strict=True):
             records[shard.variant].append(record)
         progress.advance("trial", sum(map(len, records.values())), len(chosen) * len(records))
 
@@ -91,7 +91,8 @@ def try_samples(
             trial, folder = Recipe(specification, Items(some)), Path(name).absolute() / str(number)
             records.update((stage, []) for stage in recipe.stages)
             trial.begin(folder)
-            make_shards(find_work(trial, folder), engine, note)
+            for outcome in find_work(trial, folder).make(engine):
+                note(outcome)
     return [_estimate(recipe, stage, records[stage]) for stage in recipe.stages]
 
 

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.engines import Engine, Outcome, local_engine
-from texvent.batch.prompts import refuse_prompts
 from texvent.dataset.generation.make_shard import find_replaced, is_complete, make_together
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
@@ -20,13 +17,14 @@ from texvent.dataset.generation.recipe import (
     load_recipe_once,
 )
 from texvent.dataset.generation.shards import FAILED, ShardRecord
+from texvent.dataset.generation.work import Work
+from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
 from texvent.io.atomic import sweep
+from texvent.runtime.engines import local_engine
 from texvent.runtime.progress import ProgressOption, open_progress
-
-OnOutcome = Callable[[Outcome], None]
 
 
 @dataclass(frozen=True)
@@ -34,13 +32,18 @@ class ShardTask:
     """A shard to make, or those of one place in several variants, for an engine."""
 
     folder: Path
-    shards: tuple[Shard, ...]
+    units: tuple[Shard, ...]
     retry_failed: bool = False
 
     @property
     def is_video(self) -> bool:
         """True for a shard of videos."""
-        return self.shards[0].variant == VIDEOS
+        return self.units[0].variant == VIDEOS
+
+    @property
+    def after(self) -> Shard | None:
+        """The shard of its videos, which are made first where they are stored."""
+        return None if self.is_video else replace(self.units[0], variant=VIDEOS)
 
     def run(self) -> list[ShardRecord]:
         """Make the shards in this process.
@@ -57,30 +60,15 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        return make_together(recipe, self.folder, self.shards, retry_failed=self.retry_failed)
-
-
-@dataclass
-class Work:
-    """Shards to make, complete shards and failures."""
-
-    complete: dict[Shard, Counter[str]] = field(default_factory=dict)
-    """Complete shards: status → number of samples."""
-    todo: list[ShardTask] = field(default_factory=list)
-    """Shards in order, those of videos first; those that show the same rendered clips together."""
-    failures: dict[Shard, str] = field(default_factory=dict)
-    """Shards that could not be made."""
-
-    @property
-    def to_make(self) -> int:
-        """Number of shards of `todo`."""
-        return sum(len(task.shards) for task in self.todo)
+        return make_together(recipe, self.folder, self.units, retry_failed=self.retry_failed)
 
 
 def find_work(
     recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
 ) -> Work:
-    """Complete shards and those to make.
+    """Complete shards, with their counts of samples by status, and tasks that make the others.
+
+    Shards that show the same rendered clips are made together, those of videos first.
 
     Args:
         recipe: of the data set.
@@ -93,7 +81,8 @@ def find_work(
         FileFormatError: the record of a shard is damaged.
     """
     which, parts = part
-    work, renders = Work(), not (recipe.items.are_videos or recipe.stores_videos)
+    work = Work(summary=attrgetter("statuses"))
+    renders = not (recipe.items.are_videos or recipe.stores_videos)
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
         for number, shard in enumerate(recipe.shards(stage)):
@@ -113,44 +102,6 @@ def find_work(
     for (_, again), shards in together.items():
         work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again))
     return work
-
-
-def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
-    """Make all that is to do; shards of events follow those of their videos.
-
-    Args:
-        work: what is to do; what is done is noted there.
-        engine: what makes it.
-        on_outcome: called for every task.
-
-    Raises:
-        ConfigError, OutputError, MissingDependencyError: what all shards would meet.
-    """
-    waiting: dict[Shard, list[ShardTask]] = {
-        task.shards[0]: [] for task in work.todo if task.is_video
-    }
-    running = 0
-    for task in work.todo:
-        of_video = waiting.get(replace(task.shards[0], variant=VIDEOS))
-        if of_video is not None and not task.is_video:
-            of_video.append(task)
-            continue
-        engine.submit(task)
-        running += 1
-    while running:
-        outcome = engine.next()
-        running -= 1
-        shards = outcome.task.shards
-        if outcome.failure is not None:
-            work.failures.update(dict.fromkeys(shards, outcome.failure))
-        else:
-            work.complete.update(
-                (s, r.statuses) for s, r in zip(shards, outcome.result, strict=True)
-            )
-            for task in waiting.pop(shards[0], ()):
-                engine.submit(task)
-                running += 1
-        on_outcome(outcome)
 
 
 def begin(recipe: Recipe, folder: Path) -> None:
@@ -205,9 +156,7 @@ def make(
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
     work = find_work(recipe, folder, retry_failed=retry_failed)
-    total = len(work.complete) + work.to_make
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
-        make_shards(
-            work, engine, lambda outcome: display.advance("shards", len(work.complete), total)
-        )
+        for _ in work.make(engine, display):
+            pass
     return work

@@ -16,8 +16,6 @@ from typing import Any
 import numpy as np
 
 from texvent._version import full_version
-from texvent.batch.engines import ENDING_ALL
-from texvent.batch.identity import digest
 from texvent.dataset.generation.make_sample import (
     KeptFrames,
     count_boxes,
@@ -46,7 +44,9 @@ from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
+from texvent.runtime.engines import ENDING_ALL
 from texvent.runtime.file_names import inside
+from texvent.runtime.identity import digest
 from texvent.scenes.assets.nouns import files_of
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.provenance import describe_state, is_replaced

@@ -13,7 +13,6 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.batch.manifest import describe_differences
 from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shards import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
@@ -38,6 +37,7 @@ from texvent.errors import (
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.options.values import option_names
+from texvent.run.ledger import describe_differences, write_note
 from texvent.run.prepare import check_run
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
@@ -219,8 +219,7 @@ class Recipe:
             "labels": list(self.items.labels),
             "specification": self.specification.tables,
         }
-        with atomic_file(folder / SPECIFICATION_FILE, overwrite=True) as part:
-            part.write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+        write_note(folder / SPECIFICATION_FILE, facts)
 
     def refuse_other(self, wanted: Recipe, folder: Path) -> None:
         """Refuse to go on with another specification than the one of the folder.

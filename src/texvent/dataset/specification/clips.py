@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from texvent.batch.identity import derived_seed, digest
 from texvent.dataset.specification.items import KEY_DIGITS, Item, Items
 from texvent.dataset.specification.specification import (
     Specification,
@@ -16,6 +15,7 @@ from texvent.dataset.specification.specification import (
     extreme_options,
 )
 from texvent.errors import ConfigError
+from texvent.runtime.identity import derived_seed, digest
 from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve
 

@@ -11,9 +11,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from texvent.batch.identity import derived_seed, digest
-from texvent.batch.list_files import ListEntry
-from texvent.batch.samples import entries_of, moved_together
+from texvent.dataset.specification.entries import entries_of, moved_together
+from texvent.dataset.specification.list_files import ListEntry
 from texvent.dataset.specification.specification import (
     SampleSource,
     Specification,
@@ -21,6 +20,7 @@ from texvent.dataset.specification.specification import (
     is_range,
 )
 from texvent.errors import ConfigError, InputError, shown
+from texvent.runtime.identity import derived_seed, digest
 from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
 from texvent.scenes.spec.scene import Scene
 from texvent.settings.provenance import describe_state

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import suggest
-from texvent.batch.list_files import read_list
+from texvent.dataset.specification.list_files import read_list
 from texvent.dataset.specification.specification import (
     Filters,
     SampleSource,

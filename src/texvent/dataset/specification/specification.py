@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import suggest
-from texvent.batch.identity import derived_seed
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, shown
 from texvent.options.values import plain
+from texvent.runtime.identity import derived_seed
 from texvent.truth.layout import CLIP_FILES
 
 MAX_SHARD = 100_000

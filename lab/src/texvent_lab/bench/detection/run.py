@@ -19,8 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent import dataset
-from texvent.batch.identity import digest
-from texvent.batch.ledger import Ledger
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
 from texvent.dataset.export import LEDGER_FILE, export
@@ -35,6 +33,8 @@ from texvent.io.atomic import atomic_file
 from texvent.io.files import open_events
 from texvent.options.values import plain
 from texvent.represent.histogram import stacked_histogram
+from texvent.run.ledger import Ledger
+from texvent.runtime.identity import digest
 from texvent.runtime.progress import NO_PROGRESS
 from texvent_lab.bench.detection.clips import bin_pixels, read_clips, scale
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData

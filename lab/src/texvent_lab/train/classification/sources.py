@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from texvent.batch.identity import digest
 from texvent.dataset.stored.stored_samples import open
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import event_extensions, load
+from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize, as_size
 from texvent_lab.train.classification.config import Source
 

@@ -12,13 +12,13 @@ from typing import Any, Protocol
 import h5py
 import numpy as np
 
-from texvent.batch.identity import digest
 from texvent.dataset.simulated_samples import Target
 from texvent.errors import InputError
 from texvent.extending import full_version
 from texvent.io.atomic import atomic_file
 from texvent.represent.slices import slice_between
 from texvent.runtime.cache_folder import make_folder
+from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import fingerprint
 from texvent_lab.frame_recordings import FrameRecording, locate_source, open_recording

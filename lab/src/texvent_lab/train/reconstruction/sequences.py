@@ -13,7 +13,6 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.batch.identity import digest
 from texvent.config import check_range
 from texvent.dataset.simulated_samples import SlicedClip, Target, record_clip, target_of
 from texvent.errors import ConfigError, InputError
@@ -21,6 +20,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
+from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import fingerprint
 from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips

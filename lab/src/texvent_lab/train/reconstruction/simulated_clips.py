@@ -6,7 +6,6 @@ import dataclasses
 import json
 from pathlib import Path
 
-from texvent.batch.identity import digest
 from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
@@ -15,6 +14,7 @@ from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.extending import full_version, suggest
 from texvent.pipeline import Simulation
+from texvent.runtime.identity import digest
 from texvent.settings.resolution import Settings
 
 

@@ -1,21 +1,76 @@
-"""Ledger of a folder: a line of JSON for every result that is begun, and one when it is complete.
+"""Notes in a folder by which work resumes: what it was made of, and a ledger of its results.
 
-A line names the files of its result with their states, so that files which are gone, cut or of
-another run are noticed; it says what the result was made of in the words of its command.
+The ledger has a line of JSON for every result that is begun, and one when it is complete. A line
+names the files of its result with their states, so that files which are gone, cut or of another
+run are noticed; it says what the result was made of in the words of its command.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, one_line
 from texvent.io.atomic import atomic_file
 from texvent.runtime.file_names import inside
 from texvent.settings.provenance import describe_state, is_unchanged
+
+
+def read_note(path: Path, *, remedy: str) -> Any:
+    """Facts that `write_note` wrote; None where there is no such file.
+
+    Raises:
+        FileFormatError: it is damaged; `remedy` says what to do.
+    """
+    if not path.is_file():
+        return None
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)}); {remedy}") from error
+
+
+def write_note(path: Path, facts: Mapping[str, Any]) -> None:
+    """Note plain facts in a file, in place of those that are there."""
+    with atomic_file(path, overwrite=True) as part:
+        part.write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+
+
+MOST_DIFFERENCES, MAX_VALUE = 3, 40
+"""Differences that an error names, and characters of a value."""
+
+
+def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
+    """Differences between two trees of options, at most three; empty if they are equal.
+
+    `name_of` gives an option's name from that in the tree.
+    """
+    found = list(_differences(old, new, name_of))
+    more = len(found) - MOST_DIFFERENCES
+    return "; ".join(found[:MOST_DIFFERENCES]) + (f" and {more} more" if more > 0 else "")
+
+
+def _differences(
+    old: Any, new: Any, name_of: Callable[[str], str], name: str = ""
+) -> Iterator[str]:
+    """Differences between two trees of options, as `name was this, is that`, leaf by leaf."""
+    if isinstance(old, Mapping) or isinstance(new, Mapping):
+        before, now = (one if isinstance(one, Mapping) else {} for one in (old, new))
+        for key in dict.fromkeys((*before, *now)):
+            yield from _differences(before.get(key), now.get(key), name_of, str(key))
+    elif old != new:
+        yield f"{name_of(name)[:40]} was {_value(old)}, is {_value(new)}"
+
+
+def _value(value: Any) -> str:
+    if value is None:
+        return "not set"
+    text = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+    return text if len(text) <= MAX_VALUE else f"{text[: MAX_VALUE - 3]}..."
+
 
 FILES = "files"
 """Name, in a line, of the files of a complete result and their states."""

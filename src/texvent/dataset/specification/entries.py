@@ -1,4 +1,4 @@
-"""The samples of a batch: prompts or videos, each with a name and a seed of its own."""
+"""Prompts, scenes and videos that sources give; the samples of a batch, each with name and seed."""
 
 from __future__ import annotations
 
@@ -11,40 +11,32 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.identity import derived_seed, digest
-from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list, scene_entry
+from texvent.dataset.specification.list_files import (
+    LIST_EXTENSIONS,
+    ListEntry,
+    read_list,
+    scene_entry,
+)
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.runtime.identity import derived_seed, digest
 from texvent.scenes.spec.data import scene_to_data
 from texvent.scenes.spec.files import is_scene_file
-from texvent.scenes.spec.scene import Scene
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""
 ID_DIGITS = 8
 
 
-@dataclass(frozen=True)
-class Sample:
-    """One run of a batch."""
+@dataclass(frozen=True, kw_only=True)
+class Sample(ListEntry):
+    """An entry as one run of a batch."""
 
     key: str
     """What makes it this sample, whatever stands beside it in the list: a digest of its prompt or
     video, its name and seed, and how many equal ones come before it."""
     name: str
-    """Name of its files, without extension."""
     seed: int
-    """Seed of its run."""
-    where: str
-    """Where it comes from, for messages."""
-    prompt: str | None = None
-    video: Path | None = None
-    scene: Scene | None = None
-
-    @property
-    def subject(self) -> str | Scene:
-        """What is shown: its scene, or else its prompt."""
-        return self.scene or self.prompt or ""
 
 
 def read_samples(
@@ -164,15 +156,12 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
         same = json.dumps([*what, entry.video and str(entry.video.absolute())])
         seen[same] += 1
         key = digest([*what, seen[same]])
-        yield Sample(
-            key=key,
-            name=entry.name or _made_name(entry, key),
-            seed=derived_seed(seed, key) if entry.seed is None else entry.seed,
-            where=entry.where,
-            prompt=entry.prompt,
-            video=entry.video,
-            scene=entry.scene,
-        )
+        own = {
+            "key": key,
+            "name": entry.name or _made_name(entry, key),
+            "seed": derived_seed(seed, key) if entry.seed is None else entry.seed,
+        }
+        yield Sample(**{**vars(entry), **own})
 
 
 def moved_together(path: Path | None) -> str | None:
@@ -192,7 +181,7 @@ def _refuse_equal_names(samples: Sequence[Sample]) -> None:
     for sample in samples:
         name = sample.name.lower()  # some file systems do not tell A from a
         where, key = places.setdefault(name, (sample.where, sample.key))
-        is_made = sample.key == key and name.endswith(key[:ID_DIGITS])  # `Manifest.settled` does
+        is_made = sample.key == key and name.endswith(key[:ID_DIGITS])  # `EventFiles.settled` does
         if where != sample.where and not is_made:
             raise InputError(
                 f"{sample.where} and {where} have one name, {shown(sample.name)}; give each its own"

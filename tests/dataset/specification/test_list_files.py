@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from texvent.batch.list_files import NOT_READ, ListEntry, read_list
+from texvent.dataset.specification.list_files import NOT_READ, ListEntry, read_list
 from texvent.errors import FileFormatError, TexventWarning
 
 

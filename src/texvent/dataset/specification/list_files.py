@@ -66,6 +66,11 @@ class ListEntry:
     label: str | None = None
     """Its class, for data sets."""
 
+    @property
+    def subject(self) -> str | Scene:
+        """Its scene, or else its prompt."""
+        return self.scene or self.prompt or ""
+
 
 def read_list(path: Path) -> tuple[ListEntry, ...]:
     """All entries of a list.

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.batch.samples import are_videos, read_samples
+from texvent.dataset.specification.entries import are_videos, read_samples
 from texvent.errors import InputError, TexventWarning
 
 
@@ -112,10 +112,7 @@ def test_under_a_camera_every_image_is_a_sample(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_named(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    sources: tuple[str, ...],
-    why: str,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sources: tuple[str, ...], why: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("empty").mkdir()

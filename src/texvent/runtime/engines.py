@@ -16,8 +16,7 @@ from multiprocessing import connection
 from typing import Any, Protocol
 
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError
-from texvent.io.atomic import remove_own_parts
-from texvent.runtime.interrupts import raise_interrupted
+from texvent.runtime.interrupts import clean_up, raise_interrupted
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
@@ -225,15 +224,12 @@ def stop_pools(*pools: ProcessPoolExecutor) -> None:
 
 @contextmanager
 def processes(count: int) -> Iterator[ProcessPoolExecutor]:
-    """A pool; if the block fails, its processes are ended and clean up."""
+    """A pool, whose processes end with the block and clean up what they are at."""
     pool = start_pool(count)
     try:
         yield pool
-    except BaseException:
-        stop_pools(pool)
-        raise
     finally:
-        pool.shutdown(cancel_futures=True)
+        stop_pools(pool)
 
 
 @contextmanager
@@ -247,7 +243,7 @@ def interruptible() -> Iterator[None]:
         with raise_interrupted():
             yield
     except KeyboardInterrupt:
-        remove_own_parts()
+        clean_up()
         os._exit(INTERRUPTED_EXIT)
 
 
