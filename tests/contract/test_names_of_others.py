@@ -18,8 +18,8 @@ from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export
 from texvent.dataset.generation.shards import TarShardWriter, read_members, read_record
 from texvent.dataset.preview import choose_samples, write_sample_page
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.statistics import DatasetStatistics, counts_rows, summary_lines
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import verify
 from texvent.errors import TexventError
 from texvent.runtime.file_names import inside

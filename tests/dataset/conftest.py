@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.dataset.generation.small_sets import make
+from tests.dataset.stored.written_set import write_set
 
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
+from texvent.dataset.sample_table import SampleTable
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.stored.folder import StoredDataset
+from texvent.dataset.stored.stored_samples import open as open_samples
 from texvent.events import EventStream
 
 CARS: dict[str, Any] = {
@@ -49,7 +52,7 @@ def make_set(folder: Path, **changes: Any) -> Path:
 def samples_of(folder: Path, variant: str = "paper") -> dict[str, tuple[str, str, EventStream]]:
     """Key → split, class, events."""
     return {
-        sample.key: (shard.record.split, sample.label or "", read_events(shard.path, sample))
+        sample.key: (shard.record.split, sample.label or "", shard.files(sample).events())
         for shard in StoredDataset.open(folder).shards(variant)
         for sample in shard.samples
     }
@@ -72,3 +75,27 @@ def cars(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def copied(cars: Path, tmp_path: Path) -> Path:
     """A copy of `cars` that a test may change."""
     return shutil.copytree(cars, tmp_path / "cars")
+
+
+CLIP = np.full((6, 12, 16), 200, np.uint8)
+for _index in range(6):
+    CLIP[_index, 4:8, 2 * _index : 2 * _index + 4] = 20
+"""A dark square that steps right."""
+
+
+@pytest.fixture(scope="session", params=["stored", "simulated"])
+def table(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> SampleTable:
+    """Events of both kinds of samples."""
+    if request.param == "simulated":
+        options = {"fps": 50, "sensor": "16x12", "interpolate": "none", "randomize": "stoffregen"}
+        videos = [CLIP, CLIP[::-1].copy()]
+        return SimulatedSamples(videos=videos, representation=None, simulation=options)
+    folder = tmp_path_factory.mktemp("set") / "cars"
+    write_set(folder)
+    return open_samples(folder)
+
+
+def dropped(events: EventStream, chance: np.random.Generator) -> EventStream:
+    """An augmentation: mirrored by chance, some events dropped."""
+    events = events.flip("x") if chance.random() < 0.5 else events
+    return events[chance.random(len(events)) < 0.7]

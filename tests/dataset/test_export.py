@@ -17,8 +17,8 @@ from tests.dataset.layouts.readers import READERS, Box
 import texvent
 from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export
-from texvent.dataset.layouts.samples import folder_name
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.layouts.checks import folder_name
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, InputError, OutputError
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.dataset.conftest import assert_same, samples_of
 
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.stored.folder import StoredDataset
 
 pytestmark = [
     pytest.mark.dataset,

@@ -11,7 +11,7 @@ from tests.dataset.conftest import CARS
 
 from texvent.cli.app import main
 from texvent.dataset.preview import choose_samples
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError
 
 

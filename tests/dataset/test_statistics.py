@@ -9,16 +9,15 @@ from pathlib import Path
 import pytest
 
 from texvent.dataset.generation.shards import FAILED, read_record, write_record
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
 from texvent.dataset.statistics import DatasetStatistics, quantiles, summary_lines
+from texvent.dataset.stored.folder import StoredDataset
 
 
 def test_counts_are_those_of_the_samples(cars: Path) -> None:
     statistics = DatasetStatistics.of(StoredDataset.open(cars))
     total = statistics.total
     events = [
-        len(read_events(shard.path, sample))
+        len(shard.files(sample).events())
         for shard in StoredDataset.open(cars).shards()
         for sample in shard.samples
     ]

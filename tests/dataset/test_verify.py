@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from texvent.cli.app import main
+from texvent.dataset.generation.make_sample import npy_bytes
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.sample import npy_bytes
 from texvent.dataset.generation.shards import (
     ShardRecord,
     TarShardWriter,
@@ -21,8 +21,8 @@ from texvent.dataset.generation.shards import (
     read_record,
     write_record,
 )
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
 from texvent.errors import ConfigError
 

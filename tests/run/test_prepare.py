@@ -7,7 +7,7 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.errors import InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from tests.dataset.loading.written_set import write_shard
+from tests.dataset.stored.written_set import write_shard
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

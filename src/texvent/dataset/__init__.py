@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from texvent.dataset.generation.make import make
-    from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples, open
-    from texvent.dataset.samples import SimulatedSamples
+    from texvent.dataset.simulated_samples import SimulatedSamples
     from texvent.dataset.specification.reading import read_specification
     from texvent.dataset.specification.specification import (
         Filters,
@@ -23,17 +22,18 @@ if TYPE_CHECKING:
         Specification,
         Variant,
     )
+    from texvent.dataset.stored.stored_samples import StoredSample, StoredSamples, open
 
 _HOME_OF = {
     "Filters": "specification.specification",
     "SampleSource": "specification.specification",
-    "SimulatedSamples": "samples",
+    "SimulatedSamples": "simulated_samples",
     "Specification": "specification.specification",
-    "StoredSample": "loading.stored_samples",
-    "StoredSamples": "loading.stored_samples",
+    "StoredSample": "stored.stored_samples",
+    "StoredSamples": "stored.stored_samples",
     "Variant": "specification.specification",
     "make": "generation.make",
-    "open": "loading.stored_samples",
+    "open": "stored.stored_samples",
     "read_specification": "specification.reading",
 }
 

@@ -3,27 +3,39 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+
+import numpy as np
 
 from texvent._registry import suggest
 from texvent._version import full_version
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
-from texvent.dataset.layouts.checks import check_layout, doubts_of, find_classes, find_recipe
+from texvent.dataset.layouts.checks import (
+    check_layout,
+    doubts_of,
+    find_classes,
+    find_recipe,
+    folder_name,
+)
 from texvent.dataset.layouts.coco import COCO
 from texvent.dataset.layouts.dsec_det import DSEC_DET
 from texvent.dataset.layouts.event_files import HDF5, N_CALTECH101, N_IMAGENET
+from texvent.dataset.layouts.frames import clip_frames
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.layouts.prophesee import GEN1, MEGAPIXEL
 from texvent.dataset.layouts.rvt import RVT
-from texvent.dataset.layouts.samples import Samples
 from texvent.dataset.layouts.timelens import TIMELENS
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import ConfigError, OutputError, one_line, shown
 from texvent.io.atomic import is_hidden_part
 from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.runtime.file_names import inside
+from texvent.truth.boxes import BOX_RECORD
 
 LAYOUTS: Mapping[str, Layout] = {
     "hdf5": HDF5,
@@ -99,10 +111,10 @@ def export(
     recipe, no_frames = find_recipe(dataset, chosen, layout)
     _begin(dataset, layout, folder, variant, listed)
     ledger = Ledger(folder / LEDGER_FILE, remedy=REMEDY)
-    samples = Samples(dataset, chosen, variant, listed, recipe)
+    samples = partial(_samples, dataset, chosen, variant, listed, recipe)
     ledger.write()
     written, kept, empty, others = 0, 0, 0, {*ledger}
-    for sample in samples:
+    for sample in samples():
         others.discard(sample.place)
         if ledger.is_complete(sample.place) and ledger.row(sample.place)["of"] == sample.made_of:
             kept += 1
@@ -114,11 +126,49 @@ def export(
         _remove(chosen.files_of(inside(folder, place)))
     ledger.forget(others)
     ledger.write()
-    chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
+    chosen.finish(folder, (one for one in samples() if (folder / one.place).exists()), listed.names)
     doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
     return Exports(written, kept, listed.names, doubts)
+
+
+def _samples(
+    dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList, recipe: Recipe | None
+) -> Iterator[LayoutSample]:
+    for shard in dataset.shards(variant):
+        for sample in shard.samples:
+            yield _layout_sample(shard, sample, layout, classes, recipe)
+
+
+def _layout_sample(
+    shard: StoredShard,
+    sample: SampleRecord,
+    layout: Layout,
+    classes: ClassList,
+    recipe: Recipe | None,
+) -> LayoutSample:
+    split, files = layout.split_of(shard.record.split), shard.files(sample)
+    label = folder_name(sample.label or "") if layout.needs_classes else ""
+    boxes, instants = np.empty(0, BOX_RECORD), np.empty(0, np.int64)
+    if layout.has_boxes:
+        truth = files.truth()
+        boxes, instants = classes.renumbered(truth.boxes, truth.classes), truth.box_times_us
+    return LayoutSample(
+        key=sample.key,
+        split=split,
+        place=layout.place.format(
+            split=split, folder=layout.folders.get(split, split), label=label, key=sample.key
+        ),
+        size=files.size,
+        start_us=sample.start_us,
+        stop_us=sample.start_us + sample.duration_us,
+        boxes=boxes,
+        instants_us=instants,
+        made_of=shard.record.sha256,
+        read_events=files.events,
+        read_frames=None if recipe is None else partial(clip_frames, recipe, shard, sample),
+    )
 
 
 def _write(layout: Layout, sample: LayoutSample, folder: Path, ledger: Ledger) -> bool:

@@ -11,10 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.generation.sample import PREVIEW_US, preview_png
+from texvent.dataset.generation.make_sample import PREVIEW_US, preview_png
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, sample_truth
+from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import InputError, shown
 from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS
@@ -83,8 +82,8 @@ def write_sample_page(
 
 def _card(sample: ChosenSample) -> str:
     shard, record = sample
-    events = read_events(shard.path, record)
-    truth = sample_truth(shard.path, record.key, record.members)
+    files = shard.files(record)
+    events, truth = files.events(), files.truth()
     truth.check(events.size)
     image = base64.b64encode(preview_png(events, truth)).decode("ascii")
     seconds = record.duration_us / MICROSECONDS

@@ -17,7 +17,7 @@ from texvent.dataset.generation.shards import (
     SampleRecord,
     ShardRecord,
 )
-from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import few
 from texvent.scenes.report import PromptReport, ReportTally, ranked
 from texvent.truth.boxes import SIZE_CLASSES

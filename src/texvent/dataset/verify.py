@@ -8,10 +8,9 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
-from pathlib import Path
 
+from texvent.dataset.generation.make_sample import COLUMNS, count_boxes
 from texvent.dataset.generation.recipe import VIDEOS
-from texvent.dataset.generation.sample import COLUMNS, count_boxes
 from texvent.dataset.generation.shards import (
     EXTENSION,
     FAILED,
@@ -19,12 +18,11 @@ from texvent.dataset.generation.shards import (
     MADE,
     SampleRecord,
     ShardRecord,
-    read_members,
     read_record,
 )
-from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, read_sample_facts, sample_truth
 from texvent.dataset.statistics import in_several_splits
+from texvent.dataset.stored.folder import SHARD_FILE, StoredDataset, StoredShard
+from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
 
@@ -126,12 +124,12 @@ def _check_shard(shard: StoredShard, *, contents: bool) -> tuple[list[str], list
 def _unsound(shard: StoredShard) -> Iterator[str]:
     for sample in shard.samples:
         try:
-            _check_sample(shard.path, sample)
+            _check_sample(shard.files(sample), sample)
         except FileFormatError as error:
             yield str(error).removeprefix(f"{shard.path}: ")
 
 
-def _check_sample(path: Path, sample: SampleRecord) -> None:
+def _check_sample(files: SampleFiles, sample: SampleRecord) -> None:
     """Refuse unsound events and ground truth, and facts that are of another sample.
 
     Raises:
@@ -140,24 +138,23 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
     lacking = [f"{name}.npy" for name in COLUMNS if f"{name}.npy" not in sample.members]
     if lacking:
         raise FileFormatError(f"sample {sample.key} has no {lacking[0]}")
-    events = read_events(path, sample)
+    events, facts = files.columns(), files.facts()
     if len(events) != sample.events:
         raise FileFormatError(
             f"sample {sample.key} has {len(events)} events, and its record says {sample.events}"
         )
-    facts = read_sample_facts(path, sample)
     for name in ("key", "clip", "seed", "width", "height", "label"):
         if facts.get(name) != getattr(sample, name):
             raise FileFormatError(
                 f"sample {sample.key}: {name} is {shown(facts.get(name))} in the shard, and "
                 f"{shown(getattr(sample, name))} in its record"
             )
-    truth = sample_truth(path, sample.key, sample.members)
+    truth = files.truth()
     truth.check(events.size)
     counted = count_boxes(truth)
     if (counted.get("boxes"), counted.get("tracks", 0)) != (sample.boxes, sample.tracks):
         raise FileFormatError(f"sample {sample.key}: its record counts other boxes than it has")
-    caption = read_members(path, sample.members, ("txt",)).get("txt", b"")
+    caption = files.read(("txt",)).get("txt", b"")
     if caption.decode("utf-8", errors="replace") != (sample.prompt or ""):
         raise FileFormatError(f"sample {sample.key}: its caption is not that of its record")
 

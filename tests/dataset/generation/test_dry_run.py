@@ -9,7 +9,7 @@ from tests.dataset.generation.small_sets import clips_recipe, make
 
 from texvent.dataset.generation.dry_run import try_samples
 from texvent.dataset.generation.shards import size_in_tar
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.runtime.progress import NO_PROGRESS
 
 

@@ -15,15 +15,15 @@ from tests.dataset.conftest import CARS
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.dataset.generation import make_shard, sample
+from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
+from texvent.dataset.generation.make_sample import simulate_sample
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import events_of, npy_column
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
+from texvent.dataset.stored.folder import StoredDataset
+from texvent.dataset.stored.sample_files import events_of, npy_column
 from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
@@ -96,11 +96,11 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) 
     assert len(thresholds) == 2
 
 
-@pytest.mark.parametrize("most_bytes", [40_000, sample.MOST_BYTES])
+@pytest.mark.parametrize("most_bytes", [40_000, make_sample.MOST_BYTES])
 def test_variants_that_share_frames_are_what_each_is_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
 ) -> None:
-    monkeypatch.setattr(sample, "MOST_BYTES", most_bytes)
+    monkeypatch.setattr(make_sample, "MOST_BYTES", most_bytes)
     rendered, render = [], ProceduralVideo._render
 
     def count(self: ProceduralVideo, memory: Any, t_us: int) -> Any:
@@ -262,8 +262,8 @@ def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
 def test_events_keep_their_times_wherever_a_clip_begins(start_us: int, last_us: int) -> None:
     times = [start_us, start_us + 7, start_us + last_us]
     events = EventStream.from_columns([1, 2, 3], [0] * 3, times, [0, 1, 1], size=(8, 6))
-    clip = sample.SimulatedClip(events, start_us, last_us, 3)
-    members = sample.sample_members(clip, {}, class_number=None, preview=True)
+    clip = make_sample.SimulatedClip(events, start_us, last_us, 3)
+    members = make_sample.sample_members(clip, {}, class_number=None, preview=True)
     columns = {name: npy_column(memoryview(members[f"{name}.npy"])) for name in "xytp"}
     assert events_of(columns, events.size).t.tolist() == times
 

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.dataset.specification.clips import Clips
+from texvent.dataset.specification.clips import Clips, ClipSettings
 from texvent.dataset.specification.items import read_items
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import draw_options, extreme_options
 from texvent.errors import ConfigError
+from texvent.settings.resolution import resolve
 
 
 def clips_of(prompts: list[str], **changes: object) -> Clips:
@@ -116,3 +117,14 @@ def test_every_end_of_a_range_is_among_the_extremes() -> None:
         {"a": 1, "b": "y", "c": 3},
         {"a": 1, "b": "z", "c": 3},
     ]
+
+
+@pytest.mark.parametrize("threshold", [0.1, {"choice": [0.1]}, {"uniform": [0.1, 0.3]}])
+def test_settings_of_a_clip_are_those_of_its_options_with_its_seed(threshold: object) -> None:
+    options = {"duration": 0.1, "contrast_threshold": threshold}
+    clips = clips_of(["a car", "a dog"], options=options, seed=3)
+    settings = ClipSettings("generate", options, 3)
+    for number in range(2):
+        clip = clips.clip("train", number)
+        drawn = draw_options(options, 3, clip.key)
+        assert settings.of(clip) == resolve("generate", {**drawn, "seed": clip.seed})

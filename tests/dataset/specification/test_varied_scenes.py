@@ -9,11 +9,11 @@ import pytest
 
 from texvent.dataset.generation.make import make
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.loading.stored_samples import open as open_samples
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.items import Items, read_items
 from texvent.dataset.specification.reading import read_specification, specification_from
 from texvent.dataset.statistics import in_several_splits
+from texvent.dataset.stored.folder import StoredDataset
+from texvent.dataset.stored.stored_samples import open as open_samples
 from texvent.errors import ConfigError, InputError
 
 CAR = """prompt = "a {objects[0].colour} car"

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.generation.recipe import ITEMS_FILE, read_facts
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
 from texvent.dataset.specification.clips import clip_key, video_seed
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
@@ -63,7 +62,7 @@ def list_samples(
                 raise InputError(
                     f"{folder} is made of videos without prompts; there is no text to fit"
                 )
-            load = partial(read_events, shard.path, sample)
+            load = shard.files(sample).events
             recording = Recording(id, sample.prompt, load, sample.key)
             found.setdefault(shard.record.variant, []).append(recording)
     if not found:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.torch_samples import collate
+from texvent.dataset.torch_samples import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor

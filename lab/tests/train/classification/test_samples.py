@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.loading.written_set import write_shard
+from tests.dataset.stored.written_set import write_shard
 
 from texvent.cli.app import main
 from texvent.events import EventStream

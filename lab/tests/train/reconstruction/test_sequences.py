@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.dataset.samples import record_clip, target_of
+from texvent.dataset.simulated_samples import record_clip, target_of
 from texvent.errors import ConfigError, InputError
 from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
 from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips

@@ -17,9 +17,9 @@ from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import FAILED, MADE
 from texvent.dataset.generation.work import Work
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.engines import Engine, Outcome, local_engine

@@ -19,7 +19,6 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.export import LAYOUTS, export
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.statistics import (
     COUNTS,
     MICROSECONDS,
@@ -27,6 +26,7 @@ from texvent.dataset.statistics import (
     counts_rows,
     summary_lines,
 )
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
 from texvent.errors import ConfigError
 from texvent.runtime.file_names import inside

@@ -16,16 +16,15 @@ from typing import Any
 import numpy as np
 
 from texvent._version import full_version
-from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.sample import (
+from texvent.dataset.generation.make_sample import (
     KeptFrames,
     count_boxes,
     prepare_clip,
     record_truth,
     sample_members,
     simulate_sample,
-    with_seed,
 )
+from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.shards import (
     FAILED,
     FILTERED,
@@ -38,7 +37,7 @@ from texvent.dataset.generation.shards import (
     record_path,
     write_record,
 )
-from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed, video_settings
+from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
 from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
@@ -212,13 +211,7 @@ class _ShardSamples:
                 yield _record(clip.key, clip, clip.seed), partial(self._make_video, clip)
                 continue
             variant = self._recipe.variants[self._shard.variant]
-            settings = clip_settings(
-                self._recipe.specification,
-                variant,
-                clip,
-                self._recipe.command,
-                is_stored=self._stored is not None,
-            )
+            settings = self._recipe.settings[variant.name].of(clip)
             for number in range(variant.seeds):
                 key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
                 seed = simulation_seed(clip, number)
@@ -226,7 +219,8 @@ class _ShardSamples:
                 yield _record(key, clip, seed), make
 
     def _make_video(self, clip: Clip) -> tuple[Members, dict[str, Any]]:
-        settings = video_settings(self._recipe.specification, clip, self._recipe.command)
+        settings = self._recipe.settings[VIDEOS].of(clip)
+        settings = replace(settings, run=replace(settings.run, sensor=None))  # its generator's size
         path = self._scratch / f"{clip.key}{EXTENSION}"
         stored = write_stream(make_video(clip.item.subject, settings), path, overwrite=True)
         content = path.read_bytes()

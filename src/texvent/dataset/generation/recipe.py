@@ -13,8 +13,9 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
+from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shards import EXTENSION, read_json
-from texvent.dataset.specification.clips import Clip, Clips, check_options
+from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import (
@@ -35,7 +36,9 @@ from texvent.errors import (
 )
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note
+from texvent.run.prepare import check_run
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
@@ -82,7 +85,7 @@ class Recipe:
                 that leave a split empty.
         """
         recipe = cls(specification, read_items(specification))
-        check_options(specification, recipe.command, is_stored=recipe.stores_videos)
+        recipe._check_options()
         check_truth(specification, recipe.items, is_stored=recipe.stores_videos)
         recipe.clips  # noqa: B018  (refuses splits that would be empty)
         if VIDEOS in (variant.name for variant in specification.variants):
@@ -120,6 +123,34 @@ class Recipe:
         name = self.specification.options.get("generator", next(iter(GENERATORS.builtin)))
         return not renders_instants(GENERATORS.load(name))
 
+    @functools.cached_property
+    def settings(self) -> Mapping[str, ClipSettings]:
+        """Stage → the settings of its clips."""
+        found, options, seed = {}, self.specification.options, self.specification.seed
+        # A stored video cannot be rendered at any instant, whatever its generator could do.
+        basis = {"interpolate": InterpolateConfig.interpolate} if self.stores_videos else {}
+        for name, variant in self.variants.items():
+            own = {**basis, **options, **variant.options}
+            found[name] = ClipSettings(self.command, own, seed)
+        return {VIDEOS: ClipSettings(self.command, options, seed), **found}
+
+    def _check_options(self) -> None:
+        """Refuse options that some run would refuse, and those of a variant that change the video.
+
+        Raises:
+            ConfigError, InputError, MissingDependencyError: as `texvent.run.prepare.check_run`.
+        """
+        for name, variant in self.variants.items():
+            for settings in self.settings[name].extremes:
+                check_run(settings)
+                of_video = {"generator", *option_names(type(settings.source))}
+                wrong = [one for one in variant.options if one in of_video]
+                if wrong and self.command == "generate":
+                    raise ConfigError(
+                        f"variant {name} sets {wrong[0]}, which changes the video; all variants "
+                        "are simulated from the same one: set it in options"
+                    )
+
     @property
     def prompt_settings(self) -> Settings:
         """The settings that all prompts share; ranges are left out."""
@@ -132,10 +163,10 @@ class Recipe:
         return {stage: tuple(dict.fromkeys(self._find_files(stage))) for stage in self.stages}
 
     def _find_files(self, stage: str) -> Iterator[str]:
-        own = {} if stage == VIDEOS else self.variants[stage].options
+        own = self.settings[stage]
         with warnings_to(lambda text: None):  # they were told when the options were checked
-            for options in extreme_options({**self.specification.options, **own}):
-                yield from files_read(resolve(self.command, options))
+            for options, settings in zip(extreme_options(own.options), own.extremes, strict=True):
+                yield from files_read(settings)
                 sensor = str(options.get("sensor"))
                 yield from [sensor] if sensor.lower().endswith(SENSOR_FILES) else ()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,9 +11,9 @@ from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.layout import Layout
-from texvent.dataset.layouts.samples import folder_name
-from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError, few, shown
+from texvent.runtime.file_names import MAX_NAME_BYTES
 
 MOST_CLASSES = 255
 """Their numbers are stored in 8 bits."""
@@ -51,6 +52,22 @@ def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str
 
 def _samples(dataset: StoredDataset, variant: str) -> Iterator[SampleRecord]:
     return (sample for shard in dataset.shards(variant) for sample in shard.samples)
+
+
+def folder_name(label: str) -> str:
+    """A class as the name of a folder.
+
+    Raises:
+        InputError: nothing of it can be one.
+
+    Example:
+        >>> folder_name("fire truck/red")
+        'fire_truck_red'
+    """
+    name = re.sub(r"[^\w.-]+", "_", label).strip("._")
+    if not name or len(name.encode()) > MAX_NAME_BYTES:
+        raise InputError(f"class {shown(label)} cannot name a folder; give it another name")
+    return name
 
 
 def _check_labels(dataset: StoredDataset, layout: Layout) -> None:

@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.make_shard import StoredVideos
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.sample import prepare_clip
-from texvent.dataset.generation.shards import SampleRecord, ShardRecord
-from texvent.dataset.reading.stored_events import read_sample_facts
-from texvent.dataset.specification.clips import clip_settings
+from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.stored.folder import StoredShard
+from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError
 from texvent.pipeline import fit_to_sensor
 from texvent.settings.provenance import is_replaced
@@ -41,53 +41,46 @@ def write_frames(frames: FrameStream, folder: Path) -> NDArray[np.int64]:
 
 
 @contextmanager
-def clip_frames(
-    recipe: Recipe, folder: Path, shard: Shard, record: ShardRecord, sample: SampleRecord
-) -> Iterator[FrameStream]:
+def clip_frames(recipe: Recipe, stored: StoredShard, sample: SampleRecord) -> Iterator[FrameStream]:
     """Frames of a clip at the size of its events.
 
     Args:
         recipe: of the data set.
-        folder: of the data set.
-        shard: that its sample is in.
-        record: of the shard.
+        stored: shard that its sample is in.
         sample: that shows the clip.
 
     Raises:
         InputError: its video, or a file that its scene shows, is not the one of its events.
         TexventError: the video cannot be read or made.
     """
+    record = stored.record
+    shard = Shard(record.variant, record.split, int(record.name.rpartition("-")[2]))
     clip = next((one for one in recipe.clips_of(shard) if one.key == sample.clip), None)
     if clip is None:
         raise FileFormatError(f"sample {sample.key} shows a clip that is not of {shard.path}")
     name = clip.item.video
     if name is not None and is_replaced(name, record.inputs.get(name, {"seen": ""})):
         raise InputError(f"{name} is not the video that the events of {sample.key} are of")
-    settings = clip_settings(
-        recipe.specification,
-        recipe.variants[shard.variant],
-        clip,
-        recipe.command,
-        is_stored=recipe.stores_videos,
-    )
+    settings = recipe.settings[shard.variant].of(clip)
     if not recipe.stores_videos:
         video = prepare_clip(recipe, clip, settings).video
         if name is None:
-            _check_files(video, folder / shard.path, sample)
+            _check_files(video, stored.files(sample))
         yield video
         return
     with tempfile.TemporaryDirectory() as scratch:
-        stored = StoredVideos(folder, replace(shard, variant=VIDEOS), Path(scratch))
-        yield fit_to_sensor(stored.open(clip), settings)
+        folder = stored.path.parent.parent
+        videos = StoredVideos(folder, replace(shard, variant=VIDEOS), Path(scratch))
+        yield fit_to_sensor(videos.open(clip), settings)
 
 
-def _check_files(video: FrameStream, path: Path, sample: SampleRecord) -> None:
+def _check_files(video: FrameStream, files: SampleFiles) -> None:
     """Refuse a scene that shows other files than it did; the data set may come from others.
 
     Raises:
         InputError: see above.
     """
-    source = read_sample_facts(path, sample).get("source")
+    source = files.facts().get("source")
     listed = source.get("files") if isinstance(source, dict) else None
     if video.metadata.get("files", []) != (listed or []):
-        raise InputError(f"the files that the scene of {sample.key} shows are not as they were")
+        raise InputError(f"the files that the scene of {files.key} shows are not as they were")

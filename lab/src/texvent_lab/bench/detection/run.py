@@ -23,10 +23,10 @@ from texvent.config import check_range
 from texvent.data.pull import find_pulled
 from texvent.dataset.export import LEDGER_FILE, export
 from texvent.dataset.layouts.rvt import WINDOW_US
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.items import read_items
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
+from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.extending import require, suggest
 from texvent.io.atomic import atomic_file

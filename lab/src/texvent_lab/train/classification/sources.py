@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from texvent.dataset.loading.stored_samples import open
+from texvent.dataset.stored.stored_samples import open
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import event_extensions, load

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import h5py
 import numpy as np
 
-from texvent.dataset.samples import Target
+from texvent.dataset.simulated_samples import Target
 from texvent.errors import InputError
 from texvent.extending import full_version
 from texvent.io.atomic import atomic_file

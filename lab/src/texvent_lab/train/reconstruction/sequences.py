@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
-from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
+from texvent.dataset.simulated_samples import SlicedClip, Target, record_clip, target_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file

@@ -6,9 +6,9 @@ import dataclasses
 import json
 from pathlib import Path
 
+from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.sample import prepare_clip, with_seed
-from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed
+from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
@@ -88,10 +88,7 @@ class SimulatedClips:
         return digest([json.dumps(parts, sort_keys=True)])
 
     def _settings(self, clip: Clip) -> Settings:
-        recipe = self.recipe
-        return clip_settings(
-            recipe.specification, self.variant, clip, recipe.command, is_stored=False
-        )
+        return self.recipe.settings[self.variant.name].of(clip)
 
     def _clip(self, number: int) -> tuple[Clip, int]:
         if not 0 <= number < len(self):

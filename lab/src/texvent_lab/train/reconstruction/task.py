@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.samples import Target
+from texvent.dataset.simulated_samples import Target
 from texvent.errors import ConfigError, InputError
 from texvent.extending import require
 from texvent.metrics.image_measures import Float64Array

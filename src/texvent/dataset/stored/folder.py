@@ -1,14 +1,12 @@
-"""Stored data set: its folder, shards and records, made here or by others."""
+"""Folder of a stored data set: its shards and records, made here or by others."""
 
 from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeGuard
 
 from texvent._registry import suggest
 from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts, read_recipe
@@ -20,7 +18,9 @@ from texvent.dataset.generation.shards import (
     read_record,
 )
 from texvent.dataset.specification.specification import check_name
+from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError, one_line, shown
+from texvent.sensor import SensorSize
 
 SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>[0-9]{6,})\.(tar|json)")
 
@@ -46,14 +46,28 @@ class StoredShard:
         """Samples that are in it."""
         return (sample for sample in self.record.samples if sample.status == MADE)
 
+    def files(self, sample: SampleRecord) -> SampleFiles:
+        """The files of one of its samples."""
+        size = SensorSize(sample.width, sample.height)
+        return SampleFiles(self.path, sample.key, sample.members, size)
+
 
 @dataclass(frozen=True)
 class StoredDataset:
     """A data set, whole or in part; records are read when they are asked for."""
 
     folder: Path
-    facts: Mapping[str, Any]
-    """Content of its specification.json."""
+    name: str
+    identity: str
+    """Identity that its records name."""
+    variants: tuple[str, ...]
+    """Their names."""
+    splits: tuple[str, ...]
+    """Their names."""
+    labels: tuple[str, ...]
+    """Names of the classes in the order of their numbers."""
+    box_classes: tuple[str, ...]
+    """Classes of boxes that its specification names, in the order of their numbers."""
 
     @classmethod
     def open(cls, folder: Path) -> StoredDataset:
@@ -63,9 +77,18 @@ class StoredDataset:
             InputError: there is none.
             FileFormatError: its specification is damaged.
         """
-        dataset = cls(folder, read_facts(folder))
+        facts = read_facts(folder)
         try:
-            dataset.name, dataset.identity, dataset.labels, dataset.box_classes  # noqa: B018
+            tables = facts["specification"]
+            dataset = cls(
+                folder,
+                name=str(tables["name"]),
+                identity=str(facts["identity"]),
+                variants=tuple(dict.fromkeys(str(one["name"]) for one in tables["variants"])),
+                splits=tuple(tables["splits"]),
+                labels=tuple(map(str, facts.get("labels", ()))),
+                box_classes=tuple(dict.fromkeys(str(one) for _, one in tables.get("classes", ()))),
+            )
             for name in (*dataset.variants, *dataset.splits):
                 check_name("a variant or split", name)
         except (KeyError, TypeError, AttributeError, ValueError) as error:
@@ -73,42 +96,6 @@ class StoredDataset:
                 f"{folder / 'specification.json'} is damaged ({one_line(error)})"
             ) from error
         return dataset
-
-    @property
-    def specification(self) -> Mapping[str, Any]:
-        """Its specification as plain values."""
-        tables: Mapping[str, Any] = self.facts["specification"]
-        return tables
-
-    @property
-    def name(self) -> str:
-        """Name of the data set."""
-        return str(self.specification["name"])
-
-    @property
-    def identity(self) -> str:
-        """Identity that its records name."""
-        return str(self.facts["identity"])
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """Names of the classes in the order of their numbers."""
-        return tuple(map(str, self.facts.get("labels", ())))
-
-    @property
-    def box_classes(self) -> tuple[str, ...]:
-        """Classes of boxes that its specification names, in the order of their numbers."""
-        return tuple(dict.fromkeys(str(one) for _, one in self.specification.get("classes", ())))
-
-    @property
-    def splits(self) -> tuple[str, ...]:
-        """Names of the splits."""
-        return tuple(self.specification["splits"])
-
-    @cached_property
-    def variants(self) -> Mapping[str, Mapping[str, Any]]:
-        """Name → what the specification says of it."""
-        return {str(one["name"]): one for one in self.specification["variants"]}
 
     @property
     def has_videos(self) -> bool:
@@ -121,23 +108,30 @@ class StoredDataset:
         Raises:
             FileFormatError: a record is damaged.
         """
+        for path, record in self.records(*variants):
+            if self.find_problem(path, record) is None:
+                yield StoredShard(path, record)
+
+    def records(self, *variants: str) -> Iterator[tuple[Path, ShardRecord]]:
+        """As `shards`, whether or not the tars are there: their paths, and the records."""
         for variant in variants or self.variants:
             for path in self.shard_files(variant):
                 record = read_record(path)
-                if (
-                    self.is_own(record, path)
-                    and path.is_file()
-                    and path.stat().st_size == record.bytes
-                ):
-                    yield StoredShard(path, record)
+                if record is not None:
+                    yield path, record
 
-    def is_own(self, record: ShardRecord | None, path: Path) -> TypeGuard[ShardRecord]:
-        """True if a record is there, of this data set, and of the shard at `path`."""
-        return (
-            record is not None
-            and record.identity == self.identity
-            and (record.variant, record.name) == (path.parent.name, path.stem)
-        )
+    def find_problem(self, path: Path, record: ShardRecord) -> str | None:
+        """Reason why the tar at a path is not the one of a record; None: it is."""
+        place = (self.identity, path.parent.name, path.stem)
+        if (record.identity, record.variant, record.name) != place:
+            return f"{path} belongs to another data set"
+        try:
+            size = path.stat().st_size
+        except OSError as error:
+            return f"cannot read {path} ({one_line(error)}), and its record is there"
+        if size != record.bytes:
+            return f"{path} has {size:,} bytes and its record says {record.bytes:,}"
+        return None
 
     def shard_files(self, variant: str) -> list[Path]:
         """Tars of a variant that are there or have a record, in the order of the splits."""
@@ -162,7 +156,7 @@ class StoredDataset:
 
         A copy without items.jsonl is judged by the numbers alone: the last shards are not missed.
         """
-        variants = variants or tuple(self.variants)
+        variants = variants or self.variants
         there = {shard.place for shard in self.shards(*variants)}
         expected = self.expected()
         if expected is None:
@@ -175,7 +169,7 @@ class StoredDataset:
         Raises:
             InputError: there is no such, or several and none is named.
         """
-        names = tuple(self.variants)
+        names = self.variants
         if name is None:
             if len(names) > 1:
                 raise InputError(

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.specification.clips import Clip
+from texvent.dataset.specification.clips import Clip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
@@ -108,11 +108,6 @@ def prepare_clip(
         parts = {one.name: getattr(video, one.name) for one in fields(video)}
         video = _SharedVideo(**parts, kept=frames)
     return prepare_video(video, settings, prompt=prompt)
-
-
-def with_seed(settings: Settings, seed: int) -> Settings:
-    """The same settings with another seed."""
-    return replace(settings, run=replace(settings.run, seed=seed))
 
 
 def record_truth(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.generation.sample import SimulatedClip, sample_members
+from texvent.dataset.generation.make_sample import SimulatedClip, sample_members
 from texvent.dataset.generation.shards import (
     FILTERED,
     SampleRecord,
@@ -44,7 +44,8 @@ def write_shard(
     """A shard of these samples, one that was filtered out, and its record."""
     path = folder / variant / f"{split}-{number:06d}.tar"
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_specification(folder)
+    facts = {"identity": "", "labels": [*LABELS, "dog"], "specification": SPECIFICATION}
+    (folder / "specification.json").write_text(json.dumps(facts))
     records = [SampleRecord(key="gone", clip="gone", status=FILTERED, seed=0)]
     with path.open("wb") as file:
         writer = TarShardWriter(file)
@@ -91,31 +92,21 @@ def write_shard(
     return path
 
 
-def write_specification(folder: Path) -> None:
-    """What the folder says of itself."""
-    facts = {
-        "identity": "",
-        "labels": ["bus", "car", "dog"],
-        "specification": {
-            "name": "random",
-            "splits": {"test": 0.5, "train": 0.5},
-            "variants": [{"name": "esim"}, {"name": "paper"}],
-        },
-    }
-    (folder / "specification.json").write_text(json.dumps(facts))
+SPECIFICATION = {
+    "name": "random",
+    "splits": {"test": 0.5, "train": 0.5},
+    "variants": [{"name": "esim"}, {"name": "paper"}],
+}
 
 
-def write_set(folder: Path, *, per_shard: int = 3, shards: int = 2) -> dict[str, EventStream]:
+def write_set(folder: Path) -> dict[str, EventStream]:
     """Two variants, two splits; key → events, in the order of `texvent.dataset.open`."""
     written: dict[str, EventStream] = {}
     for variant in ("esim", "paper"):
         for split in ("test", "train"):
-            for number in range(shards):
-                begin = len(written)
-                samples = {
-                    f"k{begin + place:03d}": random_events(begin + place)
-                    for place in range(per_shard)
-                }
+            for number in range(2):
+                names = range(len(written), len(written) + 3)
+                samples = {f"k{name:03d}": random_events(name) for name in names}
                 write_shard(folder, variant, split, number, samples)
                 written |= samples
     return written

@@ -2,21 +2,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from tests.dataset.conftest import CLIP
 
 import texvent
-from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.errors import ConfigError, InputError
-from texvent.represent.time_surface import time_surface
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent.video import Frame
 
 PROMPTS = ["a red ball flies left", "a dog runs right"]
 TINY = {"sensor": "32x24", "duration": 0.125, "samples": 1, "shadows": False}
 EDGES = [0, 40_000, 80_000, 120_000]
-# A dark square that steps right: 6 frames, 20 ms apart.
-CLIP = np.full((6, 12, 16), 200, np.uint8)
-for _index in range(6):
-    CLIP[_index, 4:8, 2 * _index : 2 * _index + 4] = 20
 
 
 @pytest.fixture(scope="module")
@@ -82,27 +77,8 @@ def test_videos_give_the_last_frame_of_each_slice():
         simulation={"fps": 50, "interpolate": "none"},
     )
     sample = samples.make(0)
-    assert sample["representation"].shape == (3, 5, 12, 16)
-    assert sample["stop_us"].tolist() == [30_000, 60_000, 90_000]
     # Frames lie at 0, 20, .. 100 ms; a frame at the very end of a slice is its last.
     np.testing.assert_array_equal(sample["frame"], CLIP[[1, 3, 4]].astype(np.float32))
-
-
-def test_without_slices_a_sample_is_the_whole_clip_without_an_axis_of_time():
-    samples = SimulatedSamples(
-        videos=[CLIP],
-        representation="time-surface",
-        representation_options={"tau_us": 5000},
-        targets=["frame"],
-        simulation={"fps": 50},
-    )
-    sample = samples.make(0)
-    events = texvent.simulate(CLIP, fps=50, seed=samples.seed_of(0))
-    # The instant is the end of the window, not the last event.
-    expected = time_surface(events, tau_us=5000, at_us=100_000)
-    np.testing.assert_array_equal(sample["representation"], expected)
-    np.testing.assert_array_equal(sample["frame"], Frame(CLIP[5], 0).luma)
-    assert sample["stop_us"] == 100_000
 
 
 def test_a_clip_shorter_than_a_slice_and_a_negative_number_are_refused():
@@ -117,3 +93,6 @@ def test_ground_truth_of_a_recorded_video_is_refused():
     samples = SimulatedSamples(videos=[CLIP], targets=["depth"], simulation={"fps": 50})
     with pytest.raises(ConfigError, match="target 'depth' needs a source that knows its scene"):
         samples.make(0)
+    frames = samples.represented(slice_events=20).with_targets("frame")
+    with pytest.raises(ConfigError, match="'frame' of slices of events needs a source that is"):
+        frames.make(0)

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from texvent._require import require
 from texvent.config import check_range
-from texvent.dataset.loading.stored_samples import StoredSamples
+from texvent.dataset.sample_table import SampleTable
 from texvent.events import EventStream
 from texvent.represent.tensors import TENSOR_TYPES, EventTensors, Tensor
 from texvent.sensor import SensorSize
-
-if TYPE_CHECKING:
-    from texvent.dataset.samples import SimulatedSamples
 
 _torch: Any = require("torch", extra="torch")
 _data: Any = require("torch.utils.data", extra="torch")
@@ -135,7 +132,7 @@ class SampleDataset(_Dataset):
 
     def __init__(
         self,
-        samples: StoredSamples | SimulatedSamples,
+        samples: SampleTable,
         *,
         count: int | None = None,
         first: int = 0,
@@ -147,22 +144,17 @@ class SampleDataset(_Dataset):
             samples: where they come from.
             count: how many; None: all stored ones, or one per source.
             first: number of the first.
-            epoch: of stored samples, which draws of their augmentation.
+            epoch: which draws of their augmentation.
 
         Raises:
             ConfigError: count below 1, or first or epoch below 0.
         """
         super().__init__()
-        self.samples, self.first = samples, first
-        self._options: dict[str, int] = {}
-        if isinstance(samples, StoredSamples):
-            every, least, self._options = len(samples), 0, {"epoch": epoch}
-        else:
-            every, least = samples.source_count, 1
-        self.count = every if count is None else count
-        check_range("count", self.count, least)
+        check_range("count", count, 1)
         check_range("first", first, 0)
         check_range("epoch", epoch, 0)
+        self.samples, self.first, self.epoch = samples, first, epoch
+        self.count = samples.count if count is None else count
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -176,4 +168,4 @@ class SampleDataset(_Dataset):
         """
         if not 0 <= number < self.count:
             raise IndexError(f"sample {number} does not exist; there are {self.count}")
-        return self.samples.make(self.first + int(number), **self._options)
+        return self.samples.make(self.first + int(number), epoch=self.epoch)

@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypeAlias, get_args
+from functools import partial
+from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
-from texvent._registry import suggest
 from texvent.api import Source
 from texvent.config import check_range
-from texvent.dataset.loading.stored_samples import check_representation, stack_windows
-from texvent.errors import ConfigError, InputError, shown
+from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
-from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.scenes.models.tables import class_ids_of
+from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 from texvent.truth.boxes import box_records, detection_target
 from texvent.video import Frame, FrameStream, RenderableStream
 
 Target: TypeAlias = Literal["frame", "flow", "depth", "instance", "boxes"]
-Window: TypeAlias = tuple[int, int]
-"""Start (included) and end (excluded), µs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +85,7 @@ def _drawn(frame: Frame) -> Frame:
 
 
 def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
-    """Ground truth of a window; `SimulatedSamples.make` describes each target.
+    """Ground truth of a window; `SimulatedSamples` describes each target.
 
     Raises:
         ConfigError: the video does not know it.
@@ -95,7 +93,12 @@ def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
     start, stop = window
     if target == "frame":
         video = clip.video
-        frame = video.at(stop) if isinstance(video, RenderableStream) else clip.frames[stop]
+        frame = video.at(stop) if isinstance(video, RenderableStream) else clip.frames.get(stop)
+        if frame is None:
+            raise ConfigError(
+                "target 'frame' of slices of events needs a source that is rendered at any "
+                "instant, such as prompts with the generator 'procedural'; give slice_us"
+            )
         return frame.luma.astype(np.float32)
     describe = getattr(clip.video, "ground_truth", None)
     if describe is None:
@@ -113,17 +116,28 @@ def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
     return np.asarray(truth.depth if target == "depth" else truth.instance)
 
 
-Sample: TypeAlias = dict[str, Any]
 MAX_SEED = 2**63 - 1
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class SimulatedSamples:
+class SimulatedSamples(SampleTable):
     """A table of samples without end, none of which is stored.
 
     Sample i shows source i modulo the number of sources, simulated with a seed that depends on
     `seed` and i alone. So any order, any split over processes and any machine gives the same
-    samples, and every pass over the sources gives new ones.
+    samples, and every pass over the sources gives new ones. `make` gives too:
+
+    * `source`: index of the prompt or video.
+    * `frame`: luma at the end of the slice, [H, W] float32, 0..255. A video that cannot be
+      rendered at that instant gives its last frame until then, interpolated ones included.
+    * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its start,
+      [2, H, W] float32; NaN where it ends behind the camera.
+    * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
+    * `instance`: id of the object seen at the end of the slice, [H, W] int32.
+    * `boxes`: at the end of the slice, as `texvent.truth.boxes.detection_target` gives them, a
+      tuple over slices; labels are the class ids of nouns.
+
+    With slices, targets have a first axis for them.
 
     Raises:
         ConfigError: no sources or two kinds of them; an unknown representation, option or target.
@@ -142,21 +156,14 @@ class SimulatedSamples:
     """Prompts; see `texvent.generate`."""
     videos: Sequence[Source] = ()
     """Videos instead of prompts; see `texvent.simulate`."""
-    representation: str = "voxel-e2vid"
-    """Name of the representation; `texvent._registry.REPRESENTATIONS` lists them."""
-    representation_options: Mapping[str, Any] = field(default_factory=dict)
-    """Its options, such as `{"bins": 10}`. Those that name the window (`start_us`, `stop_us`,
-    `at_us`) are filled in."""
-    slice_us: int | None = None
-    """Length of a slice, µs. A clip gives as many whole slices as it has, stacked along a first
-    axis of time. None: the whole clip is one slice, without that axis."""
-    targets: Sequence[Target] = ()
-    """Further arrays of each slice; see `make`."""
+    representation: str | None = "voxel-e2vid"
     simulation: Mapping[str, Any] = field(default_factory=dict)
     """Options of `texvent.generate` or `texvent.simulate`, such as `{"sensor": "davis240c",
     "duration": 1.0, "randomize": "stoffregen"}`."""
     seed: int = 0
     """Seed of the seeds, 0..2⁶³−1."""
+
+    known_targets: ClassVar[tuple[str, ...]] = get_args(Target)
 
     def __post_init__(self) -> None:
         for name, sources in (("prompts", self.prompts), ("videos", self.videos)):
@@ -166,21 +173,13 @@ class SimulatedSamples:
                 )
         if bool(self.prompts) == bool(self.videos):
             raise ConfigError("give either prompts or videos, and at least one")
-        for target in self.targets:
-            if target not in get_args(Target):
-                raise ConfigError(
-                    f"unknown target {shown(target)}; {suggest(target, get_args(Target))}"
-                )
-        check_range("slice_us", self.slice_us, 1)
         check_range("seed", self.seed, 0, MAX_SEED)
         if "seed" in self.simulation:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")
-        # Refused now, not in a worker process.
-        size = self._resolve(0).size
-        check_representation(self.representation, self.representation_options, size)
+        super().__post_init__()
 
     @property
-    def source_count(self) -> int:
+    def count(self) -> int:
         """Number of prompts or videos."""
         return len(self.prompts or self.videos)
 
@@ -188,53 +187,35 @@ class SimulatedSamples:
         """Seed of the simulation of sample `number`."""
         return int(frame_key(self.seed, number)) >> 1
 
-    def make(self, number: int) -> Sample:
-        """Simulate sample `number`, 0 or more.
-
-        Returns:
-            Arrays by name. With `slice_us`, each has a first axis for the slices.
-
-            * `representation`: see its own function.
-            * `frame`: luma at the end of the slice, [H, W] float32, 0..255. A video that cannot be
-              rendered at that instant gives its last frame until then, interpolated ones included.
-            * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its
-              start, [2, H, W] float32; NaN where it ends behind the camera.
-            * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
-            * `instance`: id of the object seen at the end of the slice, [H, W] int32.
-            * `boxes`: at the end of the slice, as `texvent.truth.boxes.detection_target` gives
-              them, a tuple over slices; labels are the class ids of nouns.
-            * `stop_us`: end of the slice, µs, int64.
-            * `source`: index of the prompt or video.
-            * `number`, `seed`: of the sample.
-
-        Raises:
-            InputError: number is negative, the source cannot be read, or the clip is shorter than
-                one slice.
-            ConfigError: a target that the source does not know, such as the depth of a video.
-        """
+    def _checked(self, number: int) -> int:
         if number < 0:
             raise InputError(f"sample number is {number}; it must be 0 or more")
-        clip = record_clip(self._simulation(number), self.slice_us)
-        parts = [self._part(clip, window) for window in clip.windows]
-        arrays = parts[0]
-        if self.slice_us is not None:
-            arrays = stack_windows(parts)
-        source = number % self.source_count
-        return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
+        return number
 
-    def _part(self, clip: SlicedClip, window: tuple[int, int]) -> Sample:
-        events = clip.events.cut(*window)
-        name, options = self.representation, self.representation_options
-        part = {"representation": represent_window(name, events, window, **options)}
-        part |= {target: target_of(clip, target, window) for target in self.targets}
-        return {**part, "stop_us": np.int64(window[1])}
+    def _sizes(self) -> Iterable[SensorSize]:
+        size = self._resolve(0).size
+        return () if size is None else (size,)
+
+    def _clip(self, number: int) -> tuple[EventStream, Sequence[Window], Targets]:
+        clip = record_clip(self._simulation(number), self.slice_us)
+        return clip.events, clip.windows, partial(self._targets, clip)
+
+    def _targets(self, clip: SlicedClip, windows: Sequence[Window] | None) -> Arrays:
+        parts = [
+            {name: target_of(clip, cast(Target, name), window) for name in self.targets}
+            for window in windows or clip.windows
+        ]
+        return parts[0] if windows is None else stack_windows(parts)
+
+    def _facts(self, number: int) -> Arrays:
+        return {"source": number % self.count}
 
     def _resolve(self, number: int) -> Settings:
         options = {**self.simulation, "seed": self.seed_of(number)}
         return resolve("generate" if self.prompts else "simulate", options)
 
     def _simulation(self, number: int) -> Simulation:
-        settings = self._resolve(number)
+        settings, source = self._resolve(number), number % self.count
         if self.prompts:
-            return prepare_prompt(self.prompts[number % len(self.prompts)], settings)
-        return prepare_source(self.videos[number % len(self.videos)], settings)
+            return prepare_prompt(self.prompts[source], settings)
+        return prepare_source(self.videos[source], settings)

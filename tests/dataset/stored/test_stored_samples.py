@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.loading.written_set import (
-    DURATION_US,
+from tests.dataset.stored.written_set import (
     LABELS,
     SIZE,
     random_events,
@@ -22,10 +21,9 @@ from tests.dataset.loading.written_set import (
 )
 
 import texvent.dataset
-from texvent.dataset.loading.stored_samples import StoredSamples
+from texvent.dataset.stored.stored_samples import StoredSamples
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.represent.named import represent_window
 
 
 @pytest.fixture(scope="module")
@@ -91,36 +89,7 @@ def test_slices_longer_than_a_sample_are_refused_at_once(folder, written):
         texvent.dataset.open(folder, slice_events=41)
 
 
-def test_slices_of_time_are_the_whole_windows_from_the_first_frame_on(samples, written):
-    events = next(iter(written.values()))
-    made = samples.represented("voxel-e2vid", slice_us=3000, bins=4).make(0)
-    windows = [(0, 3000), (3000, 6000), (6000, 9000)]
-    expected = [
-        represent_window("voxel-e2vid", events.cut(*window), window, bins=4) for window in windows
-    ]
-    np.testing.assert_array_equal(made["representation"], expected)
-    assert made["stop_us"].tolist() == [3000, 6000, 9000]
-    raw = samples.represented(slice_us=3000).make(0)
-    for part, window in zip(raw["events"], windows, strict=True):
-        assert part.equals(events.cut(*window))
-
-
-def test_slices_of_events_have_exactly_so_many(samples, written):
-    events = next(iter(written.values()))
-    made = samples.represented("event-frame", slice_events=15).make(0)
-    parts = [events[:15], events[15:30]]
-    expected = [part.represent("event-frame") for part in parts]
-    np.testing.assert_array_equal(made["representation"], expected)
-    assert made["stop_us"].tolist() == [int(part.t[-1]) + 1 for part in parts]
-    assert [len(part) for part in samples.represented(slice_events=40).make(3)["events"]] == [40]
-
-
-def test_without_slices_the_window_is_the_whole_clip(samples, written):
-    events = next(iter(written.values()))
-    made = samples.represented("time-surface", tau_us=500).make(0)
-    expected = represent_window("time-surface", events, (0, DURATION_US), tau_us=500)
-    np.testing.assert_array_equal(made["representation"], expected)
-    assert made["stop_us"] == DURATION_US
+def test_arrays_come_with_the_facts_of_their_sample(samples, written):
     plain = samples.make(5)
     assert plain["events"].equals(list(written.values())[5])
     facts = {name: plain[name] for name in ("class_number", "caption", "key", "number", "seed")}
@@ -245,26 +214,3 @@ def test_opening_and_reading_loads_no_heavy_package(folder, written):
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
     assert done.stderr == ""  # also where files are open at the end of the process
-
-
-def dropped(events: EventStream, chance: np.random.Generator) -> EventStream:
-    """Mirrored by chance, some events dropped."""
-    events = events.flip("x") if chance.random() < 0.5 else events
-    return events[chance.random(len(events)) < 0.7]
-
-
-def test_samples_are_augmented_by_their_number_and_epoch_before_they_are_sliced(samples):
-    changed = samples.augmented(dropped, seed=5)
-    for number, epoch in ((0, 0), (3, 0), (3, 1)):
-        key = np.random.SeedSequence(5, spawn_key=(epoch, number))
-        expected = dropped(samples.events(number), np.random.default_rng(key))
-        assert changed.make(number, epoch=epoch)["events"].equals(expected)
-        frames = changed.represented("event-frame", slice_us=5000)
-        assert frames.make(number, epoch=epoch)["representation"].sum() == sum(
-            2 * expected.p.astype(int) - 1
-        )
-    assert changed[3].events.equals(samples[3].events)
-    assert changed.augmented(None).make(3)["events"].equals(samples.make(3)["events"])
-    none_left = samples.represented(slice_events=30).augmented(lambda events, _: events[:1])
-    with pytest.raises(InputError, match=r"augment leaves .* fewer than a slice of 30"):
-        none_left.make(0)

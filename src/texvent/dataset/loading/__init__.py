@@ -1,1 +1,0 @@
-"""Loading of stored samples: by number, in any order, from any process."""

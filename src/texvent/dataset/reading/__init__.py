@@ -1,1 +1,0 @@
-"""Reading of stored data sets: folder, records, events."""

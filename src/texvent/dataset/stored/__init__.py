@@ -1,0 +1,1 @@
+"""Stored data sets: their folder and records, and their samples by number, from any process."""
