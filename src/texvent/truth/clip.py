@@ -285,7 +285,7 @@ class ClipTruth:
             what = f"{name} has the shape {rows.shape}, and {len(numbers)} frames have it"
             self._refuse(is_wrong, what)
             self._held[name] = rows
-        return self._held[name] if index is None else self._held[name][index - numbers.start]
+        return self._held[name] if index is None else self._held[name][index]
 
     def _table(self, part: str, name: str) -> NDArray[Any]:
         if part == "boxes":
