@@ -86,7 +86,9 @@ class ClipTruth:
     @property
     def size(self) -> SensorSize:
         """Width and height, pixels."""
-        return checked_size(self.facts["width"], self.facts["height"])
+        sides = [self.facts[name] for name in ("width", "height")]
+        self._refuse(not all(isinstance(side, int) for side in sides), "it does not say its size")
+        return checked_size(*sides)
 
     @property
     def metadata(self) -> Mapping[str, Any]:
