@@ -28,11 +28,10 @@ FOLDER_PARTS = parse_parts("flow,flow-back,depth,ids,boxes,poses")
 
 def record(sink: FolderSink | SampleSink) -> None:
     """Four source frames of the board, and one between two of them."""
-    recorder, video = TruthRecorder(sink), board_video(duration=0.12)
-    with recorder:
-        recorder.append(next(iter(video)))
-        recorder.append(replace(video.at(20_000), is_source=False))
-        for frame in itertools.islice(video, 1, None):
+    video = board_video(duration=0.12)
+    between = replace(video.at(20_000), is_source=False)
+    with TruthRecorder(sink) as recorder:
+        for frame in (next(iter(video)), between, *itertools.islice(video, 1, None)):
             recorder.append(frame)
 
 
@@ -88,16 +87,10 @@ def test_what_is_read_of_the_board_is_its_closed_form(truth: ClipTruth) -> None:
     np.testing.assert_allclose(truth.poses[:, :3, 2], [[0.0, 1.0, 0.0]] * 4, atol=1e-8)
     np.testing.assert_allclose(truth.intrinsics, [[80.0, 80.0, 39.5, 29.5]] * 4)
     assert truth.camera_matrices[3].tolist() == [[80, 0, 39.5], [0, 80, 29.5], [0, 0, 1]]
-
-
-@pytest.mark.parametrize("name", ["flow", "depth", "instance", "occluded"])
-def test_a_frame_is_that_of_all_frames(truth: ClipTruth, name: str) -> None:
-    method, last = getattr(truth, name), 3 - (name in ("flow", "occluded"))
-    whole = method()
-    np.testing.assert_array_equal(whole, [method(index) for index in range(last + 1)])
-    for index in (-1, last + 1):
+    for method, last in ((truth.flow, 2), (truth.occluded, 2), (truth.depth, 3)):
+        np.testing.assert_array_equal(method(), [method(index) for index in range(last + 1)])
         with pytest.raises(InputError, match=rf"there are those of 0\.\.{last}"):
-            method(index)
+            method(last + 1)
 
 
 def test_the_way_back_is_the_way_there_where_nothing_is_hidden(folder: Path) -> None:
@@ -158,6 +151,8 @@ def test_truth_that_cannot_be_is_found(stored: Files) -> None:
     for facts, files, said in changes:
         with pytest.raises(FileFormatError, match=said):
             read({**stored, **files}, **facts).check(SIZE)
+    with pytest.raises(FileFormatError, match=r"depth has the shape .*, and 5 frames have it"):
+        read(stored, times_us=[*TIMES, 160_000]).depth(4)
 
 
 def test_targets_and_size_classes_by_hand() -> None:

@@ -86,7 +86,9 @@ class ClipTruth:
     @property
     def size(self) -> SensorSize:
         """Width and height, pixels."""
-        return checked_size(self.facts["width"], self.facts["height"])
+        sides = [self.facts[name] for name in ("width", "height")]
+        self._refuse(not all(isinstance(side, int) for side in sides), "it does not say its size")
+        return checked_size(*sides)
 
     @property
     def metadata(self) -> Mapping[str, Any]:
@@ -285,7 +287,7 @@ class ClipTruth:
             what = f"{name} has the shape {rows.shape}, and {len(numbers)} frames have it"
             self._refuse(is_wrong, what)
             self._held[name] = rows
-        return self._held[name] if index is None else self._held[name][index - numbers.start]
+        return self._held[name] if index is None else self._held[name][index]
 
     def _table(self, part: str, name: str) -> NDArray[Any]:
         if part == "boxes":
