@@ -95,8 +95,8 @@ class DsecFrames(FrameSource):
 def _read_places(path: Path) -> NDArray[np.float64]:
     from texvent.io.calibration import read_rectify_map  # brings h5py
 
-    rectified = read_rectify_map(path).places
-    if rectified is None or not np.isfinite(rectified).all():
+    rectified = read_rectify_map(path)
+    if not np.isfinite(rectified).all():
         raise FileFormatError(f"{path}: rectify_map holds values that are NaN or infinite")
     return rectified
 
