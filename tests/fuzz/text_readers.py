@@ -13,7 +13,7 @@ import yaml
 
 from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
-from texvent.capture.frame_times import read_timestamps
+from texvent.capture.given_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
 from texvent.io.calibration import read_calibration

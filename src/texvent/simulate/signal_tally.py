@@ -62,7 +62,7 @@ class SignalTally:
         self.signal += len(packet) - noise
         self.noise += noise
 
-    def doubt(self, kept: str = "all") -> str | None:
+    def warning(self, kept: str = "all") -> str | None:
         """What the user has hardly meant, with the reason and the option that helps; else None.
 
         Options are written as keywords: `cache='global'`.
