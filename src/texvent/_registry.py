@@ -69,7 +69,7 @@ class Registry:
     """A table of interchangeable parts of one kind."""
 
     kind: str
-    """What the parts are, in the singular, as error messages say it."""
+    """Kind of the parts, in the singular, as error messages say it."""
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
     table: str | None = None

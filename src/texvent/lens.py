@@ -53,9 +53,9 @@ class Lens:
     fy: float
     """Focal length in pixel heights."""
     cx: float
-    """Where the optical axis meets the image, pixels from its left edge."""
+    """Column at which the optical axis meets the image, pixels from its left edge."""
     cy: float
-    """Where the optical axis meets the image, pixels from its top edge."""
+    """Row at which the optical axis meets the image, pixels from its top edge."""
     distortion: Distortion = "none"
     coefficients: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
     """k1, k2, p1, p2 of radtan, and k3 if there is a fifth; or k1, k2, k3, k4 of equidistant."""

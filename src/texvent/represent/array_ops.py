@@ -28,7 +28,7 @@ Axis: TypeAlias = tuple[Array, int]
 
 
 class ArrayOps:
-    """Where NumPy and torch differ; this is NumPy, `represent.tensors.TorchOps` is torch."""
+    """Operations in which NumPy and torch differ: NumPy's; `represent.tensors.TorchOps` is torch."""
 
     @property
     def xp(self) -> Any:

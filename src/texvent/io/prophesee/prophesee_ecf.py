@@ -47,7 +47,7 @@ from texvent.io.reading import ReadOptions
 
 MAX_EVENTS = 65_535
 MAX_START_US = 1 << 62
-"""Of the times of a chunk; see `texvent.io.prophesee.ecf_coding_cpu`."""
+"""Largest start of the times of a chunk; see `texvent.io.prophesee.ecf_coding_cpu`."""
 _HEAD = struct.Struct("<IQ")
 
 
