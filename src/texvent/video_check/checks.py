@@ -210,7 +210,7 @@ class VideoReport:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """Faults of a failed video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
+        """Faults of a video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
         return self._found(is_failure=True)
 
     @property
