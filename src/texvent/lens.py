@@ -141,7 +141,7 @@ def undistort(lens: Lens, points: Float64Array) -> Float64Array:
         return np.asarray(target * ratio[..., None])
     k1, k2, p1, p2, k3 = lens.five
     radius, furthest = np.linalg.norm(target, axis=-1, keepdims=True), lens_limits(lens)[1]
-    found = target * np.minimum(furthest / np.maximum(radius, 1e-300), 1.0)
+    found: Float64Array = target * np.minimum(furthest / np.maximum(radius, 1e-300), 1.0)
     for _ in range(ITERATIONS):
         x, y = found[..., 0], found[..., 1]
         square = x * x + y * y
