@@ -69,7 +69,7 @@ class Registry:
     """A table of interchangeable parts of one kind."""
 
     kind: str
-    """What the parts are, in the singular, as error messages say it."""
+    """Kind of the parts, in the singular, as error messages say it."""
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
     table: str | None = None
@@ -164,7 +164,7 @@ SIMULATORS = Registry(
 CODECS = Registry(
     "event format",
     {
-        "hdf5": "texvent.io.hdf5.native:Hdf5Codec",
+        "hdf5": "texvent.io.hdf5.dsec:Hdf5Codec",
         "npz": "texvent.io.arrays.npz:NpzCodec",
         "npy": "texvent.io.arrays.npz:NpyCodec",
         "ecd": "texvent.io.text.codecs:EcdCodec",
@@ -176,7 +176,7 @@ CODECS = Registry(
         "csv": "texvent.io.text.codecs:CsvCodec",
         "e2vid": "texvent.io.text.codecs:E2vidZipCodec",
         "n-imagenet": "texvent.io.arrays.n_imagenet:NImageNetCodec",
-        "dsec": "texvent.io.hdf5.native:DsecCodec",
+        "dsec": "texvent.io.hdf5.dsec:DsecCodec",
         "event-utils": "texvent.io.hdf5.event_utils:EventUtilsCodec",
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",
         "rosbag1": "texvent.io.ros.bags:Rosbag1Codec",
@@ -188,7 +188,7 @@ CODECS = Registry(
         "aedat2-dvs128": "texvent.io.aedat.aedat2:Dvs128Codec",
         "cifar10-dvs": "texvent.io.aedat.aedat2:Cifar10DvsCodec",
         "aedat3": "texvent.io.aedat.aedat3:Aedat3Codec",
-        "es": "texvent.io.atis:EventStream2Codec",
+        "es": "texvent.io.event_stream2:EventStream2Codec",
         "atis": "texvent.io.atis:NMnistCodec",
         "aedat4": "texvent.io.aedat.aedat4:Aedat4Codec",
     },

@@ -39,7 +39,7 @@ def source_commit() -> str | None:
 
 
 def _installed_commit() -> str | None:
-    """What pip noted of an installation from a repository (PEP 610)."""
+    """Commit that pip noted of an installation from a repository (PEP 610)."""
     try:
         note = metadata.distribution("texvent").read_text("direct_url.json")
         facts = json.loads(note or "{}").get("vcs_info", {})

@@ -233,7 +233,7 @@ def compare(
     *,
     span_us: tuple[int, int] | None = None,
 ) -> dict[str, float]:
-    """How close events are to a reference, by many metrics.
+    """Distance of events from a reference, by many metrics.
 
     Args:
         events: the stream to judge, or its file.

@@ -132,7 +132,7 @@ class RunConfig:
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""
     keep_events: Literal["all", "signal", "noise"] = "all"
-    """Which events to keep: all, only those that a brightness change fired, or only noise."""
+    """Events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
     """Store beside every event whether it is signal (0) or noise (1), as an extra column."""
     target_rate: float | None = None
@@ -148,7 +148,7 @@ class RunConfig:
 
 @dataclass(frozen=True, kw_only=True)
 class ReadingConfig:
-    """How frames are read from a video, a folder, an array or a camera."""
+    """Reading of frames from a video, a folder, an array or a camera."""
 
     fps: Fraction | None = None
     """Frame rate, as 24, 29.97 or 30000/1001. Needed for image folders and arrays without
@@ -167,7 +167,7 @@ class ReadingConfig:
     white is 255 (8-bit and float), 65535 (16-bit), 1 (.exr, .hdr), 203 cd/m² (PQ) or 0.265 of the
     peak (HLG), and floats that never exceed 1 are refused."""
     transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] = "auto"
-    """How pixels are coded. All but gamma become linear light, also above white; gamma is ordinary
+    """Coding of pixels. All but gamma become linear light, also above white; gamma is ordinary
     video. auto: .exr and .hdr are linear, video is what its file says, all else is gamma."""
 
     def __post_init__(self) -> None:
@@ -181,12 +181,12 @@ class ReadingConfig:
 
 @dataclass(frozen=True, kw_only=True)
 class CaptureConfig(ReadingConfig):
-    """How frames are read, fitted to the sensor, and moved."""
+    """Frames read, fitted to the sensor, and moved."""
 
     idle_with: ClassVar[IdleOptions] = {"fit": ("sensor", (None,))}
 
     fit: Literal["cover", "contain", "stretch"] = "cover"
-    """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
+    """Fit of frames to the sensor's size: cut the excess, add black bars, or distort."""
     motion: Path | None = None
     """Motion vectors of a renderer, instead of optical flow. A folder (.exr, .npy, .npz), a pattern
     such as 'out/flow_*.npy', or one file (.npy, .npz). Depth and ids in the same files are
@@ -198,8 +198,8 @@ class CaptureConfig(ReadingConfig):
     backward,ndc,y-up (see docs/renderers.md). Without it, pixels to the next frame, x right, y
     down; OpenEXR passes say it themselves."""
     check_motion: bool = True
-    """Compare warped with real frames, and refuse vectors that fit clearly better if they are
-    meant otherwise."""
+    """Compare warped with real frames, and refuse vectors if another convention fits clearly
+    better."""
     depth: Path | None = None
     """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front."""
     depth_scale: float | None = None
@@ -213,8 +213,8 @@ class CaptureConfig(ReadingConfig):
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
     pan's px per second (60)."""
     duration: float | None = None
-    """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade) or 1 (shake,
-    pan)."""
+    """Duration of the camera's motion, s. Without it, that of its path: 0.315 (saccade) or 1
+    (shake, pan)."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -238,7 +238,7 @@ class InterpolateConfig:
     }
 
     interpolate: str = "flow"
-    """What fills the time between frames: none, blend, flow, rife, motion or exact. Blend mixes
+    """Interpolator between frames: none, blend, flow, rife, motion or exact. Blend mixes
     both; flow compensates motion by DIS optical flow; rife (the paper's choice) is a trained
     network; motion follows vectors that come with the frames; with exact the generator renders the
     instant itself."""

@@ -151,7 +151,7 @@ class TexventError(Exception):
 
 
 class InputError(TexventError, ValueError):
-    """What the caller gave cannot be used: a missing file, a NaN, a wrong shape."""
+    """Input that cannot be used: a missing file, a NaN, a wrong shape."""
 
     exit_code = 2
 

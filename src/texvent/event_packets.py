@@ -179,7 +179,7 @@ class EventPackets(EventEdits):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: what is known without going through the packets."""
+        """Display in a notebook: what is known without going through the packets."""
         from texvent.view.notebook import mime_bundle, packets_html
 
         return mime_bundle(self, lambda: packets_html(self), include, exclude)

@@ -71,9 +71,9 @@ class EventStream(EventEdits):
     size: SensorSize
     """Width and height of the sensor, pixels."""
     metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    """How the events were made (JSON-serialisable): prompt, config, seed, version."""
+    """Origin of the events (JSON-serialisable): prompt, config, seed, version."""
     label: NDArray[np.uint8] | None = field(default=None, repr=False)
-    """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where it is not known."""
+    """Origin of each event, [n] uint8: `SIGNAL` or `NOISE`; None where it is not known."""
     instance: NDArray[np.uint16] | None = field(default=None, repr=False)
     """The object that each event shows, [n] uint16, 0 = none; None where it is not known."""
     class_id: NDArray[np.uint16] | None = field(default=None, repr=False)
@@ -345,7 +345,7 @@ class EventStream(EventEdits):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: the busiest moment, the event rate, facts."""
+        """Display in a notebook: the busiest moment, the event rate, facts."""
         from texvent.view.notebook import mime_bundle, stream_html
 
         return mime_bundle(self, lambda: stream_html(self), include, exclude)

@@ -111,9 +111,9 @@ class Simulation:
             for frame, packet in simulator.finish():
                 tally.count(packet)
                 yield frame, select_events(packet, run)
-        doubt = tally.doubt(run.keep_events) if self.warns else None
-        if doubt is not None:
-            warn(doubt)
+        message = tally.warning(run.keep_events) if self.warns else None
+        if message is not None:
+            warn(message)
 
     def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
         """A simulator at rest, and the pairs of frames that it advances through."""

@@ -37,7 +37,7 @@ class Sensor:
     size: SensorSize
     description: str
     source: str
-    """Where the numbers come from; Gallego 2022 is Table 1 of "Event-based vision: a survey"."""
+    """Source of the numbers; Gallego 2022 is Table 1 of "Event-based vision: a survey"."""
     fill_factor: float | None = None
     """Share of a pixel's area that light falls on, 0..1; None: not published."""
 
@@ -118,7 +118,7 @@ def parse_sensor(text: str) -> SensorSize:
 
 
 SizeLike: TypeAlias = str | Sensor | tuple[int, int]
-"""How Python takes a size: "davis346", "346x260", a `Sensor` or (width, height)."""
+"""Size of a sensor, as Python takes it: "davis346", "346x260", a `Sensor` or (width, height)."""
 
 
 def as_size(size: SizeLike) -> SensorSize:

@@ -34,7 +34,7 @@ HLG_B, HLG_C = 1 - 4 * HLG_A, 0.5 - HLG_A * np.log(4 * HLG_A)
 
 
 class Transfer(StrEnum):
-    """What the levels of a frame are proportional to."""
+    """Coding of light: what the levels of a frame are proportional to."""
 
     GAMMA = "gamma"
     """Gamma-coded, as in ordinary video: about light to the power 1/2.2."""

@@ -62,7 +62,7 @@ def frame_time_us(index: int, fps: Fraction, start_us: int = 0) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Where the pixels of a source frame go, known instead of estimated: a renderer's output.
+    """Motion of the pixels of a source frame, known instead of estimated: a renderer's output.
 
     A vector is the displacement of the piece of surface seen at a pixel's centre, in pixels of
     its frame, x to the right and y down. NaN where it is not known.
@@ -126,7 +126,7 @@ class Frame:
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: the image and its time."""
+        """Display in a notebook: the image and its time."""
         from texvent.view.notebook import frame_html, mime_bundle
 
         return mime_bundle(self, lambda: frame_html(self), include, exclude)
@@ -172,7 +172,7 @@ class FrameStream(Protocol):
 
     @property
     def frame_count(self) -> int | None:
-        """How many frames there are (an estimate from the container, for progress), or None."""
+        """Number of frames (an estimate from the container, for progress), or None."""
         ...
 
     @property
@@ -182,7 +182,7 @@ class FrameStream(Protocol):
 
     @property
     def metadata(self) -> Mapping[str, Any]:
-        """Where the frames come from (JSON-serialisable), stored in every output.
+        """Origin of the frames (JSON-serialisable), stored in every output.
 
         `{"transfer": "linear"}` among it where the frames are linear light.
         """
@@ -199,7 +199,7 @@ class NotebookFrames:
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: some frames and facts."""
+        """Display in a notebook: some frames and facts."""
         from texvent.view.notebook import mime_bundle, video_html
 
         stream = cast(FrameStream, self)
@@ -242,7 +242,7 @@ class FlickeringStream(RenderableStream, Protocol):
 
 
 def transfer_of(stream: FrameStream) -> Transfer:
-    """What the frames of a stream are, known before the first of them: its metadata say it.
+    """Transfer of the frames of a stream, known before the first of them: its metadata say it.
 
     Raises:
         InputError: they say neither gamma nor linear.
@@ -315,7 +315,7 @@ class Video(NotebookFrames):
 
     @property
     def frame_count(self) -> int:
-        """How many frames there are."""
+        """Number of frames."""
         return len(self.pixels)
 
     @property

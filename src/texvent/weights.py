@@ -51,7 +51,7 @@ class PublishedWeights:
 
     @property
     def name(self) -> str:
-        """What the user types."""
+        """Name as the user types it."""
         return self.source.name
 
 
@@ -147,7 +147,7 @@ WEIGHTS: dict[str, PublishedWeights] = {entry.name: entry for entry in (RIFE, RI
 
 
 def weights_folder() -> Path:
-    """Where pulled weights are kept."""
+    """Folder of pulled weights."""
     return cache_folder("weights")
 
 

@@ -16,7 +16,7 @@ import texvent
 from texvent.capture import video_file
 from texvent.capture.decoding import pixels as decoded
 from texvent.capture.decoding.pixels import PixelReader
-from texvent.capture.frame_times import FrameTimes
+from texvent.capture.given_times import FrameTimes
 from texvent.capture.live import LiveFrames
 from texvent.capture.open import open_frames
 from texvent.capture.video_file import PresentationClock, VideoFile

@@ -12,7 +12,7 @@ import tomli_w
 import yaml
 
 from texvent._registry import FILTERS
-from texvent.capture.frame_times import read_timestamps
+from texvent.capture.given_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.dataset.specification.list_files import read_list
 from texvent.generate.scene_input import describe_scene, list_nouns, understand

@@ -10,9 +10,9 @@ import pytest
 import yaml
 
 from texvent.errors import ConfigError, TexventWarning
+from texvent.lens import Lens
 from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
 from texvent.rig.kalibr import camchain, imu_yaml, read_noise, read_rig, stereo_rig
-from texvent.scenes.lens import Lens
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)

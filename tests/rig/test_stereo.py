@@ -14,12 +14,12 @@ from tests.scenes.hand_scenes import HandScene, MovingShape, day, still
 from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
+from texvent.lens import Lens
 from texvent.rig.config import RigConfig
 from texvent.rig.description import ImuNoise, Rig, RigCamera
 from texvent.rig.layouts.dsec import rectified_points, rectify, write_disparity
 from texvent.rig.recording import Recording
 from texvent.runtime.progress import NO_PROGRESS
-from texvent.scenes.lens import Lens
 from texvent.scenes.scene import Camera, Ground, Shape, project
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve

@@ -5,7 +5,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.lens import Lens
+from texvent.lens import Lens
 from texvent.scenes.scene import Camera, project
 from texvent.truth.poses import (
     camera_facts,

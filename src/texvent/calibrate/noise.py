@@ -28,8 +28,8 @@ if each pixel of its neighbourhood stays that close to its own mean for a second
 NEIGHBOURHOOD = np.ones((5, 5), np.uint8)
 """Pixels around one: motion that comes from farther away within a frame is seen too late."""
 STATIC_US, STATIC_FRAMES = 1_000_000, 10
-"""How long a textured neighbourhood must not change for its pixel to be still, µs, and in how many
-frames at least this must be seen: three frames do not tell a slow edge from none."""
+"""Time for which a textured neighbourhood must not change for its pixel to be still, µs, and in how
+many frames at least this must be seen: three frames do not tell a slow edge from none."""
 LEAST_EXPOSURE_S = 20.0
 """Pixel-seconds that a range needs to count."""
 LEAST_RANGES = 2

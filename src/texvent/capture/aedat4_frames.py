@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes
+from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import FRAMES, MAGIC, Container, open_container, stored_size
 from texvent.io.aedat.aedat4_tables import StreamInfo, Table

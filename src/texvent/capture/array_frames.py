@@ -9,7 +9,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes
+from texvent.capture.given_times import FrameTimes
 from texvent.capture.intensity_scale import caller_pixels, shape_hint
 from texvent.errors import InputError, shown, warn
 from texvent.io.arrays.npy_file import StoredArray

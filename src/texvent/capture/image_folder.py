@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
+from texvent.capture.given_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, few, shown, warn

@@ -14,7 +14,7 @@ from av.video.stream import VideoStream
 
 from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes
+from texvent.capture.given_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.media_files import (

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
-from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
+from texvent.capture.given_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder, count_images
 from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion

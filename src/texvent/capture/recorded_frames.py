@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes, check_seconds, listed_times
+from texvent.capture.given_times import FrameTimes, check_seconds, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
@@ -95,8 +95,8 @@ class DsecFrames(FrameSource):
 def _read_places(path: Path) -> NDArray[np.float64]:
     from texvent.io.calibration import read_rectify_map  # brings h5py
 
-    rectified = read_rectify_map(path).places
-    if rectified is None or not np.isfinite(rectified).all():
+    rectified = read_rectify_map(path)
+    if not np.isfinite(rectified).all():
         raise FileFormatError(f"{path}: rectify_map holds values that are NaN or infinite")
     return rectified
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import warn_of_unit
+from texvent.capture.given_times import warn_of_unit
 from texvent.capture.intensity_scale import FULL_SCALE
 from texvent.capture.linear_light import FULL_SCALE as FULL_SCALE_FACT
 from texvent.capture.linear_light import GAMMA, LINEAR, find_coding

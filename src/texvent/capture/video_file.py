@@ -24,7 +24,7 @@ from texvent.capture.decoding.packet_times import (
 )
 from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes
+from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
 from texvent.io.input_checks import begins_with, refuse_missing
 from texvent.runtime.image_files import HEAD_BYTES

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from texvent.capture.frame_source import known_times_us
-from texvent.capture.frame_times import check_increasing
+from texvent.capture.given_times import check_increasing
 from texvent.pairs.time_jump import check_times
 from texvent.pipeline import Simulation
 from texvent.run.prepare import estimate_bytes

@@ -48,9 +48,10 @@ class DataFolder:
     member: str
     """The folder's path in the archive."""
     count: int
-    """How many files there are."""
+    """Number of files."""
     sha256: str
-    """Of the text `sha256sum` prints for them in order of name: `digest  name`, one per line."""
+    """Digest of the text that `sha256sum` prints for them in order of name: `digest  name`, one per
+    line."""
 
     @property
     def name(self) -> str:

@@ -48,7 +48,7 @@ Progress: TypeAlias = Callable[[int | None], ProgressTracker]
 
 
 def data_folder() -> Path:
-    """Where data sets are kept: $TEXVENT_DATA, else the cache folder."""
+    """Folder of data sets: $TEXVENT_DATA, else the cache folder."""
     chosen = os.environ.get(DATA_VARIABLE)
     return Path(chosen).expanduser() if chosen else cache_folder()
 
@@ -124,7 +124,7 @@ def fetch_archive(
 
 
 def describe(data_set: DataSet) -> str:
-    """What will be fetched and under which terms, for the user to read before the download."""
+    """Files to fetch and their terms, for the user to read before the download."""
     archive = data_set.archive
     return (
         f"{data_set.name}: {data_set.description}\n"

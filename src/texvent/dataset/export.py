@@ -63,7 +63,7 @@ def find_layout(name: str) -> Layout:
 
 NOTE_FILE, LEDGER_FILE = "texvent-export.json", "texvent-export.jsonl"
 REMEDY = "name a new folder with -o"
-"""What to do about a folder that cannot go on."""
+"""Advice about a folder that cannot go on."""
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ LAST_LINES, LONGEST_LINE = 4, 300
 
 @dataclass(frozen=True, kw_only=True)
 class OpenSoraConfig(GeneratedVideoConfig):
-    """How Open-Sora is called."""
+    """Options of a call of Open-Sora."""
 
     fps: Fraction | None = Fraction(24)
     """Frame rate that Open-Sora takes (a whole number), and the video's."""
@@ -61,7 +61,7 @@ class OpenSoraConfig(GeneratedVideoConfig):
     steps: int = 50
     """Denoising steps."""
     guidance: float = 7.5
-    """How closely the prompt is followed."""
+    """Strength with which the prompt is followed."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -130,7 +130,7 @@ class OpenSoraGenerator:
         )
 
     def plan(self, prompt: str) -> str | None:
-        """What making the video would take, or None if it was made before."""
+        """Cost of making the video, or None if it was made before."""
         config = self.config
         if VideoCache(is_kept=config.reuse_video).has(self._key(prompt, self.seed), MP4):
             return None

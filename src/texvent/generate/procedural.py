@@ -56,7 +56,7 @@ IMAGES_AHEAD = 8
 
 @dataclass(frozen=True, kw_only=True)
 class ProceduralConfig:
-    """How the embedded generator renders a scene."""
+    """Rendering of a scene by the embedded generator."""
 
     fps: Fraction = Fraction(24)
     """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, every part of the image is
@@ -108,13 +108,13 @@ class ProceduralVideo(NotebookFrames):
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
     scene: Scene
-    """What is rendered."""
+    """Scene to render."""
     size: SensorSize
     """Width and height of every frame, pixels."""
     config: ProceduralConfig = field(default_factory=ProceduralConfig)
-    """How it is rendered."""
+    """Options of its rendering."""
     metadata: Mapping[str, Any] = field(default_factory=dict)
-    """What the generator made of the prompt (JSON-serialisable)."""
+    """Facts of the prompt's reading (JSON-serialisable)."""
     flicker_hz: float | None = None
     """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
     has_motion: bool = False
@@ -132,7 +132,7 @@ class ProceduralVideo(NotebookFrames):
 
     @property
     def frame_count(self) -> int:
-        """How many frames there are: events cover the time from the first to the last."""
+        """Number of frames: events cover the time from the first to the last."""
         return self.config.intervals + 1
 
     @property
@@ -322,7 +322,7 @@ class ProceduralGenerator:
         )
 
     def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
-        """What would be shown of a prompt.
+        """Report of a prompt, as its output would store it.
 
         Args:
             prompt: as `generate` takes it.
@@ -366,7 +366,7 @@ class ProceduralGenerator:
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:
-        """What prompts can name."""
+        """Nouns that prompts can name."""
         return list_nouns(self.config.assets)
 
     def _accepted(self, report: PromptReport) -> PromptReport:

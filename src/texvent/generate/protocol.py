@@ -1,4 +1,4 @@
-"""What every text-to-video generator offers."""
+"""Protocol of text-to-video generators."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the embedded generator is given: a sentence, which is read, or a scene."""
+"""Input of the embedded generator: a sentence, which is read, or a scene."""
 
 from __future__ import annotations
 

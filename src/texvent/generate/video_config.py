@@ -19,7 +19,7 @@ class GeneratedVideoConfig:
     """Frame rate the model was made for, as 24, 29.97 or 30000/1001. Models that take it as an
     input are given it; for the others it only says how fast their frames play."""
     fit: Literal["cover", "contain", "stretch"] = "cover"
-    """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
+    """Fit of frames to the sensor's size: cut the excess, add black bars, or distort."""
     reuse_video: bool = True
     """Keep generated videos in the cache folder and use one again when prompt, model, seed and
     generation options are the same, so that trying simulator options costs no generation."""
@@ -33,7 +33,7 @@ class GeneratedVideoConfig:
 
 @dataclass(frozen=True, kw_only=True)
 class DiffusersConfig(GeneratedVideoConfig):
-    """How a diffusers text-to-video pipeline is run; `none` is the pipeline's own default."""
+    """Options of a diffusers text-to-video pipeline; `none` is the pipeline's own default."""
 
     frames: int | None = None
     """Frames to generate. Models change it silently to a number they can make (4k+1 or 8k+1);
@@ -54,7 +54,7 @@ class DiffusersConfig(GeneratedVideoConfig):
     """LoRA that diffusers loads: a .safetensors file, with :WEIGHT if it is not 1; may be
     repeated."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
-    """Which parts wait in the computer's memory: none, whole parts that are not in use, or every
+    """Parts that wait in the computer's memory: none, whole parts that are not in use, or every
     layer (slow, fits small GPUs); auto: by the GPU's free memory."""
 
     repeated: ClassVar[tuple[str, ...]] = ("lora",)

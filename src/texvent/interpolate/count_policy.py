@@ -26,8 +26,8 @@ STEPS_PER_BEAT = 12
 """Frames that show one period of flickering light. From one to the next, the embedded generator's
 beat then changes brightness by at most 0.18 (white; α = 30): below the paper preset's δ."""
 MOTION_LIMIT = 2
-"""Where the user says nothing, motion raises Eq. 4's count to at most this multiple of it, so that
-no clip takes more than twice as long."""
+"""Limit unless the user sets one: motion raises Eq. 4's count to at most this multiple of it, so
+that no clip takes more than twice as long."""
 NEEDS_NO_FLOW = frozenset({"none", "blend", "motion"})
 """Interpolators whose frames show no motion, or motion that is known."""
 

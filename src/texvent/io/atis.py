@@ -1,15 +1,6 @@
-"""ATIS recordings: Event Stream (.es) version 2, and the .bin of N-MNIST and N-Caltech101.
+"""The .bin and .bs2 files of N-MNIST and N-Caltech101, recorded with an ATIS.
 
-Event Stream, type 1 (change detection), 5 bytes per event, little-endian; it is only read:
-
-    file     `Event Stream` · version 2 0 0 · type 1 · u16 width · u16 height
-    event    u8: time since the event before (0..126 µs) << 1 | p · u16 x · u16 y, from the bottom
-    0xFF     127 µs pass · 0xFE  reset, read over
-
-Rows count from the bottom, as faery and the format's cameras have it; programs that do not flip
-them show the image upside down.
-
-.bin or .bs2, 5 bytes per event:
+5 bytes per event:
 
     byte 0  x · byte 1  y · bytes 2..4  p << 23 | t (µs, 23 bits), big-endian
     y = 240 is no event: from here on 8192 µs are added to all times; so is a turn of the 23 bits
@@ -19,8 +10,7 @@ are read, not written, because readers disagree about them. The bytes hold no se
 no metadata: texvent writes both beside the file, in `NAME.bin.json`. For files of others the size
 is asked for (N-MNIST 34x34; N-Caltech101 240x180).
 
-Source: Neuromorphic Vision, Event Stream specification, version 2.0; Orchard et al., Converting
-Static Image Datasets to Spiking Neuromorphic Datasets, 2015.
+Source: Orchard et al., Converting Static Image Datasets to Spiking Neuromorphic Datasets, 2015.
 """
 
 from __future__ import annotations
@@ -33,12 +23,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError
-from texvent.io.block_codec import BlockCodec, BlockReader, FileContents, write_records
+from texvent.errors import InputError
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import UNLIMITED, Columns, FileTarget, FormatLimits, WriteBlock
-from texvent.io.byte_blocks import read_bytes, read_records
+from texvent.io.byte_blocks import read_records
 from texvent.io.clocks import TurningClock
-from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import ReadOptions
 from texvent.sensor import SensorSize
@@ -107,66 +96,3 @@ def _read_blocks(path: Path) -> Iterator[Columns]:
             columns = {name: column[~is_overflow] for name, column in columns.items()}
             t = t[~is_overflow]
         yield {**columns, "t": t}
-
-
-MAGIC = b"Event Stream"
-VERSION = b"\x02\x00\x00"
-TYPE = 1
-TYPES = {0: "generic", 1: "dvs", 2: "atis", 3: "asynchronous", 4: "color"}
-HEADER_BYTES = len(MAGIC) + len(VERSION) + 1 + 4
-
-
-class EventStream2Codec(BlockReader):
-    """Event Stream files of change-detection events."""
-
-    name: ClassVar[str] = "es"
-    extensions: ClassVar[tuple[str, ...]] = (".es",)
-
-    def recognises(self, path: Path) -> bool:
-        """True if the file begins as Event Stream files do."""
-        return begins_with(path, MAGIC)
-
-    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
-        """The header states the size; metadata is in a sidecar file."""
-        width, height = _read_size(path)
-        _, metadata = read_sidecar(path)
-        return FileContents((width, height), metadata, partial(_read_stream, path, height - 1))
-
-
-def _read_size(path: Path) -> tuple[int, int]:
-    with path.open("rb") as file:
-        header = file.read(HEADER_BYTES)
-    if not header.startswith(MAGIC):
-        raise FileFormatError(
-            f"{path} is not an Event Stream: it does not begin with {MAGIC.decode()!r}"
-        )
-    if len(header) < HEADER_BYTES - 4:
-        raise FileFormatError(f"{path} ends inside its header; the file was cut off")
-    version, kind = header[12:15], header[15]
-    if version[0] != VERSION[0]:
-        raise FileFormatError(f"{path} is Event Stream version {version[0]}; texvent reads 2")
-    if kind != TYPE:
-        raise FileFormatError(
-            f"{path} holds Event Stream events of type {kind} ({TYPES.get(kind, 'unknown')}); "
-            "texvent reads type 1 (dvs)"
-        )
-    if len(header) < HEADER_BYTES:
-        raise FileFormatError(f"{path} ends inside its header; the file was cut off")
-    return int.from_bytes(header[16:18], "little"), int.from_bytes(header[18:20], "little")
-
-
-def _read_stream(path: Path, top: int) -> Iterator[Columns]:
-    from texvent.io.event_stream2_cpu import decode_events  # brings Numba
-
-    rest = b""
-    now = 0
-    for block in read_bytes(path, HEADER_BYTES):
-        data = np.frombuffer(rest + block, dtype=np.uint8)
-        room = len(data) // EVENT_BYTES
-        x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)
-        y, t = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
-        count, used, now = decode_events(data, (now, top), (x, y, t, p))
-        rest = data[used:].tobytes()
-        yield {"x": x[:count], "y": y[:count], "t": t[:count], "p": p[:count]}
-    if rest:
-        raise FileFormatError(f"{path} ends inside an event; the file was cut off")

@@ -102,7 +102,7 @@ TEXT_BYTES = 1024
 
 
 def packing_of(path: Path) -> Packing | None:
-    """How a file is compressed; None: it is not."""
+    """Compression of a file; None: it has none."""
     with path.open("rb") as file:
         start = file.read(8)
     return next((one for one in PACKINGS if start.startswith(one.magic)), None)

@@ -1,4 +1,4 @@
-"""Events of the bytes of Event Stream files; the layout is described in `atis.py`."""
+"""Events of the bytes of Event Stream files; the layout is described in `event_stream2.py`."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from texvent.sensor import SensorSize
 
 EXTENSIONS = (".npy", ".png", ".txt")
 USUAL_SHARE = 0.9
-"""Of the pixels left out; above, the mask is perhaps turned into its opposite."""
+"""Largest usual share of pixels left out; above, the mask is perhaps turned into its opposite."""
 MAX_TEXT_BYTES = 1 << 26
 
 

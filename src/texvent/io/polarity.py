@@ -70,7 +70,7 @@ class PolarityCode:
         return is_on.astype(np.uint8)
 
     def are_likely(self, values: NDArray[Any]) -> NDArray[np.bool_]:
-        """Which values are of the code that fits the values before, and most of these."""
+        """Mask of values of the code that fits the values before, and most of these."""
         numbers = _numbers(values)
         fits = [np.isin(numbers, code) for code in CODES if self._seen <= {*code}]
         return np.asarray(max(fits, key=np.count_nonzero))

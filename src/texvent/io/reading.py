@@ -37,7 +37,7 @@ SAMPLE_TIMES, SAMPLES = 4096, 4
 
 @dataclass(frozen=True, kw_only=True)
 class ReadOptions:
-    """How to read a file; each is for files that do not say it themselves."""
+    """Options of reading; each is for files that do not say it themselves."""
 
     size: SensorSize | None = None
     """Sensor size, pixels."""
@@ -47,7 +47,7 @@ class ReadOptions:
     """Columns in the order of the file (`t`, `x`, `y`, `p`; other words are skipped), or each with
     its name: `t=stamp`."""
     stream: str | None = None
-    """Which recording of a file of several: group, topic or number of the camera."""
+    """Recording of a file of several: group, topic or number of the camera."""
     repair: bool = False
     """Whether damage is repaired and counted instead of refused."""
 
@@ -190,7 +190,7 @@ def to_microseconds(
 
 
 def are_times(values: NDArray[Any], unit: TimeUnit) -> NDArray[np.bool_]:
-    """Which values can be times in a unit, as `to_microseconds` takes them."""
+    """Mask of values that can be times in a unit, as `to_microseconds` takes them."""
     if values.dtype.kind in "mM":
         return np.asarray(~np.isnat(values))
     in_us = MICROSECONDS / PER_SECOND[unit]

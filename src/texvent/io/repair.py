@@ -51,14 +51,14 @@ LONGEST_PAUSE_US = 600_000_000
 
 @dataclass
 class RepairCounts:
-    """How much was repaired."""
+    """Counts of repaired events."""
 
     outside_sensor: int = 0
     """Events dropped because no pixel has their coordinates."""
     out_of_order: int = 0
     """Events whose time is before that of an earlier one."""
     dropped_late: int = 0
-    """Of those, events too late to be sorted, which are dropped."""
+    """Events among them that are too late to be sorted, which are dropped."""
     stray_times: int = 0
     """Events dropped because their time is none of the recording."""
     clock_resets: int = 0
@@ -145,7 +145,7 @@ class _Clock:
         self._counts = counts
         self._kept = self._skipped = self._added_us = 0
         self._latest_us: int | None = None
-        """Of the stored times since the last reset."""
+        """Largest of the stored times since the last reset."""
         self._reached_us = -(2**62)
         """Latest time on the clock."""
 

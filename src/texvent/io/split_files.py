@@ -37,7 +37,7 @@ class Interval:
     start_us: int
     stop_us: int
     label: str | None = None
-    """What it shows, where a table of labels says it."""
+    """Class that it shows, where a table of labels says it."""
 
 
 def read_intervals(path: Path) -> list[Interval]:

@@ -475,7 +475,7 @@ def _named_table(path: Path, arrays: Mapping[str, Array], options: ReadOptions) 
 
 
 def are_whole(values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which values are whole numbers that pixels may have."""
+    """Mask of values that are whole numbers that pixels may have."""
     if values.dtype.kind != "f":
         return np.ones(len(values), bool)
     return np.asarray((np.abs(values, dtype=np.float64) < 2**31) & (values == np.rint(values)))

@@ -28,14 +28,14 @@ nn: Any = torch.nn
 _Module: Any = nn.Module
 
 INPUT_CHANNELS = 20
-"""Of the stacked histogram: 2 polarities of 10 bins."""
+"""Channels of the stacked histogram: 2 polarities of 10 bins."""
 STRIDES = (4, 2, 2, 2)
 """By how much each stage reduces the image it is given."""
 RUN_STAGES = 3
 """Stages whose features are compared."""
 MLP_RATIO = 4
 GATES = 4
-"""Of the LSTM: forget, input, output, and the new content."""
+"""Gates of the LSTM: forget, input, output, and the new content."""
 HEAD_CHANNELS = {32: 32, 48: 24, 64: 32}
 """Channels of the first stage of RVT-T, RVT-S and RVT-B → channels of an attention head."""
 PARTITION_PX = 64
@@ -47,7 +47,7 @@ FIRST_TENSOR = "stages.0.downsample_cf2cl.conv.weight"
 OWN_PARTITION_PX = 32
 """Instead of `PARTITION_PX` in the training of evlib's."""
 BINNING, MOST_BINNING = "binning", 4
-"""Of weights trained here: pixels along each side of a cell that the network saw."""
+"""Entry of weights trained here: pixels along each side of a cell that the network saw."""
 EVLIB_NAMES = (
     (r"attention_blocks\.(\d+)\.(window|grid)_attn", r"att_blocks.\1.att_\2"),
     (r"\.attn\.", ".self_attn."),

@@ -27,12 +27,12 @@ SAFETENSORS = ".safetensors"
 STATE = "state_dict"
 FLOAT_BYTES = 4
 NOTES, TRAINING = "texvent", "training"
-"""Where `texvent train` notes how weights were made, and the training file in it."""
+"""Entries in which `texvent train` notes how weights were made, and the training file in it."""
 DAMAGE = (
     *(RuntimeError, OSError, EOFError, ValueError, LookupError, AttributeError, TypeError),
     *(pickle.UnpicklingError, zipfile.BadZipFile),
 )
-"""What reading arbitrary bytes as a pickle can raise."""
+"""Exceptions of reading arbitrary bytes as a pickle."""
 PARALLEL_PREFIX = "module."
 """Put before every name by training on several GPUs."""
 

@@ -42,14 +42,14 @@ LOST_PX2 = 2.0
 There the two frames are blended where they are."""
 
 CONTESTED_RELATIVE, CONTESTED_PX2 = 0.1, 16.0
-"""Where the two flows at a pixel differ by more than this share of the longer one, squared, plus
-this, px², two surfaces meet there, and the path is chosen among theirs."""
+"""Limit of the difference of the two flows at a pixel: this share of the longer one, squared, plus
+this, px². Above it two surfaces meet there, and the path is chosen among theirs."""
 
 CLEARLY_BETTER = 0.3
 """By how much more the flows must confirm another path (0..2) to take it instead of the mean."""
 
 SWEPT = 1.5
-"""How well the flows must confirm a surface that passes in front, 0..2."""
+"""Least agreement of the flows on a surface that passes in front, 0..2."""
 
 LEAST_SWEEP_PX2, MOST_SWEEP_PX2 = 9.0, 2304.0
 """A surface that moves less, squared, covers each pixel of its path in one of the frames. One that

@@ -50,7 +50,7 @@ class Samples(NamedTuple):
     value: Floats
     """Intensity at the place."""
     flow: Words
-    """Of the nearest pixel, px."""
+    """Flow of the nearest pixel, px."""
 
 
 class Corners(NamedTuple):

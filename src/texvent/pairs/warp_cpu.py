@@ -76,9 +76,9 @@ class WarpPair(NamedTuple):
     shift: int
     """1 where a vector stands for 2×2 px, else 0; see `paths_cpu`."""
     sweep: Floats
-    """Of `paths_cpu.find_sweep`."""
+    """Sweep, from `paths_cpu.find_sweep`."""
     contested: Numbers
-    """Of `paths_cpu.number_contested`."""
+    """Contested pixels, from `paths_cpu.number_contested`."""
     positions: Floats
     """[K] τ of the intermediate frames."""
     chosen: Floats

@@ -28,7 +28,7 @@ Axis: TypeAlias = tuple[Array, int]
 
 
 class ArrayOps:
-    """Where NumPy and torch differ; this is NumPy, `represent.tensors.TorchOps` is torch."""
+    """NumPy's operations where torch's differ; `represent.tensors.TorchOps` has those."""
 
     @property
     def xp(self) -> Any:

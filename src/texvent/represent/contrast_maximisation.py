@@ -157,7 +157,7 @@ def _warp(events: EventStream, flow: Float64Array) -> Float64Array:
 
 
 def _search_grid(place: Float64Array, share: Float64Array, reach: float) -> Float64Array:
-    """Of a grid of ways, px, the one with the sharpest coarse image; of equals, the shortest."""
+    """Displacement of a grid, px, with the sharpest coarse image; of equals, the shortest."""
     steps = np.arange(-(reach // COARSE_PX), reach // COARSE_PX + 1) * COARSE_PX
     # Rounded down, as a cast to whole numbers would double the cells around 0.
     column, row = (

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError
+from texvent.lens import Lens
 from texvent.options.values import option_names
-from texvent.scenes.lens import Lens
 from texvent.scenes.scene import Camera, Environment, Primitives, Scene
 from texvent.sensor import SensorSize
 

@@ -18,9 +18,6 @@ A calibration that Kalibr wrote is such a file; short forms are for files writte
 `baseline` is the camera's place in the camera before, m (one number: to its right), `rotation` how
 it is turned about that camera's x, then y, then z axis, degrees. TOML holds the same names.
 
-Kalibr's pixels count from the middle of the first one: its principal point is half a pixel less
-than `Lens`'s.
-
 Source: Kalibr's documentation, "YAML formats".
 """
 
@@ -37,20 +34,13 @@ import yaml
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
+from texvent.io.calibration import MODELS, read_lens, read_numbers, read_size
+from texvent.lens import HALF_PIXEL, Lens, lens_reach
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
-from texvent.scenes.lens import Distortion, Lens, lens_reach
-from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor, warn_of_far_centre
+from texvent.sensor import SENSORS, SensorSize, find_sensor, warn_of_far_centre
 from texvent.settings.config_files import read_document
 
-HALF_PIXEL = 0.5
 MOST_CAMERAS = 16
-_DISTORTIONS: dict[str, Distortion] = {
-    "radtan": "radtan",
-    "plumb_bob": "radtan",
-    "equidistant": "equidistant",
-    "equi": "equidistant",
-    "none": "none",
-}
 _IGNORED = ("rostopic", "cam_overlaps", "timeshift_cam_imu", "time_offset", "model")
 _CAMERA_KEYS = (
     "camera_model", "intrinsics", "field_of_view", "distortion_model", "distortion_coeffs",
@@ -116,7 +106,7 @@ def read_noise(entry: Any, where: str) -> ImuNoise:
             raise ConfigError(
                 f"{where}: the IMU has no {name}; give all of {', '.join(NOISE_NAMES)}"
             )
-        value = _numbers([entry[name]], 1, f"{where}: {name}")[0]
+        value = read_numbers([entry[name]], 1, f"{where}: {name}")[0]
         if value < 0.0:
             raise ConfigError(f"{where}: {name} is {value:g}; it must be at least 0")
         values.append(value)
@@ -169,7 +159,7 @@ def _intrinsics(camera: RigCamera) -> dict[str, Any]:
         "distortion_coeffs": list(lens.coefficients),
         # Kalibr's readers expect four coefficients; radtan with zeros is no distortion.
         "distortion_model": "radtan" if lens.distortion == "none" else lens.distortion,
-        "intrinsics": [lens.fx, lens.fy, lens.cx - HALF_PIXEL, lens.cy - HALF_PIXEL],
+        "intrinsics": list(lens.intrinsics),
     }
 
 
@@ -198,11 +188,6 @@ def _entry(value: Any, name: str, where: str) -> Mapping[str, Any]:
             f"{where}: timeshift_cam_imu is {shown(shift)} s; a simulated rig has one clock, so it "
             "is 0 here"
         )
-    if value.get("camera_model", "pinhole") != "pinhole":
-        raise ConfigError(
-            f"{where}: camera_model is {shown(value['camera_model'])}; only pinhole is known, with "
-            "distortion radtan or equidistant"
-        )
     return value
 
 
@@ -215,76 +200,39 @@ def _resolution(entry: Mapping[str, Any], size: SensorSize, where: str) -> Senso
                 f"{where}: no sensor {shown(sensor)}; {suggest(str(sensor), tuple(SENSORS))}"
             )
         size = known.size
-    if "resolution" not in entry:
-        return size
-    width, height = _numbers(entry["resolution"], 2, f"{where}: resolution")
-    if width != int(width) or height != int(height):
-        raise ConfigError(f"{where}: resolution is {width:g} x {height:g}; give whole numbers")
-    stated = checked_size(int(width), int(height))
-    if sensor is not None and stated != size:
+    stated = read_size(entry, where)
+    if sensor is not None and stated not in (None, size):
         raise ConfigError(f"{where}: resolution is {stated}, but sensor {sensor} has {size}")
-    return stated
+    return stated or size
 
 
 def _lens(entry: Mapping[str, Any], size: SensorSize, where: str) -> Lens | None:
-    model = entry.get("distortion_model", "none")
-    if model not in _DISTORTIONS:
-        raise ConfigError(
-            f"{where}: distortion_model is {shown(model)}; it must be radtan, equidistant or none"
-        )
-    given = entry.get("distortion_coeffs") or [0.0] * 4
-    coefficients = _numbers(
-        given, len(given) if isinstance(given, Sequence) else 4, f"{where}: distortion_coeffs"
-    )
-    if len(coefficients) == 5 and coefficients[4] == 0.0:
-        coefficients = coefficients[:4]
-    if len(coefficients) != 4:
-        raise ConfigError(
-            f"{where}: distortion_coeffs has {len(coefficients)} numbers; {model} takes 4"
-        )
-    distortion = _DISTORTIONS[model]
-    if distortion == "none" and any(coefficients):
-        raise ConfigError(
-            f"{where}: distortion_coeffs without distortion_model; say radtan or equidistant"
-        )
-    if "intrinsics" in entry:
-        fx, fy, cx, cy = _numbers(entry["intrinsics"], 4, f"{where}: intrinsics")
-        cx, cy = cx + HALF_PIXEL, cy + HALF_PIXEL
-    elif "field_of_view" in entry:
-        fx = fy = _focal(entry["field_of_view"], size, distortion, where)
-        cx, cy = 0.5 * size.width, 0.5 * size.height
-    elif any(coefficients) or distortion == "equidistant":
-        raise ConfigError(
-            f"{where}: distortion needs intrinsics, [fu, fv, pu, pv] in pixels, or field_of_view"
-        )
-    else:
+    if "field_of_view" in entry and "intrinsics" not in entry:
+        focal = _focal(entry, size, where)
+        middle = [0.5 * side - HALF_PIXEL for side in size]
+        entry = {**entry, "intrinsics": [focal, focal, *middle]}
+    lens = read_lens(entry, where)
+    if lens is None:
         return None
-    lens = Lens(
-        fx,
-        fy,
-        cx,
-        cy,
-        distortion,
-        (coefficients[0], coefficients[1], coefficients[2], coefficients[3]),
-    )
     try:
         with np.errstate(all="ignore"):
             lens_reach(lens, size)
     except ConfigError as error:
         raise ConfigError(f"{where}: {error}") from error
-    warn_of_far_centre((cx, cy), size, where)
+    warn_of_far_centre((lens.cx, lens.cy), size, where)
     return lens
 
 
-def _focal(value: Any, size: SensorSize, distortion: Distortion, where: str) -> float:
+def _focal(entry: Mapping[str, Any], size: SensorSize, where: str) -> float:
     """Focal length in pixels of a field of view across the image, before coefficients count."""
-    degrees = _numbers([value], 1, f"{where}: field_of_view")[0]
+    degrees = read_numbers([entry["field_of_view"]], 1, f"{where}: field_of_view")[0]
     if not 1.0 <= degrees <= 170.0:
         raise ConfigError(
             f"{where}: field_of_view is {degrees:g}°; it must be 1..170, across the image"
         )
     half = math.radians(0.5 * degrees)
-    return 0.5 * size.width / (half if distortion == "equidistant" else math.tan(half))
+    is_equidistant = MODELS.get(str(entry.get("distortion_model"))) == "equidistant"
+    return 0.5 * size.width / (half if is_equidistant else math.tan(half))
 
 
 def _from_first(
@@ -328,10 +276,10 @@ def _check_distance(distance_m: float, where: str) -> None:
 def _placed(entry: Mapping[str, Any], where: str) -> Float64Array:
     """[4, 4] coordinates in the camera before → in this one, of `baseline` and `rotation`."""
     given = entry.get("baseline", 0.0)
-    place = _numbers(
+    place = read_numbers(
         [given, 0.0, 0.0] if isinstance(given, int | float) else given, 3, f"{where}: baseline"
     )
-    angles = np.radians(_numbers(entry.get("rotation", [0.0] * 3), 3, f"{where}: rotation"))
+    angles = np.radians(read_numbers(entry.get("rotation", [0.0] * 3), 3, f"{where}: rotation"))
     (ca, cb, cc), (sa, sb, sc) = np.cos(angles), np.sin(angles)
     about_x = np.array([[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
     about_y = np.array([[cb, 0, sb], [0, 1, 0], [-sb, 0, cb]])
@@ -346,7 +294,7 @@ def _map(value: Any, where: str) -> Float64Array:
     rows = value if isinstance(value, Sequence) and not isinstance(value, str) else []
     if len(rows) != 4:
         raise ConfigError(f"{where} is {shown(value)}; it must be four rows of four numbers")
-    matrix = np.array([_numbers(row, 4, where) for row in rows])
+    matrix = np.array([read_numbers(row, 4, where) for row in rows])
     left, stretch, right = np.linalg.svd(matrix[:3, :3])
     turn = left @ right
     is_rigid = np.abs(stretch - 1.0).max() < _NOT_RIGID and np.linalg.det(turn) > 0.0
@@ -356,25 +304,3 @@ def _map(value: Any, where: str) -> Float64Array:
         )
     matrix[:3, :3] = turn
     return matrix
-
-
-def _numbers(value: Any, count: int, where: str) -> list[float]:
-    """A list of finite numbers."""
-    is_list = isinstance(value, Sequence) and not isinstance(value, str)
-    if not is_list or len(value) != count:
-        raise ConfigError(f"{where} is {shown(value)}; it must be {count} numbers")
-    numbers = [_number(one) for one in value]
-    for one, number in zip(value, numbers, strict=True):
-        if not math.isfinite(number):
-            raise ConfigError(f"{where} holds {shown(one)}; it must be {count} finite numbers")
-    return numbers
-
-
-def _number(value: Any) -> float:
-    """The number; NaN where it is none. YAML reads 2e-3 as text."""
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
-        return math.nan
-    try:
-        return float(value)
-    except (ValueError, OverflowError):
-        return math.nan

@@ -15,6 +15,7 @@ from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
 from texvent.generate.scene_input import Subject, prompt_of
+from texvent.lens import lens_reach
 from texvent.options.values import option_names, plain
 from texvent.pipeline import Simulation, text_to_video
 from texvent.rig.config import RigConfig, check_generator
@@ -38,7 +39,6 @@ from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_time
 from texvent.run.prepare import check_run, prepare_video
 from texvent.runtime.identity import derived_seed
 from texvent.runtime.progress import Progress
-from texvent.scenes.lens import lens_reach
 from texvent.scenes.scene import Scene
 from texvent.sensor import SensorSize
 from texvent.settings.config_files import read_document

@@ -25,7 +25,7 @@ from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, frame_time_us
 
 MOST_INSTANTS = 64
-"""Of an exposure."""
+"""Largest number of instants of an exposure."""
 GRID_PX = 1 / 64
 """Most that anything moves between two instants of the grid."""
 FASTEST_SHARE = 0.995

@@ -29,7 +29,7 @@ OnStep = Callable[[Frame, EventStream], None]
 
 @dataclass(frozen=True)
 class RunFiles:
-    """Which files a run writes."""
+    """Files that a run writes."""
 
     events: Path
     """Event file; previews are named after it."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TruthFolder:
-    """Which truth a run writes, and where.
+    """Truth that a run writes, and its folder.
 
     Example:
         >>> TruthFolder("car.truth", "flow,boxes").names

@@ -25,7 +25,7 @@ _TEXT_SIZE = re.compile(
     rb"#\?.*?[-+][XY] +(\d+) +[-+][XY] +(\d+)|P\d" + _GAP + rb"(\d+)" + _GAP + rb"(\d+)",
     re.DOTALL,
 )
-"""Of Radiance HDR, and of PNM."""
+"""Sizes in headers of Radiance HDR, and of PNM."""
 _JPEG_2000 = b"\xff\x4f\xff\x51"
 HEAD_BYTES = 4096
 """An animation says that it is one before its first pixels."""

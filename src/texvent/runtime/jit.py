@@ -106,7 +106,7 @@ def _without_entry(library: Any, *_: Any) -> Any:
 
 
 def _add_overload(kernel: Any, compiled: Any) -> None:
-    """What kernels call; calls from Python find nothing."""
+    """Register a compiled form for calls from kernels; those from Python do not find it."""
     kernel.overloads[tuple(compiled.signature.args)] = compiled
 
 

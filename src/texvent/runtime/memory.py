@@ -23,11 +23,11 @@ import numpy as np
 from texvent.errors import FileFormatError, InputError
 
 SHARE = 0.8
-"""Of the machine's memory, or of its control group's, that a run uses at most by default."""
+"""Share of the machine's memory, or of its control group's, that a run uses at most by default."""
 UNKNOWN_BYTES = 8 * 2**30
 """Taken for the machine's memory where the system does not report it, as on Windows."""
 SMALL_BYTES = 512 * 2**20
-"""What unpacks to less is never out of proportion to its file: a black frame of 16k, 8 bits."""
+"""Unpacked size below which no file is out of proportion: a black frame of 16k, 8 bits."""
 MOST_EXPANSION = 100
 """Columns, text and photographs shrink to a half or a tenth; zeros shrink to a thousandth."""
 _CONTROL_GROUPS = (

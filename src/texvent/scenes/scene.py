@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.lens import Lens, distort
+from texvent.lens import Lens, distort
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]

@@ -33,7 +33,7 @@ HELD_BACK = (
 
 
 class SignalTally:
-    """What one pass of a run has seen and fired, with flat memory."""
+    """Tally of one pass of a run: levels seen and events fired, with flat memory."""
 
     def __init__(self) -> None:
         self.begin(None)
@@ -62,8 +62,8 @@ class SignalTally:
         self.signal += len(packet) - noise
         self.noise += noise
 
-    def doubt(self, kept: str = "all") -> str | None:
-        """What the user has hardly meant, with the reason and the option that helps; else None.
+    def warning(self, kept: str = "all") -> str | None:
+        """Warning of a result hardly meant, its reason and the option that helps; else None.
 
         Options are written as keywords: `cache='global'`.
 
@@ -94,7 +94,7 @@ class SignalTally:
         return f"all {self.noise:,} events are noise" if self.noise else "no events"
 
     def _stillness(self, ranges: NDArray[Any], threshold: float) -> str:
-        """How little changes; and a threshold below the largest change, if there is any."""
+        """Words for how little changes, and a threshold below the largest change, if any."""
         most_levels = float((self._high - self._low).max(initial=0.0))
         if most_levels <= STILL_LEVELS:
             return (

@@ -105,7 +105,7 @@ def intrinsics(camera: Camera, size: SensorSize) -> tuple[float, float, float, f
     """
     lens = camera.lens
     if lens is not None:
-        return lens.fx, lens.fy, lens.cx - 0.5, lens.cy - 0.5
+        return lens.intrinsics
     focal = camera.focal * size.width
     return focal, focal, (size.width - 1) / 2, (size.height - 1) / 2
 

@@ -22,7 +22,7 @@ NOISE_CORRELATION = 0.4
 """Images have above 0.8."""
 REPEAT_SHARE = 0.02
 MOTION_SHARE = 0.04
-"""Of the longer side, per frame: 13 px of 320."""
+"""Share of the longer side, per frame: 13 px of 320."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -210,12 +210,12 @@ class VideoReport:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """Of a failed video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
+        """Faults of a video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
         return self._found(is_failure=True)
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Of the other checks: the video is what it should be, and events suffer."""
+        """Findings of the other checks: the video is what it should be, and events suffer."""
         return self._found(is_failure=False)
 
     def _found(self, *, is_failure: bool) -> tuple[str, ...]:

@@ -205,7 +205,7 @@ def percentile_of_counts(counts: NDArray[Any], percent: float) -> float:
 
 
 def _jitter(means: Float64Array) -> Float64Array:
-    """How far each inner frame's mean stands out from both neighbours, on the same side."""
+    """Distance of each inner frame's mean from both neighbours, on the same side."""
     if len(means) < 3:
         return np.zeros(1)
     before = means[1:-1] - means[:-2]

@@ -32,7 +32,7 @@ from texvent.view.stills import busiest_window_png
 MAX_TITLE = 300
 """Characters of a prompt that are shown."""
 LONGEST_SIDE = 480
-"""Of a frame, pixels; larger ones are made smaller."""
+"""Longest side of a frame, pixels; larger ones are made smaller."""
 STRIP_FRAMES = 4
 JPEG_QUALITY = 90
 

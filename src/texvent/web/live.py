@@ -28,7 +28,7 @@ MEASURED_FRAMES = 300
 COMPILING_STEPS = 2
 """First steps of an event camera, which do not count: kernels are compiled."""
 LEAVE_S = 2.0
-"""How long a source that sends nothing is waited for at the end."""
+"""Wait at the end for a source that sends nothing, s."""
 LONGEST_LATENCY_S = 3600.0
 
 

@@ -22,9 +22,9 @@ from texvent.web.live import LiveEvents, Shown
 from texvent.web.server import Answer, PageServer, page_text
 
 WAIT_S = 1.0
-"""How long a request waits for the next frame."""
+"""Wait of a request for the next frame, s."""
 GRACE_S, SILENCE_S = 2.0, 60.0
-"""How long a page may ask for nothing after it said that it closes, and at any time."""
+"""Time for which a page may ask for nothing after it said that it closes, and at any time, s."""
 PICTURE_WIDTH = 960
 """Widest picture of the camera, pixels."""
 

@@ -29,7 +29,7 @@ HOST = "127.0.0.1"
 CALL_BYTES = 2**16
 """Largest request."""
 READ_S, SEND_S = 10.0, 60.0
-"""How long a whole request may take to arrive, and an answer to be taken."""
+"""Time that a whole request may take to arrive, and an answer to be taken, s."""
 MOST_CONNECTIONS = 64
 """Requests that are arriving; a further one ends the oldest."""
 NO_TOKEN = (
@@ -59,7 +59,7 @@ class Answer(NamedTuple):
     content: str | bytes
     kind: str = "application/json"
     policy: str = NOTHING_POLICY
-    """What a browser may do with it (Content-Security-Policy)."""
+    """Rights of a browser with it (Content-Security-Policy)."""
 
 
 Gets: TypeAlias = Mapping[str, Callable[[Mapping[str, str]], Answer | None]]

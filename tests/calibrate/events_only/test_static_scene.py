@@ -10,8 +10,8 @@ from tests.calibrate.known_scenes import simulate_static
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.pixel_trains import find_dead_time
-from texvent.calibrate.events_only.rest import leak_rate
 from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
+from texvent.calibrate.events_only.stationary_blocks import leak_rate
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

@@ -1,6 +1,6 @@
 import numpy as np
 
-from texvent.calibrate.events_only.rest import find_rest, mains_flicker
+from texvent.calibrate.events_only.stationary_blocks import find_stationary, mains_flicker
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -15,18 +15,18 @@ def scattered(count, seed=0, span_us=8_000_000):
 
 def test_random_events_are_at_rest_and_a_burst_in_a_block_is_not():
     noise = scattered(5_000)
-    assert find_rest(noise).all()
+    assert find_stationary(noise).all()
     burst = EventStream([20] * 300, [5] * 300, range(4_000_000, 4_000_300), [1] * 300, SIZE)
     both = np.argsort(np.concatenate([noise.t, burst.t]), kind="stable")
     columns = (np.concatenate([getattr(noise, n), getattr(burst, n)])[both] for n in "xytp")
-    rests = find_rest(EventStream(*columns, SIZE))
+    rests = find_stationary(EventStream(*columns, SIZE))
     # Blocks of 16: the burst lies in columns 16..31 of the upper row.
     assert not rests[:16, 16:32].any()
     assert rests.sum() == 48 * 32 - 16 * 16
 
 
 def test_no_events_are_at_rest():
-    assert find_rest(EventStream.empty(SIZE)).all()
+    assert find_stationary(EventStream.empty(SIZE)).all()
 
 
 def test_a_lamp_on_the_mains_is_told_from_noise():

@@ -19,7 +19,7 @@ KERNELS = {
     "texvent.simulate.random.poisson_noise:draw_arrivals": "poisson_arrivals:draw_arrivals",
     "texvent.simulate.texvent.noise:place_noise": "noise_blocks:place_noise",
     "texvent.simulate.texvent.pixels:SparsePixels": "texvent:TexventPixels",
-    "texvent.simulate.texvent.pixels:ShakenPixels": "texvent:TexventPixels",
+    "texvent.simulate.texvent.pixels:GaussianPixels": "texvent:TexventPixels",
     "texvent.simulate.esim.pixels:cross_thresholds": "esim:cross_thresholds",
     "texvent.simulate.v2e.pixels:apply_low_pass": "v2e:apply_low_pass",
     "texvent.simulate.v2e.pixels:emit_and_reset": "v2e:emit_and_reset",

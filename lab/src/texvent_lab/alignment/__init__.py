@@ -1,1 +1,1 @@
-"""How well the events of a data set fit the texts they were made from, as a number."""
+"""Scores of the fit between the events of a data set and the texts they were made from."""

@@ -19,7 +19,7 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True, kw_only=True)
 class Retrieval:
-    """How high the own texts of recordings stand."""
+    """Ranks of the recordings' own texts."""
 
     recall: Mapping[int, float]
     """k → share of the recordings whose own text is among the k most similar."""
@@ -44,7 +44,7 @@ class RetrievalReport:
     shuffled: Retrieval
     """Mean over random exchanges of the texts."""
     chance: Retrieval
-    """What an exchange of the texts gives in the long run, computed."""
+    """Score that an exchange of the texts gives in the long run, computed."""
     p_value: float
     """Share of the exchanges whose mean similarity is at least the measured one; never 0."""
     misfits: Sequence[Mapping[str, Any]] = ()

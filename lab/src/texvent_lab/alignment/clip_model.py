@@ -23,7 +23,7 @@ from texvent_lab.networks.saved_models import find_model
 EXAMPLE = "openai/clip-vit-base-patch32"
 MEAN = (0.48145466, 0.4578275, 0.40821073)
 STD = (0.26862954, 0.26130258, 0.27577711)
-"""Of CLIP's training images, RGB in 0..1 (Radford 2021)."""
+"""Standard deviation of CLIP's training images, RGB in 0..1 (Radford 2021)."""
 BATCH = 32
 
 Vectors = NDArray[np.float32]

@@ -29,7 +29,7 @@ class Recording:
     """Events with the text they belong to."""
 
     id: str
-    """What it shares with recordings of the same text in other sources."""
+    """Name that it shares with recordings of the same text in other sources."""
     text: str
     load: Callable[[], EventStream]
     key: str = ""

@@ -41,7 +41,7 @@ RECORDED = "N-ImageNet"
 
 @dataclass(frozen=True, kw_only=True)
 class AlignOptions:
-    """Which recordings, which model."""
+    """Recordings and model."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
@@ -70,9 +70,9 @@ class AlignOptions:
     """List recordings whose similarity with their own text is less than this above the mean of that
     with the others; 0: those that fit the others better, where a video model may have failed."""
     seed: int = 0
-    """Of the bootstrap and of the exchanged captions."""
+    """Seed of the bootstrap and of the exchanged captions."""
     device: str = "auto"
-    """Where the model runs: auto, cpu, cuda, cuda:1."""
+    """Device of the model: auto, cpu, cuda, cuda:1."""
 
     def __post_init__(self) -> None:
         check_range("limit", self.limit, 2)

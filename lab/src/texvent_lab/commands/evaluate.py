@@ -23,7 +23,7 @@ trained with, or others. Needs torch: pip install 'texvent-lab[train]'.
 
 @dataclass(frozen=True, kw_only=True)
 class EvaluateOptions:
-    """What to score, and on what."""
+    """Network to score, and its samples."""
 
     positional: ClassVar[tuple[str, ...]] = ("task", "specification", "weights")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}

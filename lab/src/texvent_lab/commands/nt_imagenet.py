@@ -54,7 +54,7 @@ docs/datasets.md explains it."""
 
 @dataclass(frozen=True, kw_only=True)
 class NtImagenetOptions:
-    """Which streams, and where their captions come from."""
+    """Streams, and the source of their captions."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("model",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
@@ -74,7 +74,7 @@ class NtImagenetOptions:
     """LLaVA, or another model that makes the captions that are missing: folder saved by
     transformers, or hub:org/name."""
     device: str = "auto"
-    """Where the model runs: auto, cpu, cuda, cuda:1."""
+    """Device of the model: auto, cpu, cuda, cuda:1."""
     events: Path | None = None
     """Data set made from the captions in --out: score its samples beside the recorded streams."""
     rvt_weights: Path | None = None

@@ -37,7 +37,7 @@ package brings its weights, or one whose weights you provide (docs/reconstructio
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructOptions(EventRangeOptions):
-    """Which events, and where the images go."""
+    """Events to reconstruct, and files of the images."""
 
     short_flags: ClassVar[Mapping[str, str]] = {
         **EventRangeOptions.short_flags,
@@ -101,7 +101,7 @@ def run(arguments: Sequence[str]) -> int:
 def _provenance(
     reconstructor: Reconstructor, options: ReconstructOptions, events: EventPackets
 ) -> dict[str, Any]:
-    """What made these images, ready for JSON."""
+    """Provenance of the images, ready for JSON."""
     return {
         "events": {"source": str(options.path), **events.metadata},
         "network": reconstructor.name,

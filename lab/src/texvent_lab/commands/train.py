@@ -24,7 +24,7 @@ where a training was stopped or killed. Needs torch: pip install 'texvent-lab[tr
 
 @dataclass(frozen=True, kw_only=True)
 class TrainOptions:
-    """What to train, and where its files go."""
+    """Network to train, and the folder of its files."""
 
     positional: ClassVar[tuple[str, ...]] = ("task", "specification")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}

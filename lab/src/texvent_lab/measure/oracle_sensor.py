@@ -45,9 +45,10 @@ REST_FRAMES = 10 * int(FPS) + 1
 TEXTURE = 7
 """The texture on which the benchmark fits thresholds; others are scored."""
 FRAMES_PER_PIXEL = 2.0
-"""Of motion, while frames are compared with events: what fine texture does between them counts."""
+"""Frames per pixel of motion, while frames are compared with events: what fine texture does between
+them counts."""
 VELOCITY = (60.0, 14.0)
-"""Of the half that moves, px/s."""
+"""Velocity of the half that moves, px/s."""
 
 
 def flickering_field(seconds: float) -> Float64Array:

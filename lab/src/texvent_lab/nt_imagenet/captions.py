@@ -24,7 +24,7 @@ _REFUSAL = re.compile(
 
 @dataclass(frozen=True, kw_only=True)
 class CaptionCheck:
-    """What was found about one caption."""
+    """Findings about one caption."""
 
     words: int
     is_refusal: bool

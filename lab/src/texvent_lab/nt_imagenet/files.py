@@ -67,7 +67,7 @@ def write_captions(folder: Path, captioned: Iterable[Captioned]) -> None:
 
 
 def read_captioned(path: Path) -> list[Captioned]:
-    """What `write_captions` wrote.
+    """Captions that `write_captions` wrote.
 
     Raises:
         FileFormatError: it cannot be read or holds something else.

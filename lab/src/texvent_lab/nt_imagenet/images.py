@@ -18,7 +18,7 @@ QUESTION = "Caption the image in detail."
 """The paper's, to LLaVA-v1.5-13B."""
 EXAMPLE = "llava-hf/llava-1.5-13b-hf"
 MOST_TOKENS = 256
-"""Of a caption; the paper's have up to 124 words."""
+"""Most tokens of a caption; the paper's have up to 124 words."""
 EXTENSIONS = (".jpeg", ".jpg", ".png")
 
 

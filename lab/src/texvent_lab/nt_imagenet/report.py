@@ -38,7 +38,7 @@ class Report:
     levels: Sequence[float] = ()
     """Mean level of each image, 0..255; empty without the images."""
     captions_file: str | None = None
-    """Where the captions are from."""
+    """File that the captions are from."""
     captions_model: str | None = None
     """Made the captions that the file lacks, as answers to the paper's question."""
 

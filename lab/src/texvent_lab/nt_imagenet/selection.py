@@ -1,4 +1,4 @@
-"""Which streams of N-ImageNet belong to NT-ImageNet.
+"""Streams of N-ImageNet that belong to NT-ImageNet.
 
 Paper, 9.7 and Table 10: 100 classes, 50 streams per class of the validation set, 3k to 170k events
 per stream. Which 100 classes is not said; here the first 100 in order of their WordNet ids, as in
@@ -45,7 +45,7 @@ class Stream:
 
 @dataclass(frozen=True, kw_only=True)
 class Selection:
-    """What was chosen, and what was not."""
+    """Streams chosen, and those that were not."""
 
     streams: tuple[Stream, ...]
     """In order of class and id."""

@@ -21,7 +21,7 @@ _Module: Any = _nn.Module
 WIDTHS, BLOCKS = (32, 64, 128, 256, 512), 2
 """Channels at full size, at half of it ...; blocks in the middle."""
 POLARITIES, NODES = 2, 10
-"""Of a voxel grid: ON and OFF, and nodes in time."""
+"""Axes of a voxel grid: ON and OFF, and nodes in time."""
 
 
 class V2ce(Network):

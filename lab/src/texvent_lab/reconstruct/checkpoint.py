@@ -70,7 +70,7 @@ def read_network(published: PublishedNetwork, path: Path) -> RecurrentNetwork:
 
 
 def network_settings(content: Mapping[str, Any]) -> Mapping[str, Any]:
-    """How the program that trained the network built it, wherever it stored that.
+    """Settings with which the network was built for training, wherever they are stored.
 
     One program stores `model`, another `config` with `model` in it, a third an object around
     `arch`, whose arguments are the network's own mapping alone.

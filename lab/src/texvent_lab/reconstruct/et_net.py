@@ -19,7 +19,7 @@ _nn: Any = require("torch.nn", extra=EXTRA)
 SCALES = 3
 HEADS, DROPOUT, WAVELENGTH = 8, 0.1, 10_000.0
 ENCODER_LAYERS, DECODER_LAYERS = 3, 2
-"""Of the transformer at each scale."""
+"""Layers of the transformer at each scale."""
 
 
 class EtNet(RecurrentUNet):

@@ -30,7 +30,7 @@ Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructConfig:
-    """Which network turns events into images."""
+    """Network that turns events into images, and its options."""
 
     network: str = "pie-net"
     """Network: pie-net, e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net; e2depth for depth,
@@ -39,7 +39,7 @@ class ReconstructConfig:
     """File with its published weights, which texvent neither carries nor downloads; default: that
     of pie-net's package, or its place in the weights folder."""
     device: Device = "auto"
-    """Where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+    """Device: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
 
 
 Intensity: TypeAlias = NDArray[np.float32]
@@ -125,7 +125,7 @@ class Reconstructor:
         self._published = published
         self._device = device
         self.sha256 = sha256
-        """Of the weights file."""
+        """Digest of the weights file."""
         self.reset()
 
     @property

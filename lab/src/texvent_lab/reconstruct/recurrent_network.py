@@ -16,7 +16,7 @@ from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 
 EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"
-"""Where files and normalisations of the published networks come from: B. Ercan et al., "EVREAL:
+"""Source of the files and normalisations of the published networks: B. Ercan et al., "EVREAL:
 towards a comprehensive benchmark and analysis suite for event-based video reconstruction", CVPRW
 2023."""
 Picture: TypeAlias = NDArray[np.float32]
@@ -96,7 +96,7 @@ class PublishedNetwork:
     network: type[RecurrentNetwork]
     """Class of the network."""
     where_from: str
-    """Where the weights were published."""
+    """Place where the weights were published."""
     is_normalised: bool = False
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
@@ -110,5 +110,5 @@ class PublishedNetwork:
 
     @property
     def file_name(self) -> str:
-        """Of the weights in the weights folder."""
+        """File name of the weights in the weights folder."""
         return f"{self.name}.pth"

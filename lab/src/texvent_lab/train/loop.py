@@ -34,9 +34,9 @@ class TrainingState:
     """All that the next epoch depends on, and what is kept of those before."""
 
     tables: Mapping[str, Any]
-    """What is trained and how, as plain values."""
+    """Options of the training, as plain values."""
     version: str = field(default_factory=full_version)
-    """Of texvent."""
+    """Version of texvent."""
     epochs: int = 0
     """Complete ones."""
     network: Mapping[str, Tensor] = field(default_factory=dict)
@@ -104,7 +104,7 @@ HISTORY_FILE, CURVES_FILE = "history.json", "curves.png"
 Row = Mapping[str, float]
 """Name → value of one epoch; "epoch" counts from 1."""
 HIDDEN = ("epoch", "seconds")
-"""What gets no curve of its own."""
+"""Columns without a curve of their own."""
 LOSSES = "loss"
 """End of the names of losses, which share a plot."""
 MOST_COLUMNS, WIDTH_INCHES, HEIGHT_INCHES = 3, 4.5, 3.4

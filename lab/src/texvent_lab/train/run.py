@@ -72,7 +72,7 @@ def with_tables(config: Config, tables: Mapping[str, Any], *, folder: Path, wher
 
 
 WHERE_FROM = "texvent train writes it as weights.pt"
-"""Of a weights file, for messages."""
+"""Origin of a weights file, for messages."""
 
 
 def train_from_file(

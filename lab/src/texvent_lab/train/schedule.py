@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from texvent_lab.train.task import Task
 
 EXTRA = "texvent-lab[train]"
-"""What brings torch and matplotlib."""
+"""Extra that brings torch and matplotlib."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Schedule:
-    """What decides a training beside the network and its data.
+    """Options of a training beside the network and its data.
 
     Raises:
         ConfigError: a value out of range.
@@ -39,7 +39,7 @@ class Schedule:
     learning_rate: float = 1e-3
     """Step size of the optimiser."""
     weight_decay: float = 0.0
-    """Of the optimiser."""
+    """Weight decay of the optimiser."""
     amsgrad: bool = False
     """Whether the optimiser keeps the largest second moment."""
     patience: int | None = None
@@ -83,7 +83,10 @@ class Schedule:
 
 @dataclass(frozen=True, kw_only=True)
 class Hardware:
-    """What trains. On one kind of CPU, with as many threads, equal runs give equal weights."""
+    """Hardware of the training.
+
+    On one kind of CPU, with as many threads, equal runs give equal weights.
+    """
 
     device: Literal["auto", "cpu", "cuda"] = "auto"
     """auto is the GPU if torch finds one."""
@@ -111,7 +114,7 @@ class Hardware:
         return torch.device("cuda" if has_gpu and self.device != "cpu" else "cpu")
 
     def autocast(self, device: Any) -> AbstractContextManager[Any]:
-        """What the network is computed in, to be entered."""
+        """Precision that the network is computed in, a context."""
         if self.precision == "float32":
             return nullcontext()
         torch = require("torch", extra=EXTRA)
@@ -131,7 +134,7 @@ class TrainingConfig:
     """The extra that brings those of the task."""
 
     seed: int = 0
-    """Of the initial weights, the order of samples and their augmentation."""
+    """Seed of the initial weights, the order of samples and their augmentation."""
     schedule: Schedule = field(default_factory=Schedule)
 
     def __post_init__(self) -> None:

@@ -28,7 +28,7 @@ class Task(Protocol):
 
     @property
     def identity(self) -> str:
-        """Of the validation samples, and of weights that it begins with; see `MakeSample`."""
+        """Identity of the validation samples, and of its first weights; see `MakeSample`."""
         ...
 
     def make_network(self) -> Any:
@@ -44,7 +44,7 @@ class Task(Protocol):
         ...
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
-        """Of a batch, a scalar; it depends on its arguments alone."""
+        """Loss of a batch, a scalar; it depends on its arguments alone."""
         ...
 
     def validate(
@@ -80,7 +80,7 @@ class MakeSample(Protocol):
 
     @property
     def identity(self) -> str:
-        """Of the samples; a training goes on with equal ones alone."""
+        """Identity of the samples; a training goes on with equal ones alone."""
         ...
 
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:

@@ -27,7 +27,11 @@ from texvent.calibrate.events_only.pixel_trains import (
     PixelTrains,
     find_dead_time,
 )
-from texvent.calibrate.events_only.rest import find_rest, leak_rate, mains_flicker
+from texvent.calibrate.events_only.stationary_blocks import (
+    find_stationary,
+    leak_rate,
+    mains_flicker,
+)
 from texvent.errors import InputError, warn
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
@@ -100,7 +104,7 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurem
     """
     first_us, stop_us = events.time_range or (0, 0)
     seconds = (stop_us - first_us) / MICROSECONDS
-    rests = find_rest(events)
+    rests = find_stationary(events)
     exposure_s = float(rests.sum()) * seconds
     if exposure_s < LEAST_EXPOSURE_S:
         raise InputError(

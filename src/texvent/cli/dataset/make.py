@@ -37,7 +37,7 @@ same command resumes where it was stopped or killed, on any machine that sees th
 
 @dataclass(frozen=True, kw_only=True)
 class MakeOptions:
-    """What to make, and where it runs."""
+    """Data set to make, and the machines that make it."""
 
     positional: ClassVar[tuple[str, ...]] = ("specification",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}

@@ -36,7 +36,7 @@ from a trial of a few samples the size and the time. Nothing is kept.
 
 @dataclass(frozen=True, kw_only=True)
 class PlanOptions:
-    """Which specification, and what it would run on."""
+    """Specification, and the machines that it would run on."""
 
     positional: ClassVar[tuple[str, ...]] = ("specification",)
     outputs: ClassVar[tuple[str, ...]] = ()
@@ -91,7 +91,7 @@ def _prompts(recipe: Recipe) -> str:
 
 
 def describe_contents(recipe: Recipe) -> list[str]:
-    """What a specification gives, one line each."""
+    """Contents of a specification, one line each."""
     specification, items = recipe.specification, recipe.items
     kind = "videos" if items.are_videos else "prompts"
     kind = "scenes" if all(item.scene is not None for item in items.all) else kind

@@ -35,7 +35,7 @@ from texvent.runtime.threads import count_threads
 MOST_LINES = 20
 MOST_CLASSES = 12
 WIDTH = 110
-"""Of the table of counts, which has ten columns, also where there is no terminal."""
+"""Width of the table of counts, which has ten columns, also where there is no terminal."""
 TITLES = {
     "missing": "missing or not complete",
     "changed": "changed",
@@ -71,7 +71,7 @@ def _parse(step: str, arguments: Sequence[str], options: Any) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class StoredOptions:
-    """Which data set."""
+    """Data set to read."""
 
     positional: ClassVar[tuple[str, ...]] = ("folder",)
     outputs: ClassVar[tuple[str, ...]] = ("folder",)
@@ -82,7 +82,7 @@ class StoredOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class JsonOptions(StoredOptions):
-    """Which data set."""
+    """Data set to read."""
 
     json: bool = False
     """Print JSON."""
@@ -172,7 +172,7 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
 
 @dataclass(frozen=True, kw_only=True)
 class SampleOptions(StoredOptions):
-    """Which samples."""
+    """Samples to show."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "count": "-n"}
     outputs: ClassVar[tuple[str, ...]] = ("folder", "out")
@@ -180,13 +180,13 @@ class SampleOptions(StoredOptions):
     out: Path | None = None
     """The page, .html. Default: samples.html in the folder."""
     count: int = 24
-    """How many."""
+    """Number of samples."""
     variant: str | None = None
-    """Of this variant only."""
+    """Samples of this variant only."""
     split: str | None = None
-    """Of this split only."""
+    """Samples of this split only."""
     label: str | None = None
-    """Of this class only."""
+    """Samples of this class only."""
     seed: int = 0
     """Another draws others."""
     overwrite: bool = False
@@ -230,7 +230,7 @@ class ExportOptions(StoredOptions):
     out: Path | None = None
     """Folder to write."""
     variant: str | None = None
-    """Which variant; needed where there are several."""
+    """Variant; needed where there are several."""
     classes: str | None = None
     """Classes of boxes in the order of their numbers, others are left out: car,pedestrian; a name
     may gather some: vehicle=car+bus. Default: those of the layout, or of the data set."""

@@ -38,7 +38,7 @@ metric says what it does not see. docs/metrics.md gives definitions and the self
 
 @dataclass(frozen=True, kw_only=True)
 class CompareOptions(ReadingOptions):
-    """Which files, and by which metrics."""
+    """Files to compare, and metrics."""
 
     positional: ClassVar[tuple[str, ...]] = ("files",)
 

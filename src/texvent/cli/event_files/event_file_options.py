@@ -58,7 +58,7 @@ class ReadingOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class EventFileOptions(ReadingOptions):
-    """Which event file."""
+    """Event file to read."""
 
     positional: ClassVar[tuple[str, ...]] = ("path",)
 
@@ -74,7 +74,7 @@ class EventFileOptions(ReadingOptions):
 
 @dataclass(frozen=True, kw_only=True)
 class EventRangeOptions(EventFileOptions):
-    """Which event file, and which part of it."""
+    """Event file to read, and the part of it."""
 
     time: str | None = None
     """Use START,STOP only, in seconds of the recording's clock. START is included; either may be

@@ -35,7 +35,7 @@ MOST_SHOWN = 80
 
 @dataclass(frozen=True, kw_only=True)
 class InfoOptions(EventFileOptions):
-    """Which file, and how to say it."""
+    """File to describe, and form of the report."""
 
     path: Path = REQUIRED
     """Event file, video file or image folder."""

@@ -30,7 +30,7 @@ NO_VIDEO = "none"
 
 @dataclass(frozen=True, kw_only=True)
 class ShownEventsOptions(EventRangeOptions):
-    """Which events are drawn, and the video beside them."""
+    """Events to draw, and the video beside them."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("video",)
     short_flags: ClassVar[Mapping[str, str]] = {
@@ -76,7 +76,7 @@ page (.html).
 
 @dataclass(frozen=True, kw_only=True)
 class RenderOptions(ShownEventsOptions):
-    """Which events, and where the result goes."""
+    """Events to render, and the file to write."""
 
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "video", "time", "speed", "render_fps", "window", "overlay", "show",
@@ -120,7 +120,7 @@ region to select, the event rate and the source video.
 
 @dataclass(frozen=True, kw_only=True)
 class ViewOptions(ShownEventsOptions):
-    """Which events, and how the page is made."""
+    """Events to view, and options of the page."""
 
     out: Path | None = None
     """Page to save (.html). Without it, a temporary page is made and opened in the browser; it

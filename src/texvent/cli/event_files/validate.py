@@ -30,7 +30,7 @@ NO_CHECKSUMS = "none: the format cannot notice events that were changed by damag
 
 @dataclass(frozen=True, kw_only=True)
 class ValidateOptions(EventFileOptions):
-    """Which file, and how to say it."""
+    """File to check, and form of the report."""
 
     short_flags: ClassVar[Mapping[str, str]] = {**ReadingOptions.short_flags, "quiet": "-q"}
 

@@ -134,7 +134,7 @@ def _processors() -> Finding:
 
 
 def _kernels() -> Finding:
-    """Where compiled functions are kept."""
+    """Folder of compiled functions."""
     folder = kernel_folder()
     if folder is None or folder.is_relative_to(tempfile.gettempdir()):
         remedy = "name a folder that can be written with NUMBA_CACHE_DIR"

@@ -32,7 +32,7 @@ in the cache ($TEXVENT_CACHE, else the user's cache folder). RIFE's need texvent
 
 @dataclass(frozen=True, kw_only=True)
 class PullOptions:
-    """What to fetch."""
+    """Files to fetch."""
 
     positional: ClassVar[tuple[str, ...]] = ("name",)
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}

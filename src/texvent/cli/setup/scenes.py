@@ -30,7 +30,7 @@ name, and their sizes; `texvent generate "a car" --preview car.png` draws one.
 
 @dataclass(frozen=True, kw_only=True)
 class ScenesOptions:
-    """Which nouns."""
+    """Nouns to list."""
 
     positional: ClassVar[tuple[str, ...]] = ("word",)
 

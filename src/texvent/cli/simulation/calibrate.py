@@ -77,8 +77,8 @@ class CalibrateOptions:
     out: Path = REQUIRED
     """Config file to write, .toml."""
     threshold_map: Path | None = None
-    """File to write, .npz: the thresholds of each pixel, which a flickering field tells. The config
-    file then names it, and simulates this very sensor."""
+    """File to write, .npz: the thresholds of each pixel, measured from a flickering field. The
+    config file then names it, and simulates this very sensor."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     format: str | None = None
@@ -88,14 +88,14 @@ class CalibrateOptions:
     frames_gamma: float = 1.0
     """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
     keep: tuple[Literal["balance", "cutoff_hz"], ...] = ()
-    """Options of --start-preset that frames and events shall not change: cutoff_hz, where a
-    flickering field told it."""
+    """Options of --start-preset that frames and events shall not change: cutoff_hz, where it was
+    measured from a flickering field."""
     seconds: float = 1.0
-    """How much of each half of a recording with frames is simulated."""
+    """Part of each half of a recording with frames that is simulated, s."""
     overwrite: bool = False
     """Replace files that exist already."""
     quiet: bool = False
-    """Do not tell what is tried."""
+    """Do not log the search."""
 
     def __post_init__(self) -> None:
         check_choices(self)
@@ -122,7 +122,7 @@ class CalibrateOptions:
 
     @property
     def start_config(self) -> PhysicalConfig:
-        """Where the search starts.
+        """Options from which the search starts.
 
         Raises:
             ConfigError: the file is for another model.

@@ -32,7 +32,7 @@ Exit code: 0; with --strict 1 if something was found."""
 
 @dataclass(frozen=True, kw_only=True)
 class CheckOptions:
-    """Which frames, and output of the report."""
+    """Frames to check, and output of the report."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)

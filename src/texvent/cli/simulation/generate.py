@@ -34,7 +34,7 @@ generator renders simple 3-D shapes; `texvent generators` lists learned models.
   texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
 VIDEO_EXTENSION, STILLS_EXTENSION = ".avi", ".png"
 ABOUT_HALF = 0.43
-"""Of the clip. At its half, what repeats every second would look as at the beginning."""
+"""Share of the clip. At its half, what repeats every second would look as at the beginning."""
 
 
 @dataclass(frozen=True, kw_only=True)

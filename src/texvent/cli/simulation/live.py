@@ -41,7 +41,7 @@ class LiveOptions:
     sensor: str | None = None
     """Sensor: name or WIDTHxHEIGHT. Without it, the size of the frames."""
     interpolate: str | None = None
-    """What fills the time between frames: flow, blend, rife or none (fastest)."""
+    """Interpolator between frames: flow, blend, rife or none (fastest)."""
     config: Path | None = None
     """TOML or YAML file with more options; flags override it."""
     folder: Path = Path()

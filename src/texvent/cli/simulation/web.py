@@ -28,7 +28,7 @@ LEAD = """<!doctype html><meta name="referrer" content="no-referrer">
 
 @dataclass(frozen=True, kw_only=True)
 class PageOptions:
-    """Where the page is served."""
+    """Address at which the page is served."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
 

@@ -40,12 +40,12 @@ if TYPE_CHECKING:
 
 
 MOST_BYTES = 2**29
-"""Of kept frames: .5 s at 304×240 pixels take 60 MB, 2 s at 346×260 about 300 MB. What comes after
-that is rendered again."""
+"""Size of kept frames: .5 s at 304×240 pixels take 60 MB, 2 s at 346×260 about 300 MB. What comes
+after that is rendered again."""
 
 
 class KeptFrames:
-    """What was rendered of a clip; rendered again, it would be equal to the last bit."""
+    """Frames rendered of a clip; rendered again, they would be equal to the last bit."""
 
     def __init__(self) -> None:
         self.clear()

@@ -94,7 +94,7 @@ class Recipe:
 
     @property
     def command(self) -> Command:
-        """Whose options the specification has."""
+        """Command whose options apply."""
         return "simulate" if self.items.are_videos else "generate"
 
     @functools.cached_property

@@ -24,7 +24,7 @@ LABEL_RECORD = np.dtype(
 LONGEST_GAP_US = 100_000
 """Boxes are not moved between instants further apart than this."""
 REACH_US = 25_000
-"""Where boxes are not moved, they hold this long before and after their instant."""
+"""Time before and after its instant for which a box that is not moved holds, µs."""
 
 
 def boxes_at(boxes: Boxes, instants_us: NDArray[np.int64], t_us: int) -> Boxes | None:

@@ -1,4 +1,4 @@
-"""What a layout refuses before anything is written, and what it does not hold."""
+"""Refusals of a layout before anything is written, and contents that it does not hold."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def _count_boxes(dataset: StoredDataset, variant: str) -> Counter[str]:
 def find_recipe(
     dataset: StoredDataset, layout: Layout, name: str
 ) -> tuple[Recipe | None, tuple[str, ...]]:
-    """What the frames of the samples can be made of, or None and why, if that is to be said.
+    """Recipe that the frames of the samples can be made of, or None and why, if that is to be said.
 
     Raises:
         InputError: the layout needs frames, and this folder cannot give them.
@@ -150,7 +150,7 @@ def find_recipe(
 def doubts_of(
     dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList
 ) -> tuple[str, ...]:
-    """What the layout does not hold of a variant, and what may surprise its readers."""
+    """Contents of a variant that the layout does not hold, and surprises for its readers."""
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
     if not layout.keeps_noise_labels and any(
         "label.npy" in sample.members for sample in _samples(dataset, variant)

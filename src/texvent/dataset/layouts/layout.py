@@ -1,4 +1,4 @@
-"""What a layout is, and what it is given of a sample."""
+"""Layouts, and the parts of a sample that they are given."""
 
 from __future__ import annotations
 

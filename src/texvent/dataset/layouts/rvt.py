@@ -39,7 +39,7 @@ from texvent.truth.boxes import clip_boxes
 WINDOW_US = 50_000
 REPRESENTATION = f"stacked_histogram_dt={WINDOW_US // 1000}_nbins={BINS}"
 LEAST_SIDE = 5.0
-"""Of a box, pixels."""
+"""Shortest side of a box, pixels."""
 
 
 def write_rvt(

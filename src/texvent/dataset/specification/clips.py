@@ -20,7 +20,7 @@ from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve
 
 MOST_SHARDS = 1_000_000
-"""Of a variant."""
+"""Most shards of a variant."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,7 +109,7 @@ class DiffusersGenerator:
         )
 
     def plan(self, prompt: str) -> str | None:
-        """What making the video would take, or None if it was made before. Touches no network.
+        """Cost of making the video, or None if it was made before. Touches no network.
 
         Raises:
             TexventError: as `generate`, for faults that show before the networks are loaded.

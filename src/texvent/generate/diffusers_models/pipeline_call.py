@@ -34,7 +34,7 @@ GUIDER = "guider"
 """Part in which some pipelines keep the guidance scale, instead of an argument of the call."""
 ON_STEP = "callback_on_step_end"
 FRAME_DIMENSIONS = 4
-"""Of one video, [F, H, W, 3]; most pipelines return a batch of them."""
+"""Dimensions of one video, [F, H, W, 3]; most pipelines return a batch of them."""
 
 
 def call_pipeline(

@@ -35,7 +35,7 @@ ROOMY_GB = 75.0
 
 @dataclass(frozen=True)
 class Placement:
-    """How a pipeline is loaded."""
+    """Loading of a pipeline."""
 
     device: str
     dtype: str

@@ -44,7 +44,7 @@ from texvent.video import (
 
 EXTENSION = ".avi"
 REMEDY = "delete it and generate again"
-"""What to do about a damaged file."""
+"""Advice about a damaged file."""
 FULL_SCALE = 65_535.0
 _CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
 _EIGHT_BITS = 8
@@ -62,7 +62,7 @@ class StoredVideo(NotebookFrames):
     size: SensorSize
     frame_count: int
     metadata: Mapping[str, Any] = field(default_factory=dict)
-    """What made it (JSON-serialisable)."""
+    """Origin of the video (JSON-serialisable)."""
 
     def __repr__(self) -> str:
         return describe_stream(self)

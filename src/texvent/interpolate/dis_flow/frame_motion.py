@@ -39,7 +39,7 @@ LEAST_VARIANCE = 4.0
 """Variance of detail below which agreement means nothing, squared levels."""
 
 LEAST_UNCONFIRMED = 0.05
-"""Where a smaller share of the flow is not confirmed, the search has found the motion."""
+"""Share of the flow that may be unconfirmed where the search has found the motion."""
 LEAST_CONFIRMED = 0.1
 """Share of the flow that must be confirmed to fit a motion."""
 WITHIN = 1.0

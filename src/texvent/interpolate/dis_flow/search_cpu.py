@@ -39,7 +39,7 @@ _SIDE = np.float32(PATCH)
 _UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
 
 Sums = tuple[np.float32, np.float32, np.float32, np.float32]
-"""Of d, d², d·slope_x and d·slope_y over a patch."""
+"""Sums of d, d², d·slope_x and d·slope_y over a patch."""
 Vector = tuple[np.float32, np.float32]
 
 

@@ -101,7 +101,7 @@ class MotionPair:
     sides: tuple[FrameSide, FrameSide]
     """Both frames in that part."""
     transfer: Transfer
-    """Of the frames; levels are always gamma-coded here."""
+    """Coding of the frames; levels are always gamma-coded here."""
 
     @classmethod
     def of(cls, first: Frame, second: Frame) -> MotionPair:

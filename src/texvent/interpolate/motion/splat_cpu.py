@@ -61,7 +61,7 @@ class Fragment(NamedTuple):
     change: np.float32
     """Change of it since."""
     tolerance: np.float32
-    """Of ln depth within its layer."""
+    """Tolerance of ln depth within its layer."""
 
 
 @jit(inner=True)

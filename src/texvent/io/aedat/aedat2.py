@@ -82,7 +82,7 @@ class AddressLayout:
     not_events: int = 0
     """Addresses with one of these bits are no events."""
     signal: int = 0
-    """Of those, the bit of an external signal."""
+    """Bit of an external signal among them."""
     unused: int = 0
     """Bits that are 0 in the address of every event."""
 

@@ -34,11 +34,11 @@ MAX_PACKET_BYTES = 256 * 2**20
 
 
 LZ4_NAME, LZ4_CODE = "LZ4", 1
-"""What the XML and the header of a file with LZ4 say."""
+"""Name in the XML, and code in the header, of LZ4."""
 
 
 def _unpacker(code: int) -> Callable[[bytes], bytes]:
-    """What unpacks the packets of a file whose header names this compression.
+    """Decompressor of the packets of a file whose header names this compression.
 
     Raises:
         FileFormatError: no packing has this number.
@@ -81,7 +81,7 @@ def unpack_zstd(data: bytes) -> bytes:
 
 
 def unpack_bz2(data: bytes) -> bytes:
-    """What bzip2 packed.
+    """Bytes unpacked from bzip2.
 
     Raises:
         FileFormatError: it is damaged, cut off or too large.

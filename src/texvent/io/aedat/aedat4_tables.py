@@ -57,7 +57,7 @@ class Table:
         return cls(data, PREFIX_BYTES + _number("<I", data, PREFIX_BYTES))
 
     def field(self, slot: int) -> int | None:
-        """Where a field is stored, or None if it has its default value."""
+        """Position of a field, or None if it has its default value."""
         vtable = self.position - _number("<i", self.data, self.position)
         entry = 4 + 2 * slot
         if entry + 2 > _number("<H", self.data, vtable):

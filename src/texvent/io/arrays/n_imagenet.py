@@ -27,7 +27,7 @@ from texvent.io.metadata import metadata_to_json
 from texvent.sensor import SensorSize
 
 SENSOR = SensorSize(640, 480)
-"""Of the recordings of the data set."""
+"""Size of the recordings of the data set."""
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 

@@ -27,7 +27,7 @@ from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file
 from texvent.io.block_writer import Columns, FileTarget
 from texvent.io.files import save
-from texvent.io.hdf5.native import (
+from texvent.io.hdf5.dsec import (
     CHUNK_EVENTS,
     GZIP,
     Hdf5Codec,

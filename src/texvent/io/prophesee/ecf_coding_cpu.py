@@ -165,7 +165,7 @@ def decode_packed(body: Bytes, columns: tuple[NDArray[Any], ...]) -> int:
 
 @jit
 def _read_run(body: Bytes, at: int, run: np.int64, long_run: int) -> tuple[int, np.int64]:
-    """Where the run's bytes end, and its length (−1: damaged); 16 bits follow a long run."""
+    """End of the run's bytes, and its length (−1: damaged); 16 bits follow a long run."""
     if run != long_run:
         return at + 1, run
     if at + 3 > body.size:

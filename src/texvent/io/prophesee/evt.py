@@ -70,7 +70,7 @@ class WordDecoder:
 
 
 SAMPLE = 16
-"""Of so many words one is looked at for types that the format does not have."""
+"""Number of words, one of which is looked at for types that the format does not have."""
 FEW_EVENTS, FEW_SHARE = 10, 0.01
 """Most recordings begin between two times: so many events are left out without a word."""
 MAX_SIDE = 2048

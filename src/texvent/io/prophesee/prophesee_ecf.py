@@ -41,13 +41,13 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockReader, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import Columns
-from texvent.io.hdf5.native import data_sets_beside, read_metadata, stored_size
+from texvent.io.hdf5.dsec import data_sets_beside, read_metadata, stored_size
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.reading import ReadOptions
 
 MAX_EVENTS = 65_535
 MAX_START_US = 1 << 62
-"""Of the times of a chunk; see `texvent.io.prophesee.ecf_coding_cpu`."""
+"""Largest start of the times of a chunk; see `texvent.io.prophesee.ecf_coding_cpu`."""
 _HEAD = struct.Struct("<IQ")
 
 

@@ -45,7 +45,7 @@ class TriggerCoding:
 
 EVT2 = TriggerCoding("<u4", (28, 4), (0, 28), (22, 6), (8, 5), (0, 1))
 EVT21 = replace(EVT2, word="<u8")
-"""Of words whose upper half comes first."""
+"""Layout of words whose upper half comes first."""
 EVT3 = TriggerCoding("<u2", (12, 4), (0, 12), None, (8, 4), (0, 1))
 
 

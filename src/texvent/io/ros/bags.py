@@ -239,7 +239,7 @@ class _Bag:
     path: Path
     reader: Any
     version: int
-    """Of ROS."""
+    """Version of ROS."""
     is_packed: bool = False
     """Whether each message is a Zstandard frame."""
 

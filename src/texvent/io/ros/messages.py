@@ -61,7 +61,7 @@ bool is_bigendian
 uint8[] events
 """
 OLD_PACKET = "event_array_msgs/msg/EventArray"
-"""Of the same fields as EventPacket, which it was called before."""
+"""Former name of EventPacket, with the same fields."""
 PACKETS = (EVENT_PACKET, OLD_PACKET)
 EVENT_MESSAGES = (EVENT_ARRAY, PROPHESEE_ARRAY, DV_ARRAY, *PACKETS)
 """Types of messages that hold events."""
@@ -84,7 +84,7 @@ _RECORD_2 = np.dtype(
 )
 """A record of ROS 2 that begins two bytes after a multiple of four, as all but the first."""
 TIME_BITS = 31
-"""Of libcaer's clock, whose turns before a message are in its base."""
+"""Bits of libcaer's clock, whose turns before a message are in its base."""
 _RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("s", "<u4"), ("ns", "<u4"), ("p", "u1")])
 
 

@@ -180,7 +180,7 @@ class EcdCodec(TextCodec):
 
 
 LEVEL = 1
-"""Of zip's compression: text shrinks to a fourth even so."""
+"""Level of zip's compression: text shrinks to a fourth even so."""
 ENTRY = "events.txt"
 
 

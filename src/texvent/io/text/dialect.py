@@ -69,7 +69,7 @@ def parse_table(
 
 @dataclass(frozen=True)
 class Dialect:
-    """How a text writes its rows."""
+    """Form of the rows of a text."""
 
     delimiter: str | None
     """Between values; None: spaces or tabs."""

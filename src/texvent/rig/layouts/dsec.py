@@ -29,8 +29,8 @@ import yaml
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError
+from texvent.lens import HALF_PIXEL, Lens, distort, normalised
 from texvent.rig.description import Float64Array, RigCamera
-from texvent.rig.kalibr import HALF_PIXEL
 from texvent.rig.layouts.parts import (
     Tally,
     counted_frames,
@@ -42,7 +42,6 @@ from texvent.rig.layouts.parts import (
 )
 from texvent.rig.recording import Recording
 from texvent.runtime.progress import Progress
-from texvent.scenes.lens import Lens, distort, normalised
 from texvent.sensor import SensorSize
 from texvent.truth.sinks import write_png
 from texvent.video import MICROSECONDS
@@ -224,7 +223,7 @@ def write_disparity(recording: Recording, pair: Rectified, folder: Path) -> None
 def _cam_to_cam(first: RigCamera, second: RigCamera, pair: Rectified) -> dict[str, Any]:
     """DSEC's cam_to_cam.yaml."""
     cameras, turns = (first, first, second, second), (0, 0, 1, 1)
-    pinhole = [pair.lens.fx, pair.lens.fy, pair.lens.cx - HALF_PIXEL, pair.lens.cy - HALF_PIXEL]
+    pinhole = list(pair.lens.intrinsics)
     intrinsics: dict[str, Any] = {}
     for number, camera in enumerate(cameras):
         model, coefficients, matrix = intrinsic_values(camera)

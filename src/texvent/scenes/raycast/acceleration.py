@@ -13,8 +13,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.lens import Lens, lens_reach
 from texvent.runtime.jit import jit
-from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,

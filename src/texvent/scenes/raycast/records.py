@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.lens import Lens
+from texvent.lens import Lens, lens_limits
 from texvent.scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
 from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
 from texvent.scenes.scene import Environment, Ground, Primitives, Rays, Texture
@@ -33,11 +33,12 @@ INSTANT_RECORD = np.dtype(
         ("right", "f8", 3),
         ("down", "f8", 3),
         ("step", "f8"),
-        # Lens: number of its distortion, see lens.DISTORTIONS; fx, fy, cx, cy; coefficients. Places
-        # of shapes, and `corner`, `right` and `down`, are in the image without distortion.
+        # Lens: number of its distortion, see lens.DISTORTIONS; fx, fy, cx, cy; coefficients, and
+        # the furthest start of `lens_limits`. Places of shapes, and `corner`, `right` and `down`,
+        # are in the image without distortion.
         ("distortion", "i8"),
         ("lens", "f8", 4),
-        ("coefficients", "f8", 4),
+        ("coefficients", "f8", 6),
         ("plane_corner", "f8", 2),  # where the screen tiles begin in that image, pixels
         # Lists of shapes: screen tile c owns lists[lists[c] : lists[c + 1]], front to back; the sun
         # grid's cells follow from `sun_cells` on; its last cell lists the big shapes.
@@ -267,7 +268,7 @@ def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]
     """Write a lens into the record, and where the screen tiles begin."""
     instant["distortion"] = lens.number
     instant["lens"] = (lens.fx, lens.fy, lens.cx, lens.cy)
-    instant["coefficients"], instant["plane_corner"] = lens.coefficients, corner
+    instant["coefficients"], instant["plane_corner"] = (*lens.five, lens_limits(lens)[1]), corner
 
 
 def describe_rays(instant: NDArray[Any], rays: Rays) -> None:

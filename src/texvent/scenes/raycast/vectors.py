@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from texvent.lens import CONVERGED, ITERATIONS, WIDEST
 from texvent.runtime.jit import jit
-from texvent.scenes.lens import CONVERGED, ITERATIONS, WIDEST
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.scene import Float64Array
 
@@ -91,11 +91,14 @@ NO_DISTORTION, RADTAN = 0, 1
 
 @jit(error_model="numpy", inner=True)
 def _undistorted_radtan(k: Record, tx: float, ty: float) -> tuple[float, float]:
-    k1, k2, p1, p2 = k[0], k[1], k[2], k[3]
-    x, y = tx, ty
+    k1, k2, p1, p2, k3 = k[0], k[1], k[2], k[3], k[4]
+    x, y, radius = tx, ty, math.hypot(tx, ty)
+    if radius > k[5]:
+        x, y = tx * (k[5] / radius), ty * (k[5] / radius)
     for _ in range(ITERATIONS):
         square = x * x + y * y
-        radial, slope = 1.0 + square * (k1 + square * k2), 2.0 * (k1 + 2.0 * k2 * square)
+        radial = 1.0 + square * (k1 + square * (k2 + square * k3))
+        slope = 2.0 * (k1 + square * (2.0 * k2 + 3.0 * k3 * square))
         miss_x = x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x) - tx
         miss_y = y * radial + 2.0 * p2 * x * y + p1 * (square + 2.0 * y * y) - ty
         xx = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x

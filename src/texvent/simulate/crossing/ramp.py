@@ -49,7 +49,7 @@ class RampChanges(NamedTuple):
     stop: Float64Array
     """Change at its end."""
     threshold: Float64Array
-    """Of the polarity that it may fire."""
+    """Threshold of the polarity that it may fire."""
     steps: NDArray[np.int64]
     """Thresholds that it has passed at the end; OFF below 0."""
 

@@ -47,7 +47,7 @@ class RampPixels(NamedTuple):
     table: Float64Array | None
     """[256] brightness of 8-bit luma, or None."""
     thresholds: Thresholds
-    """Of these pixels."""
+    """Thresholds of these pixels."""
 
 
 def cross_thresholds(

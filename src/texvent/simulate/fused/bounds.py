@@ -126,7 +126,7 @@ def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
 
 @jit(inner=True)
 def _find_reach(pair: Any) -> Float32Array:
-    """How far along x and y the samples of a vector's pixels may be from them, [2, h, w] px."""
+    """Largest distance along x and y of a vector's pixels from their samples, [2, h, w] px."""
     width, height = pair.columns, pair.forward.size // pair.columns
     forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
     reach = np.empty((2, height, width), np.float32)

@@ -70,12 +70,12 @@ class LaunchSize(NamedTuple):
 
 
 LEVELS_LAUNCH = LaunchSize(128, 1)
-"""Of Texvent's scan by trigger levels. One warp: nothing waits at a barrier, and a quiet one has
-little to do."""
+"""Launch of Texvent's scan by trigger levels. One warp: nothing waits at a barrier, and a quiet one
+has little to do."""
 BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
-"""Of Texvent's scan by brightness."""
+"""Launch of Texvent's scan by brightness."""
 RAMP_LAUNCH = LaunchSize(512, 4)
-"""Of ESIM's scan."""
+"""Launch of ESIM's scan."""
 RECORD_BLOCK = 512
 """Records that a program takes at a time to give them times or order them."""
 

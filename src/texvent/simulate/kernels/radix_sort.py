@@ -27,7 +27,7 @@ FEWEST_BITS, MOST_BITS = 8, 13
 """Bits of a digit; 2¹³ counters of 32 bits fit the first cache. One digit of many bits beats two
 of half as many where there are about as many events as counters."""
 KEY_USES = ("keys", "sorted keys")
-"""Of `scratch`: what is sorted, and room to sort it."""
+"""Parts of `scratch`: what is sorted, and room to sort it."""
 
 
 def sort_events(

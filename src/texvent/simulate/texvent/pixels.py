@@ -1,7 +1,7 @@
 """The pixels of the paper's model from frame to frame.
 
 `SparsePixels` takes no logarithm per pixel; `pixel_memory` explains how. It makes no array as large
-as a frame after the first, unless frames have colour or more than one type. `ShakenPixels` is the
+as a frame after the first, unless frames have colour or more than one type. `GaussianPixels` is the
 ablation with Gaussian noise, which moves every pixel.
 """
 
@@ -143,7 +143,7 @@ class SparsePixels:
         return draw_noise(self._config, span, intensity.size, luma_of)
 
 
-class ShakenPixels:
+class GaussianPixels:
     """All pixels of a sensor under Gaussian noise (ablation E10), as whole frames of brightness."""
 
     def __init__(self, config: TexventConfig, frame: Frame, where: str) -> None:

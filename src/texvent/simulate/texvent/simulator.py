@@ -18,7 +18,7 @@ from texvent.video import Frame, StreamChecker, check_intensity
 
 if TYPE_CHECKING:
     from texvent.simulate.texvent.fused import FusedPass
-    from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels
+    from texvent.simulate.texvent.pixels import GaussianPixels, SparsePixels
 
 __all__ = ["TexventConfig", "TexventSimulator"]
 
@@ -92,7 +92,7 @@ class TexventSimulator(SteppingSimulator):
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()
-        self._pixels: ShakenPixels | SparsePixels | None = None
+        self._pixels: GaussianPixels | SparsePixels | None = None
         self._last: Frame | None = None
         self._first_us = 0
         self._fused: FusedPass | None = None
@@ -150,9 +150,9 @@ class TexventSimulator(SteppingSimulator):
         self._last = frame
         return packet
 
-    def _begin(self, frame: Frame, where: str) -> ShakenPixels | SparsePixels:
+    def _begin(self, frame: Frame, where: str) -> GaussianPixels | SparsePixels:
         """Pixels whose references are those of a frame."""
-        from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels  # brings Numba
+        from texvent.simulate.texvent.pixels import GaussianPixels, SparsePixels  # brings Numba
 
-        kind = ShakenPixels if self.config.noise == "gaussian" else SparsePixels
+        kind = GaussianPixels if self.config.noise == "gaussian" else SparsePixels
         return kind(self.config, frame, where)

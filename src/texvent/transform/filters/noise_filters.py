@@ -40,7 +40,7 @@ class BackgroundActivityFilter:
     support: int = 1
     """Neighbours that must have fired."""
     radius: int = 1
-    """Of the neighbourhood, pixels."""
+    """Radius of the neighbourhood, pixels."""
     polarity: bool = False
     """Whether only events of the same polarity support each other."""
 

@@ -120,7 +120,7 @@ FAINT_INK: Colour = (160, 166, 176)
 
 @dataclass(frozen=True)
 class PanelLayout:
-    """Where the panels are, for one sensor size; width and height are even, as H.264 needs."""
+    """Places of the panels, for one sensor size; width and height are even, as H.264 needs."""
 
     size: SensorSize
     palette: Palette

@@ -27,7 +27,7 @@ from texvent.view.stills import busiest_window_png
 
 TEMPORARY = "texvent-view-"
 KEPT_S = 86_400
-"""How long a temporary page stays: it may be loaded again."""
+"""Lifetime of a temporary page, s: it may be loaded again."""
 
 
 class PageWriter(AtomicOutput):

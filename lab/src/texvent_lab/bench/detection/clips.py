@@ -25,7 +25,7 @@ from texvent_lab.bench.detection.labels import COUNTED, IGNORED
 REPRESENTATION = "stacked_histogram_dt=50_nbins=10"
 WINDOW_US = 50_000
 LEAST_MOTION_PX = 0.5
-"""Of an edge of a box from one window to the next; a box that moves less makes no events."""
+"""Motion of an edge of a box from one window to the next; a box that moves less makes no events."""
 NOTE_FILE = "texvent-export.json"
 
 

@@ -1,4 +1,4 @@
-"""What a training file may say for detection."""
+"""Options of a training file for detection."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from texvent_lab.train.task import Task
 
 EXTRA = "texvent-lab[detection]"
-"""What brings evlib, pycocotools and torch."""
+"""Extra that brings evlib, pycocotools and torch."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,9 +21,9 @@ class ArmScore:
     clips: Mapping[str, int]
     """Split → clips."""
     events: float
-    """Of the test clip in the middle, as far as histograms count them."""
+    """Events of the median test clip, as far as histograms count them."""
     boxes: int
-    """Of the test clips, at ends of windows; those at rest left out."""
+    """Boxes of the test clips, at ends of windows; those at rest left out."""
     ap: Mapping[str, float]
     """Class → average precision over overlaps of .5 to .95; "all" is the mean."""
     ap50: Mapping[str, Mapping[str, float]]

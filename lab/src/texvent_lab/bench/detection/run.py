@@ -63,7 +63,7 @@ SIZES: Mapping[str, tuple[float, float]] = {
 }
 """COCO's sizes, by the area of a box, px²."""
 SAMPLES = 200
-"""Of the bootstrap over unseen clips."""
+"""Resamples of the bootstrap over unseen clips."""
 MOST_WINDOWS = 10
 """Memory of a detector before an instant of the street, in windows: that of a training clip."""
 
@@ -77,7 +77,7 @@ class DetectionPlan:
     """
 
     specification: Path
-    """Of the data set; each of its variants is an arm."""
+    """Specification of the data set; each of its variants is an arm."""
     work: Path
     """Folder that keeps clips, networks and scores."""
     clips: int | None = None
@@ -105,7 +105,7 @@ class DetectionPlan:
         return tuple(one.name for one in read_specification(self.specification).variants)
 
     def training(self, arm: str, seed: int) -> DetectionConfig:
-        """How the network of an arm and seed is trained."""
+        """Training of the network of an arm and seed."""
         data = DetectionData(folder=self.work / "rvt" / arm, passes=self.passes)
         return DetectionConfig(seed=seed, data=data, schedule=self.schedule)
 

@@ -35,11 +35,11 @@ from texvent_lab.networks.layers import make_seeded
 from texvent_lab.train.task import Batches
 
 CLASSES, BINNING = "classes", "binning"
-"""Of the weights file: names of the classes, and pixels along a side of a cell."""
+"""Entries of the weights file: names of the classes, and pixels along a side of a cell."""
 STRIDE = 32
-"""Of the last stage, cells; one window of attention is as large as that stage."""
+"""Stride of the last stage, cells; one window of attention is as large as that stage."""
 LEAST_CONFIDENCE, MOST_OVERLAP = 0.01, 0.45
-"""Of detections; more overlap with a surer one of the same class removes one."""
+"""Limits of detections; more overlap with a surer one of the same class removes one."""
 CLIP_US = 10_000_000
 """Distance of clips on the common clock of their boxes, µs."""
 NUMBER, FLIP, FIRST, LEARNED = "number", "flip", "first", "learned"

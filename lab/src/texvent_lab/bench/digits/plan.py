@@ -142,7 +142,7 @@ class DigitsPlan:
     seeds: int = 3
     """Networks per set, and per fold of recordings."""
     folds: int = 10
-    """Of the networks that are trained on recordings."""
+    """Folds of the networks that are trained on recordings."""
     schedule: Schedule = SCHEDULE
     """Its learning rate falls to 0 in a straight line."""
     precision: Literal["float32", "bfloat16"] = "float32"

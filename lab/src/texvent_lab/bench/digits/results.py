@@ -104,7 +104,7 @@ class SetScore:
     way: str
     representation: str
     events: float
-    """Of the simulated recording in the middle."""
+    """Events of the median simulated recording."""
     on_share: float
     threshold: float
     """Contrast threshold, log units."""
@@ -123,7 +123,7 @@ class DigitsReport:
     environment: Mapping[str, Any]
     protocol: Mapping[str, Any]
     recorded_events: float
-    """Of the recording in the middle of those tested on."""
+    """Events of the median recording of those tested on."""
     recorded_on_share: float
     scores: list[SetScore]
     ceiling: Mapping[str, list[float]]

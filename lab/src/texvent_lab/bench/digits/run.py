@@ -55,7 +55,7 @@ LEAST_AGREEMENT = 0.6
 """Share of events with the right sign below which recordings are refused; see
 `polarity_agreement`."""
 DRAWING_SEED = 0
-"""Of motion and contrast."""
+"""Seed of motion and contrast."""
 
 
 def run_digits(

@@ -28,7 +28,7 @@ MARGIN = 3
 """Pixels around a tile that show its background, and what leaves it."""
 PITCH = TILE + 2 * MARGIN
 FPS = Fraction(60)
-"""Of the display."""
+"""Frame rate of the display."""
 FRAMES = math.ceil(DURATION_US * FPS / MICROSECONDS) + 1
 WHITE = 255.0
 AMPLITUDE, SPEED, SHIFT = 0.2, 0.1, 1.0
@@ -101,7 +101,7 @@ class DigitSheet:
 
     @property
     def size(self) -> SensorSize:
-        """Of the sheet, px."""
+        """Size of the sheet, px."""
         rows = math.ceil(len(self.digits.images) / self._columns)
         return SensorSize(PITCH * self._columns, PITCH * rows)
 

@@ -40,8 +40,8 @@ INTERPOLATIONS = ("none", "blend", "flow", "exact")
 CALIBRATED = ("physical", "calibrated")
 """Simulator and preset that know the oracle's sensor."""
 CALIBRATED_FRAMES_PER_PIXEL = 2.0
-"""Of motion: with fewer, what is missing between frames costs more than what is left of the
-sensor's constants."""
+"""Frames per pixel of motion: with fewer, what is missing between frames costs more than what is
+left of the sensor's constants."""
 SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
 THRESHOLD_FILE = SENSOR_FILE.with_name("sensor_thresholds.npz")
 """Their options and the thresholds of each pixel, from `texvent_lab.measure.oracle_sensor`."""

@@ -44,7 +44,7 @@ RECORDED, TESTED = "train", "test"
 """Sub-folders of recorded streams."""
 ORIGINAL = "Original"
 SENSOR = "640x480"
-"""Of files that do not say it: N-ImageNet's."""
+"""Sensor of files that do not state it: N-ImageNet's."""
 
 
 def measure_recognition(config: PaperConfig, progress: Progress) -> Measured:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from texvent_lab.bench.document import markdown_table
 
 SCHEMA = "texvent-paper-2"
-"""Of a document with measured tables."""
+"""Schema of a document with measured tables."""
 SIMULATORS = ("VID2E", "V2E", "V2CE", "DVS-Voltmeter", "SENPI", "Texvent")
 
 IMAGE_ROWS: Mapping[str, str] = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}

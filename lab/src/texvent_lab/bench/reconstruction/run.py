@@ -54,7 +54,7 @@ class ReconstructionPlan:
 
     entries: Sequence[Entry] = ()
     start_s: float = 0.0
-    """Where the part begins that counts, s after the first frame."""
+    """Start of the part that counts, s after the first frame."""
     seconds: float | None = None
     """Length of that part, s; None: EVREAL's part of recordings that it names, all of others."""
     skip: int | None = None
@@ -111,7 +111,7 @@ class ReconstructionReport:
 
     network: str
     sha256: str
-    """Of the network's weights file."""
+    """Digest of the network's weights file."""
     plan: ReconstructionPlan
     rows: Sequence[ReconstructionRow]
     absent: dict[str, str] = field(default_factory=dict)

@@ -60,7 +60,7 @@ class Peer:
 
     @property
     def version(self) -> str | None:
-        """Of its package; None where it is not installed."""
+        """Version of its package; None where it is not installed."""
         try:
             return metadata.version(self.package)
         except metadata.PackageNotFoundError:

@@ -35,12 +35,12 @@ from texvent_lab.measure.speed.timing import rounded, seconds
 WARM_UP_PAIRS = 2
 """Pairs that are not timed: kernels load."""
 REPEATS = 2
-"""Of a whole command; the faster run counts."""
+"""Runs of a whole command; the fastest counts."""
 STEP_SIZES = (SensorSize(346, 260), SensorSize(640, 480))
 STEP_MODELS = ("texvent", "esim", "v2e")
 HD, HD_FPS = SensorSize(1280, 720), Fraction(25)
 CLIP_FRAMES = 60
-"""Of the clip of 2.36 s at 25 frames per second that the circuit model is timed on."""
+"""Frames of the clip of 2.36 s at 25 frames per second that the circuit model is timed on."""
 DEMO = ("generate", "a red car drives left past two trees at dusk")
 COMMANDS = {
     "--help": ("--help",),

@@ -1,4 +1,4 @@
-"""What a training file may say for classification."""
+"""Options of a training file for classification."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 OWN_NETWORKS = ("small-cnn", "resnet34")
 PREFIX = "torchvision:"
-"""Of the names of torchvision's classifiers."""
+"""Prefix of the names of torchvision's classifiers."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,9 +33,9 @@ class Source:
     split: str = "train"
     """Trained on."""
     variant: str | None = None
-    """Of a data set; None: all of them, mixed."""
+    """Variant of a data set; None: all of them, mixed."""
     sensor: str | None = None
-    """Of recordings whose files do not say it, such as "34x34"."""
+    """Sensor of recordings whose files do not state it, such as "34x34"."""
     flip_polarity: bool = False
     """Exchange ON and OFF of recordings; those of N-MNIST need it to match a camera's."""
     per_class: int | None = None

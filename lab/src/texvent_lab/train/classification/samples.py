@@ -49,11 +49,11 @@ class LabelledSamples(Protocol):
     """A split of one source; picklable, read by number from any process."""
 
     name: str
-    """Of the split, for messages."""
+    """Name of the split, for messages."""
     labels: tuple[str, ...]
     """Names of the classes."""
     identity: str
-    """Which samples; other ones have another."""
+    """Identity of the samples; other ones have another."""
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -76,7 +76,7 @@ class LabelledSamples(Protocol):
         ...
 
     def title(self, number: int) -> str:
-        """What to call a sample in messages."""
+        """Name of a sample in messages."""
         ...
 
 
@@ -94,7 +94,7 @@ class ChosenSamples:
     class_number: NDArray[np.int64]
     """[n] place of its class in `labels`."""
     size: SensorSize | None
-    """Of all samples; None: they are scaled."""
+    """Size of all samples; None: they are scaled."""
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -114,7 +114,7 @@ class ChosenSamples:
         return events
 
     def title(self, place: int) -> str:
-        """What to call a sample."""
+        """Name of a sample."""
         source, number = self._at(place)
         return source.title(number)
 

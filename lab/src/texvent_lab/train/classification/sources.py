@@ -41,7 +41,7 @@ class DataSetSamples:
         return self._samples.events(number)
 
     def sizes(self) -> dict[str, SensorSize]:
-        """Of all samples."""
+        """Sizes of all samples."""
         index = self._samples.index
         sizes = map(SensorSize._make, index.size.tolist())
         return dict(zip(index.key.tolist(), sizes, strict=True))
@@ -103,7 +103,7 @@ class RecordedSamples:
         return EventStream(events.x, events.y, events.t, 1 - events.p, events.size)
 
     def sizes(self) -> dict[str, SensorSize]:
-        """Of the first file of each class."""
+        """Sizes of the first file of each class."""
         first: dict[int, int] = {}
         for number, (label, _) in enumerate(self._files):
             first.setdefault(label, number)

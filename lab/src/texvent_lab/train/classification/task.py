@@ -79,7 +79,7 @@ IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)
 TOP = 5
 WHERE_FROM = "texvent train classification writes it as weights.pt"
-"""Of a weights file, for messages."""
+"""Origin of a weights file, for messages."""
 
 
 class ClassificationTask:
@@ -256,7 +256,7 @@ def _cross_entropy(scores: Tensor, classes: Tensor, *, reduction: str = "mean") 
 
 
 def _ranks(scores: Tensor, classes: Tensor) -> Tensor:
-    """How many classes come before the right one, [n]; of equal scores, the first class does."""
+    """Number of classes before the right one, [n]; of equal scores, the first class comes first."""
     torch = require("torch", extra=EXTRA)
     right = scores.gather(1, classes[:, None])
     is_first = torch.arange(scores.shape[1], device=scores.device) < classes[:, None]

@@ -44,7 +44,7 @@ Voxels = NDArray[np.float32]
 def draw_pauses(
     count: int, *, begin: float, stay: float, chance: np.random.Generator
 ) -> NDArray[np.bool_]:
-    """Which windows of a sequence are pauses, [count]; the first is none.
+    """Mask of the windows of a sequence that are pauses, [count]; the first is none.
 
     Args:
         count: windows.

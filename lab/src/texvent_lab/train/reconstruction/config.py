@@ -1,4 +1,4 @@
-"""What a training file may say for reconstruction."""
+"""Options of a training file for reconstruction."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ReconstructionNetwork:
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionLoss:
-    """How far images are from the true ones, and from themselves a window before: a sum."""
+    """Distance of images from the true ones, and from themselves a window before: a sum."""
 
     lpips: float = 1.0
     """Weight of LPIPS (AlexNet; the published networks were trained with VGG); 0: none, and its
@@ -42,7 +42,7 @@ class ReconstructionLoss:
     consistency_from: int = 2
     """First window, counted from 0, that is compared with the one before."""
     consistency_alpha: float = 50.0
-    """How fast a pixel counts less where the true images differ, per squared intensity."""
+    """Rate at which a pixel counts less where the true images differ, per squared intensity."""
 
     def __post_init__(self) -> None:
         for name in ("lpips", "l1", "ssim", "consistency"):
@@ -87,7 +87,7 @@ class ExtraClips:
     """Simulated clips beside the training clips, cut as they are."""
 
     specification: Path | None = None
-    """Of the data set that they are of; None: no more clips."""
+    """Specification of the data set that they are of; None: no more clips."""
     variant: str | None = None
     """None: the only one."""
     split: str = "train"

@@ -62,7 +62,7 @@ def _smooth(images: list[Tensor]) -> list[Tensor]:
 def inconsistency(
     images: tuple[Tensor, Tensor], true: tuple[Tensor, Tensor], flow: Tensor, *, alpha: float
 ) -> Tensor:
-    """How much two images in succession differ where they show the same.
+    """Difference of two images in succession where they show the same.
 
     The later image is looked up where each pixel of the earlier one has moved. The difference,
     divided by the sum of both, counts less where the true images differ there too, and not at all
@@ -129,7 +129,7 @@ class SequenceLoss:
 
     @property
     def least_side(self) -> int:
-        """Of images that can be compared, px."""
+        """Shortest side of images that can be compared, px."""
         window = 2 * RADIUS_PX + 1 if self._options.ssim else 1
         return window if self._lpips is None else max(window, LEAST_SIDE)
 

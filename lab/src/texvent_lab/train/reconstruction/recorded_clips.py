@@ -49,12 +49,12 @@ class Clips(Protocol):
 
     @property
     def identity(self) -> str:
-        """Of all clips; other ones have another."""
+        """Identity of all clips; other ones have another."""
         ...
 
     @property
     def size(self) -> SensorSize:
-        """Of the sensor."""
+        """Size of the sensor."""
         ...
 
     def draw(self, number: int, chance: np.random.Generator, count: int | None = None) -> Windows:
@@ -160,11 +160,11 @@ class ExtendedClips:
     clips: Clips
     more: Clips
     count: int
-    """Of the others."""
+    """Number of the others."""
 
     @property
     def data(self) -> SequenceData:
-        """Of the clips; the others are cut alike."""
+        """Options of the clips; the others are cut alike."""
         return self.clips.data
 
     def __len__(self) -> int:

@@ -34,7 +34,8 @@ class SequenceData:
     """Of these, what is no name of a data set is a path from the training file's folder."""
 
     specification: Path = Path()
-    """Of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made before."""
+    """Specification of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made
+    before."""
     recordings: tuple[str, ...] = ()
     """Recordings of frames and events in place of a specification: paths, or names of pulled data
     sets. Windows go from frame to frame; the last fifth is scored."""
@@ -63,7 +64,7 @@ class SequenceData:
 
     @property
     def cache_folder(self) -> Path:
-        """Where clips are kept."""
+        """Folder of the clips."""
         return self.cache or cache_folder("sequences")
 
 
@@ -75,11 +76,11 @@ class Windows:
     """Consecutive windows of one clip."""
 
     events: tuple[EventStream, ...]
-    """Of each window; times are those of the clip."""
+    """Events of each window; times are those of the clip."""
     edges_us: NDArray[np.int64]
     """Start of the first window and end of each, µs, [windows + 1]."""
     targets: Mapping[Target, NDArray[Any]]
-    """What was asked for, [windows, ...]; `SimulatedSamples.make` describes each."""
+    """Targets asked for, [windows, ...]; `SimulatedSamples.make` describes each."""
 
     def __len__(self) -> int:
         """Number of windows."""
@@ -205,7 +206,7 @@ class WindowedClips:
 
     @property
     def identity(self) -> str:
-        """Of all clips of the specification, and of the files that they are made of."""
+        """Identity of all clips of the specification, and of the files that they are made of."""
         recipe, variant = self.simulated.recipe, self.simulated.variant.name
         videos = [item.video for item in recipe.items.all]
         files = map(fingerprint, (*videos, *recipe.files_named[variant]))
@@ -213,12 +214,12 @@ class WindowedClips:
 
     @property
     def folder(self) -> Path:
-        """Where the simulated clips are."""
+        """Folder of the simulated clips."""
         return self.data.cache_folder
 
     @cached_property
     def size(self) -> SensorSize:
-        """Of the sensor of the first clip."""
+        """Size of the sensor of the first clip."""
         return self.read(0, 0, 1).events[0].size
 
     def draw(self, number: int, chance: np.random.Generator, count: int | None = None) -> Windows:

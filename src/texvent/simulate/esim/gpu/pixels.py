@@ -175,7 +175,7 @@ def brightness_of(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
 
 @triton.jit
 def crossing_share(first: tl.tensor, last: tl.tensor, level: tl.tensor) -> tl.tensor:
-    """Where a line from `first` to `last` reaches `level`, 0..1; 0 if it starts beyond."""
+    """Share of a line from `first` to `last` at which it reaches `level`; 0 if it starts beyond."""
     # A pixel that has not reached the level may rest, and nothing may be divided by 0.
     slope = tl.where(first < last, last - first, 1.0)
     share = tl.minimum((level - first) / slope, 1.0)

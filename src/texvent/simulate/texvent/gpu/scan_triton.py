@@ -108,7 +108,7 @@ def scan_levels(
 def _move_levels(
     intensity: tl.tensor, where: tl.tensor, low: tl.tensor, high: tl.tensor, rules: tl.tuple
 ) -> tl.tuple:
-    """Where `where`, the intensities at which a pixel with this reference fires; else the old."""
+    """Intensities at which a pixel with this reference fires, if `where`; else the old."""
     if intensity.dtype == tl.int32:
         pair = tl.load(rules.levels + intensity, mask=where, other=0)
         new_low = pair >> 16

@@ -28,7 +28,7 @@ NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(9)
 """Gauss-Hermite quadrature of the mean over a normal distribution."""
 
 
-def find_rest(events: EventStream) -> NDArray[np.bool_]:
+def find_stationary(events: EventStream) -> NDArray[np.bool_]:
     """Pixels in blocks whose number of events does not change over time, [H, W].
 
     In 16 equal windows, counts of a Poisson process with the same rate give a sum of squared

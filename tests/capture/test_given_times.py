@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.video_check.made_clips import encode
 
-from texvent.capture.frame_times import listed_times, read_timestamps
+from texvent.capture.given_times import listed_times, read_timestamps
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
