@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from texvent.scenes.scene import (
-    LAMP_COLUMNS,
-    Camera,
+from texvent.scenes.rendered_scene import (
+    LAMP_RECORD,
     Environment,
     Float64Array,
     Ground,
+    PosedCamera,
     Primitives,
     Shape,
     Texture,
@@ -49,12 +51,14 @@ def moving(
     )
 
 
-def look_at(position: tuple[float, float, float], target: tuple[float, float, float]) -> Camera:
+def look_at(
+    position: tuple[float, float, float], target: tuple[float, float, float]
+) -> PosedCamera:
     forward = np.subtract(target, position).astype(np.float64)
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
-    return Camera(
+    return PosedCamera(
         np.array(position, dtype=np.float64),
         np.stack([right, np.cross(forward, right), forward]),
         1.0,
@@ -80,7 +84,7 @@ def day(ground: Ground = Ground.GRASS) -> Environment:
         fog_distance=np.inf,
         fog_colour=np.array([0.7, 0.75, 0.8], dtype=np.float32),
         exposure=1.0,
-        lamps=np.zeros((0, LAMP_COLUMNS)),
+        lamps=np.zeros(0, LAMP_RECORD),
         time_s=0.0,
     )
 
@@ -95,11 +99,10 @@ def lamp_row(
     radius: float = 0.01,
     casts: bool = False,
     glows: bool = False,
-) -> Float64Array:
-    """[1, 15] one lamp."""
+) -> NDArray[Any]:
+    """[1] `LAMP_RECORD`."""
     direction = (0.0, 0.0, 0.0) if beam is None else beam
-    numbers = (*place, *light, reach, *direction, *cosines, radius, casts, glows)
-    return np.array([numbers], dtype=np.float64)
+    return np.array([(place, light, reach, direction, *cosines, radius, casts, glows)], LAMP_RECORD)
 
 
 def turned(angle: float) -> Float64Array:
@@ -112,7 +115,7 @@ class HandScene:
     """A scene of `Thing`s."""
 
     shapes: tuple[MovingShape, ...] = ()
-    camera_at: Callable[[float], Camera] = field(
+    camera_at: Callable[[float], PosedCamera] = field(
         default=lambda time: look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
     )
     environment_base: Environment = field(default_factory=day)
@@ -135,7 +138,7 @@ class HandScene:
             instance=np.array([shape.instance for shape in shapes], dtype=np.int32),
         )
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         return self.camera_at(time_s)
 
     def environment(self, time_s: float) -> Environment:

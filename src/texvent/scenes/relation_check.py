@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.staging.actors import Actor
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
@@ -31,7 +31,7 @@ _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 """Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 
 
-class Unheld(NamedTuple):
+class Violation(NamedTuple):
     """A word of a scene that no instant shows."""
 
     kind: str
@@ -57,7 +57,7 @@ class Body(NamedTuple):
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
 
 
-def body_of(actor: Actor, cameras: Sequence[Camera], times: Sequence[float]) -> Body:
+def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> Body:
     """The body of an actor at instants, s, with the camera at each."""
     corners = np.array([actor.corners(time) for time in times])
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -70,10 +70,10 @@ def body_of(actor: Actor, cameras: Sequence[Camera], times: Sequence[float]) -> 
     return Body(middle, high - low, seen, way, np.array(parts))
 
 
-def find_unheld(
+def find_violations(
     description: SceneDescription, copies: Sequence[Sequence[Body]]
-) -> Iterator[Unheld]:
-    """What the bodies of the objects do not realise; without a line where one is out of view."""
+) -> Iterator[Violation]:
+    """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw")}  # fmt: skip
@@ -82,7 +82,7 @@ def find_unheld(
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         side = description.objects[one.subject].placement
         if one.kind in ("past", "overtake") and side in ("left", "right"):
-            yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
+            yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
         is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
         rule = _RULES.get("in" if is_flat else one.kind)
@@ -94,14 +94,14 @@ def find_unheld(
             targets = " and ".join(names[target] for target in one.targets)
             said = one.kind.replace("front", "in front of")
             line = f"{names[one.subject]} {said} {targets}"
-            yield Unheld("relation", one.kind, line if own and others else "")
+            yield Violation("relation", one.kind, line if own and others else "")
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
             axis, sign = _AXES[motion.direction]
             if not any(sign * one.way[axis] > 0.33 * np.linalg.norm(one.way) for one in own):
-                yield Unheld("direction", motion.direction, f"{names[index]} going "
+                yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
 
 

@@ -20,7 +20,7 @@ from texvent.capture.scale_check import CheckedFrames
 from texvent.errors import ConfigError, InputError
 from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
-from texvent.scenes.scene import Camera
+from texvent.scenes.rendered_scene import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.truth.layout import PARTS
 from texvent.video import Frame, FrameStream, Motion
@@ -41,7 +41,7 @@ WHO_KNOWS = (
 class CameraStream(Protocol):
     """Frames whose camera is known."""
 
-    def camera_at(self, t_us: int) -> Camera:
+    def camera_at(self, t_us: int) -> PosedCamera:
         """The camera at `t_us`."""
         ...
 
@@ -83,7 +83,7 @@ class Snapshot:
     instance: NDArray[np.int32] | None = None
     """[H, W] ids; 0 is the background."""
     boxes: tuple[Box, ...] = ()
-    camera: Camera | None = None
+    camera: PosedCamera | None = None
 
 
 class TruthSource:
@@ -147,7 +147,7 @@ class TruthSource:
             return self._of_scene(self.video, frame.t_us, previous_us, next_us)
         return self._of_frame(frame, previous_us, next_us)
 
-    def _camera(self, t_us: int) -> Camera | None:
+    def _camera(self, t_us: int) -> PosedCamera | None:
         return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
 
     def _of_scene(

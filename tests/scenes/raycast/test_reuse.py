@@ -9,7 +9,7 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.raycast import reuse
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.reuse import Drawn, FrameMemory, changed_tiles
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, still

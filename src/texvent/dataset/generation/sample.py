@@ -34,7 +34,7 @@ from texvent.video_check.measurements import VideoMeasurer
 
 if TYPE_CHECKING:
     from texvent.scenes.raycast.ground_truth import Box, GroundTruth
-    from texvent.scenes.raycast.reuse import FrameMemory
+    from texvent.scenes.raycast.incremental import IncrementalRenderer
     from texvent.truth.recorder import TruthRecorder
 
 
@@ -68,8 +68,10 @@ class _SharedVideo(ProceduralVideo):
             kept.values[key] = value
         return value
 
-    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        make = partial(super()._render, memory, t_us)
+    def _render(
+        self, renderer: IncrementalRenderer, t_us: int
+    ) -> tuple[NDArray[Any], NDArray[Any]]:
+        make = partial(super()._render, renderer, t_us)
         return cast("tuple[NDArray[Any], NDArray[Any]]", self._once("frame", t_us, make=make))
 
     def _motion(self, index: int) -> Motion:

@@ -39,7 +39,7 @@ NOUNS: Mapping[str, Noun] = MappingProxyType(
 )
 """Every noun by its singular name."""
 
-DRESSING: frozenset[str] = frozenset(noun.name for noun in FAMILIES["dressing"])
+SCENERY_ONLY: frozenset[str] = frozenset(noun.name for noun in FAMILIES["extra_scenery"])
 """Set dressing of places: no prompt means it."""
 
 AFLOAT: frozenset[str] = frozenset(

@@ -80,7 +80,7 @@ class SceneDraft:
     not known."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
-    """Of moves of the camera: those said after "then" follow."""
+    """Phase of moves of the camera: those said after "then" follow."""
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)

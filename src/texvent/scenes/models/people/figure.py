@@ -221,7 +221,7 @@ _CRANK_M = 0.17
 
 @dataclass(frozen=True)
 class Rider:
-    """Where a rider touches a cycle, m: the left of hand and pedal, as the other is its mirror."""
+    """Contact points of a rider on a cycle, m; the right hand and pedal mirror the left ones."""
 
     hips: Point
     neck: Point

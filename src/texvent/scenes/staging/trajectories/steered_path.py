@@ -36,7 +36,7 @@ class Piece:
     """Rate of the heading at its end; positive = to the left."""
     climb_m_s: float = 0.0
     ramp_s: float = 0.3
-    """How long the change to these values takes; at most the whole piece."""
+    """Duration of the change to these values; at most the whole piece."""
     activity: str = "move"
     hop_m: float = 0.0
     """Height of hops; 0 = none."""
@@ -67,7 +67,7 @@ class SteeredPath:
     """Goes along its pieces; before the first it moves straight, after the last it goes on."""
 
     start: Vector
-    """Where it is at t = 0, m."""
+    """Position at t = 0, m."""
     yaw: float
     pieces: tuple[Piece, ...]
     initial_speed_m_s: float = 0.0
@@ -192,7 +192,7 @@ HOP_PAUSE_S = 0.12
 
 
 def flight_s(height_m: float) -> float:
-    """How long a hop of that height takes, s."""
+    """Duration of a hop of that height, s."""
     return 2.0 * math.sqrt(2.0 * height_m / GRAVITY_M_S2)
 
 

@@ -1,4 +1,4 @@
-"""Where an object is at each instant: trajectories as pure functions of time.
+"""Trajectories of objects: pure functions of time.
 
 Angles are radians, positions metres in world coordinates (x right, y away, z up), times seconds.
 Every trajectory is continuous, and `distance_m` never falls, so that wheels and legs turn with
@@ -16,7 +16,7 @@ import numpy as np
 
 from texvent.scenes.models.shapes import compose, point, shift
 from texvent.scenes.models.shapes import rotation as about
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 
 Vector = tuple[float, float, float]
 TO_CAMERA = -0.5 * math.pi
@@ -47,7 +47,7 @@ class BodyState:
     grips: tuple[tuple[str, Vector], ...] = ()
     """`Pose.grips`."""
     tempo: float = 1.0
-    """How fast its gestures are, as a multiple of their usual rate."""
+    """Rate of its gestures, as a multiple of their usual rate."""
 
     def to_world(self) -> Float64Array:
         """[3, 4] map from body to world coordinates."""
