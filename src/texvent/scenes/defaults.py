@@ -120,13 +120,13 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
     if motion is None:
         return Motion("work")
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
-    way = motion.direction if kept else None
+    direction = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
     if motion.rate_hz is not None and own_hz is not None:
         pace = motion.rate_hz / own_hz
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
-    return Motion("work", way, pace, end_pace=motion.end_pace)
+    return Motion("work", direction, pace, end_pace=motion.end_pace)
 
 
 def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

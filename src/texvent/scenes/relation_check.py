@@ -21,14 +21,14 @@ from texvent.scenes.staging.actors import Actor
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
                        "fall"})  # fmt: skip
-"""Motions whose direction is that of the way."""
+"""Motions whose direction is that of the displacement."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
 _LASTING = ("on", "in")
 """Relations that hold at half of the instants at least; others hold at one."""
-_LEAST_WAY, _MOST_COPIES = 0.1, 0.75
-"""Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
+_LEAST_DISPLACEMENT, _MOST_COPIES = 0.1, 0.75
+"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 
 
 class Violation(NamedTuple):
@@ -51,7 +51,7 @@ class Body(NamedTuple):
     """Extents, m."""
     seen: Float64Array
     """Middle in the image: tangents to the right and downwards, and depth, m."""
-    way: Float64Array
+    displacement: Float64Array
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
     parts: Float64Array
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
@@ -65,9 +65,9 @@ def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]
     seen = np.array([camera.rotation @ (place - camera.position)
                      for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
     seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
-    way = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
+    displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
     parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
-    return Body(middle, high - low, seen, way, np.array(parts))
+    return Body(middle, high - low, seen, displacement, np.array(parts))
 
 
 def find_violations(
@@ -100,7 +100,8 @@ def find_violations(
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
             axis, sign = _AXES[motion.direction]
-            if not any(sign * one.way[axis] > 0.33 * np.linalg.norm(one.way) for one in own):
+            all_moved = [one.displacement for one in own]
+            if not any(sign * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
 
@@ -153,21 +154,21 @@ def _deeper(one: Body, other: Body, sign: int) -> _Flags:
 
 def _recedes(one: Body, other: Body, sign: int) -> _Flags:
     away = np.linalg.norm(one.middle - other.middle, axis=1)
-    return np.asarray(sign * (away - away[0]) > _LEAST_WAY * one.size.max())
+    return np.asarray(sign * (away - away[0]) > _LEAST_DISPLACEMENT * one.size.max())
 
 
 def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
     """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
     off = (one.middle - other.middle)[:, :2]
-    way = off[-1] - off[0]
-    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(way)
-    return np.array([off[0] @ way < room and off[-1] @ way > -room])
+    displacement = off[-1] - off[0]
+    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
+    return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
 
 
 def _is_around(one: Body, other: Body) -> _Flags:
     """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_WAY * one.size.max()
+    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max()
     return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or is_still])
 
 

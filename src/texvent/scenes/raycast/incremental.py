@@ -147,8 +147,7 @@ class IncrementalRenderer:
             wanted = _refined(blocks, BLOCK, self._size.shape)
             if before.codes is not None and after.codes is not None:
                 predict_surface_ids(before.codes, after.codes, wanted, moved, codes)
-            levels = self._levels(self._drawn(times_s[number]), wanted, codes)
-            exact = np.asarray(luma_bt601(levels[None])[0], dtype=np.float32)
+            exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self._size.shape, np.bool_)
             limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
             uneven[wanted] = np.abs(exact - luma[wanted]) > limit * (exact + np.float32(DARK))
@@ -164,6 +163,11 @@ class IncrementalRenderer:
         return self._kept.get(time_s) or world_and_shapes(
             self._scene, time_s, size, shadows=self._shadows, samples=samples
         )
+
+    def _luma(self, time_s: float, wanted: Mask, codes: Codes) -> Float32Array:
+        """Luma [k] of the wanted pixels at an instant."""
+        levels = self._levels(self._drawn(time_s), wanted, codes)
+        return np.asarray(luma_bt601(levels[None])[0], dtype=np.float32)
 
     def _levels(self, drawn: Drawn, wanted: Mask, codes: Codes) -> Float32Array:
         """Levels [k, 3] of the wanted pixels; `codes` are known ones, and those found."""

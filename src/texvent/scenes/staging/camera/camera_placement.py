@@ -201,7 +201,7 @@ def _plan_moves(
     if has_landmark or (motion is not None and motion.direction in ("towards", "away")):
         return ()
     span = max(main.model.length, main.model.height)
-    way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
+    displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
     is_near = description.camera.framing in ("close", "medium")
     least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
-    return (CameraMove("follow"),) if way > least * span else ()
+    return (CameraMove("follow"),) if displacement_m > least * span else ()

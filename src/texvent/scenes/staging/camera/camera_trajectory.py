@@ -23,14 +23,14 @@ ORBIT_RAD = 1.0
 ZOOM, DOLLY = 1.7, 1.6
 """Focal length at the near end over the far end; distance at the far end over the near end."""
 TRUCK_WIDTHS, PEDESTAL_WIDTHS = 0.4, 0.3
-"""Ways aside and up, in widths of the picture at the subject."""
+"""Displacements aside and up, in widths of the picture at the subject."""
 SHAKE_RAD = 0.015
 ALL_AXES = "all axes"
 """Direction of a handheld camera that moves in all six degrees of freedom."""
 ROAM_SHARE, ROAM_WIDTHS = 4.0, 0.08
 """Turns of that camera relative to those of one that is held still, and its excursion aside."""
 _ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
-"""Angular frequencies of its way aside, along and up."""
+"""Angular frequencies of its displacement aside, along and up."""
 _HIGH_WIDTHS = 1.3
 """Width of the picture of a camera that travels, in heights above the ground."""
 LOWEST_M = 0.25
@@ -109,14 +109,14 @@ class Tie:
             return None
         return cls(subject.trajectory, subject.noun.habitat != "ground")
 
-    def way(self, time_s: float) -> Float64Array:
+    def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
         now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
         return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
         """Points [n, 3], m, as the camera sees them, at the place of the start."""
-        return np.asarray(points - self.way(time_s))
+        return np.asarray(points - self.displacement(time_s))
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ class CameraTrajectory:
         distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
         target = framing.target
         if self.tie is not None:
-            target = target + self.tie.way(time_s)
+            target = target + self.tie.displacement(time_s)
         return target + distance * direction(azimuth, framing.elevation), target
 
     def _slide(self, time_s: float, width_m: float) -> Float64Array:

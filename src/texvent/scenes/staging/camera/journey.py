@@ -117,9 +117,9 @@ def _lay_route(
     pieces = []
     for moves in phases:
         is_back = any(move.direction == "backward" for move in moves)
-        way = -speed if is_back else speed if moves else 0.0
-        pieces.append(Piece(span, way, ramp_s=ramp))
+        speed_m_s = -speed if is_back else speed if moves else 0.0
+        pieces.append(Piece(span, speed_m_s, ramp_s=ramp))
     route = SteeredPath((0.0, 0.0, 0.0), NORTH, tuple(pieces), pieces[0].speed_m_s)
-    ways = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
-    start = (0.0, -0.5 * (min(ways) + max(ways)), 0.0)
-    return replace(route, start=start), max(ways) - min(ways)
+    distances_m = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
+    start = (0.0, -0.5 * (min(distances_m) + max(distances_m)), 0.0)
+    return replace(route, start=start), max(distances_m) - min(distances_m)

@@ -211,8 +211,8 @@ def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) 
     """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
     box = actor.corners(float(times[0]))
     low, high = box.min(axis=0), box.max(axis=0)
-    ways = np.array([main.middle(float(time)) for time in times])
-    nearest = np.clip(ways, low, high)
-    point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
+    places = np.array([main.middle(float(time)) for time in times])
+    nearest = np.clip(places, low, high)
+    point = nearest[int(np.argmin(np.linalg.norm(nearest - places, axis=1)))]
     ends = np.stack([np.maximum(low, point - reach_m), np.minimum(high, point + reach_m)])
     return np.array([[x, y, z] for x in ends[:, 0] for y in ends[:, 1] for z in ends[:, 2]])

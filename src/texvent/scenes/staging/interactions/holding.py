@@ -99,10 +99,10 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     doing = subject.trajectory.at(0.0).activity
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
-    way = place_in_hold(next(named, by_size), subject, target)
+    hold = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
-        subject = replace(subject, trajectory=Performed(subject.trajectory, None, way.grips))
-    held = held_at(subject, way.anchor, way.offset, is_upright=way.is_upright)
+        subject = replace(subject, trajectory=Performed(subject.trajectory, None, hold.grips))
+    held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
 
 

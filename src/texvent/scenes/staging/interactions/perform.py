@@ -53,15 +53,15 @@ def settle_motions(
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
-            way = _choose_way(objects, pair, seed)
-            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, way)
+            direction = _choose_direction(objects, pair, seed)
+            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
 def _settle(
-    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: Direction
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], to: Direction
 ) -> tuple[SceneObject, SceneObject]:
     """Subject and target of an act, with the motions that the act leaves them."""
     motion, still = subject.motion or STANDING, replace(target, motions=())
@@ -71,7 +71,7 @@ def _settle(
     if kind == "collide":
         return replace(subject, motions=()), still
     if kind in SINGLE:
-        return replace(subject, motions=(Motion(kind, way),)), still
+        return replace(subject, motions=(Motion(kind, to),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):
             walk = Motion("walk", motion.direction)
@@ -131,7 +131,9 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     return replace(ridden, motions=(replace(said, kind=kind), *later))
 
 
-def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> Direction:
+def _choose_direction(
+    objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
+) -> Direction:
     """Direction of a single act in the picture."""
     for motion in (objects[index].motion for index in pair):
         if motion is not None and motion.direction in ("left", "right", "towards", "away"):

@@ -209,8 +209,8 @@ class Emitter:
             fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
             up, down = velocity[:, 2], max(GRAVITY * style.gravity, 1e-6)
             flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
-        way, heading = flight(flown_s, velocity, drag_s, pull)
-        places = start + way
+        displacement, heading = flight(flown_s, velocity, drag_s, pull)
+        places = start + displacement
         if style.curl:
             apart = 9.0 * size * draws[:, 4:5] * (style.body != "medium")
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
@@ -244,16 +244,16 @@ def _fade(age: Float64Array) -> Float64Array:
 def flight(
     age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
 ) -> tuple[Float64Array, Float64Array]:
-    """Ways [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag at ages [n], s.
+    """Displacements [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag.
 
-    Solution of dv/dt = pull - v / drag; `drag_s` may be inf, `pull` is in m/s².
+    Ages [n] are in s. Solution of dv/dt = pull - v / drag; `drag_s` may be inf, `pull` is in m/s².
     """
     age = age_s[:, None]
     if math.isinf(drag_s):
         return velocity * age + 0.5 * pull * age * age, velocity + pull * age
     left, final = np.exp(-age / drag_s), pull * drag_s
-    way = final * age + (velocity - final) * drag_s * (1.0 - left)
-    return way, final + (velocity - final) * left
+    displacement = final * age + (velocity - final) * drag_s * (1.0 - left)
+    return displacement, final + (velocity - final) * left
 
 
 def turbulence(place: Float64Array, time_s: float, scale_m: float, rate_hz: float) -> Float64Array:

@@ -172,8 +172,8 @@ def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Go
     if group.noun.name in nouns_with("passage"):
         group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
-    way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
-    back = 0.1 * way + 0.5 * group.models[0].length
+    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+    back = 0.1 * extent + 0.5 * group.models[0].length
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 

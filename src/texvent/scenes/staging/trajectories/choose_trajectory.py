@@ -135,9 +135,9 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "sway":
         lean = Wave("roll", _SWAY_RAD, plan.motion.rate_hz or 0.5 * pace)
         return Oscillating(Stationary(home, plan.yaw), (lean,))
-    way = -1.0 if plan.motion.direction == "clockwise" else 1.0
+    sign = -1.0 if plan.motion.direction == "clockwise" else 1.0
     activity = kind if kind in _STAYING else "move"
-    return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))
+    return Stationary(home, plan.yaw, activity, sign * pace, sign * _gain(plan))
 
 
 def _spin(

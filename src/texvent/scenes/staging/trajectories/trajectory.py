@@ -138,9 +138,9 @@ class Shuttle:
         """State at that instant."""
         rate = 2.0 * math.pi / self.period_s
         offset = self.amplitude_m * math.sin(rate * time_s)
-        # The way covered is the integral of |cos|.
+        # The distance covered is the integral of |cos|.
         halves = math.floor(rate * time_s / math.pi + 0.5)
-        way = 2.0 * self.amplitude_m * halves + (offset if halves % 2 == 0 else -offset)
+        covered_m = 2.0 * self.amplitude_m * halves + (offset if halves % 2 == 0 else -offset)
         along, up = (0.0, offset) if self.vertical else (offset, 0.0)
         turned = 0.0
         if self.activity in ("walk", "run") and not self.vertical:
@@ -149,7 +149,7 @@ class Shuttle:
         return BodyState(
             ahead(self.home, self.yaw, along, self.home[2] + up),
             self.yaw + turned,
-            distance_m=way,
+            distance_m=covered_m,
             speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),
             activity=self.activity,
         )
