@@ -90,7 +90,7 @@ def test_optical_depth_is_the_integral_of_the_density(point, stop):
     assert seen == pytest.approx(numeric_depth(row, scene, point, stop), abs=2e-4)
 
 
-def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():
+def test_overlapping_media_of_one_colour_solve_the_equation_of_transfer():
     rows = [medium((x, y, 0.0), thickness=t, colour=(0.4,) * 3, emission=1.0)
             for x, y, t in ((-0.3, -0.4, 0.7), (0.2, 0.3, 1.1), (0.0, 0.0, 0.4))]  # fmt: skip
     scene = scene_of(*rows)
@@ -100,7 +100,7 @@ def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():
 
 
 @pytest.mark.parametrize("detail", [0.0, 1.0])
-def test_a_moving_puff_changes_no_pixel_by_a_jump(detail):
+def test_a_moving_medium_changes_no_pixel_by_a_jump(detail):
     """1/32 pixel of motion: no pixel may change by more than 1/10 of what a whole pixel changes."""
     step = 6.0 / 96.0 / 32.0
     images = [
@@ -114,7 +114,7 @@ def test_a_moving_puff_changes_no_pixel_by_a_jump(detail):
         assert np.abs(after - before).max() < 0.1 * whole
 
 
-def test_a_puff_smaller_than_a_pixel_hides_as_much_wherever_it_is():
+def test_a_medium_smaller_than_a_pixel_hides_as_much_wherever_it_is():
     """What it takes from the image does not depend on where in a pixel it stands."""
     lost = [
         (SKY - render_light(scene_of(medium((x, 0.0, 0.0), (0.02,) * 3)), 0.0, SMALL)).sum()

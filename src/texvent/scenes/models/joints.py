@@ -28,7 +28,7 @@ body, rad: for a body of length 1."""
 
 Cycle = Callable[[Pose, int], float]
 """Pose and seed → cycles so far."""
-Motion = Callable[[Pose, int], Affine]
+JointMotion = Callable[[Pose, int], Affine]
 """Pose and seed → [3, 4] map."""
 
 
@@ -36,7 +36,7 @@ Motion = Callable[[Pose, int], Affine]
 class Joint:
     """Motion of parts in their body."""
 
-    motion: Motion
+    motion: JointMotion
     rolls: bool = False
     """Whether it turns with the distance travelled."""
 

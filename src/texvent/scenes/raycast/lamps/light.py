@@ -1,4 +1,4 @@
-"""Light and shadow of lamps: columns of their table, casters by direction, what a surface sees."""
+"""Light and shadow of lamps: falloff, casters by direction, lamps that reach a surface."""
 
 from __future__ import annotations
 
@@ -209,19 +209,18 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
 def _distance(box: Float64Array, axes: int) -> float:
     """Lower bound of a box's distance from 0, in the plane of x and y (2 axes) or in space (3).
 
-    The farthest of the planes at right angles to its axes, or to the way to its middle, that hold
-    it off.
+    The greatest separation along the normals of its faces, or along the line to its middle.
     """
     farthest = 0.0
-    for way in range(4):
+    for normal in range(4):
         length, gap, half = 1e-300, 0.0, 0.0
         for axis in range(axes):
-            length += box[axis, way] * box[axis, way]
-            gap += box[axis, way] * box[axis, 3]
+            length += box[axis, normal] * box[axis, normal]
+            gap += box[axis, normal] * box[axis, 3]
         for side in range(3):
             part = 0.0
             for axis in range(axes):
-                part += box[axis, way] * box[axis, side]
+                part += box[axis, normal] * box[axis, side]
             half += abs(part)
         farthest = max(farthest, (abs(gap) - half) / math.sqrt(length))
     return farthest
@@ -262,7 +261,7 @@ def _blocked(
 ) -> tuple[bool, bool]:
     """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
 
-    Shapes beyond the share `near` of the way belong to the lamp itself.
+    Shapes beyond the share `near` of the distance belong to the lamp itself.
     """
     lists, thin = instant.lists, False
     reach_mm = 1e3 * math.sqrt(dot(towards, towards))

@@ -73,7 +73,7 @@ Sample = tuple[float, float, float, float]
 Patch = tuple[float, float, float, float]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 Corners = tuple[int, int, int, int]
-Place = tuple[float, float, float]
+TexelPlace = tuple[float, float, float]
 """(u, v) in tiles, and the ease of weights between texels there."""
 
 _SHARPNESS = 0.5
@@ -138,7 +138,7 @@ def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Samp
 
 
 @jit(error_model="numpy", inner=True)
-def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample) -> Sample:
+def _add_texels(tile: int, level: int, place: TexelPlace, share: float, total: Sample) -> Sample:
     """`total` and `share` times the blend of a tile's texels at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
     here = blend_four(tile, corners, weights)
@@ -192,7 +192,7 @@ def tile_average(tile: int, u: float, v: float, axes: Patch) -> Sample:
 
 
 @jit(error_model="numpy", inner=True)
-def _first_channel(tile: int, level: int, place: Place) -> float:
+def _first_channel(tile: int, level: int, place: TexelPlace) -> float:
     """A tile's first channel at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
     return float(
