@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.scenes.rendered_scene import (
     LAMP_RECORD,
@@ -20,16 +18,18 @@ from texvent.scenes.rendered_scene import (
     Texture,
 )
 
+Point = tuple[float, float, float]
+
 
 @dataclass(frozen=True)
 class MovingShape:
     """One shape: where it is at each instant, and what it looks like."""
 
     shape: Shape
-    scale: tuple[float, float, float]
-    place: Callable[[float], tuple[float, float, float]]
-    colour: tuple[float, float, float] = (0.8, 0.1, 0.05)
-    second: tuple[float, float, float] = (0.9, 0.9, 0.9)
+    scale: Point
+    place: Callable[[float], Point]
+    colour: Point = (0.8, 0.1, 0.05)
+    second: Point = (0.9, 0.9, 0.9)
     texture: Texture = Texture.PLAIN
     texture_scale: float = 1.0
     spin: float = 0.0
@@ -37,13 +37,11 @@ class MovingShape:
     instance: int = 0
 
 
-def still(x: float, y: float, z: float) -> Callable[[float], tuple[float, float, float]]:
+def still(x: float, y: float, z: float) -> Callable[[float], Point]:
     return lambda time: (x, y, z)
 
 
-def moving(
-    start: tuple[float, float, float], velocity: tuple[float, float, float]
-) -> Callable[[float], tuple[float, float, float]]:
+def moving(start: Point, velocity: Point) -> Callable[[float], Point]:
     return lambda time: (
         start[0] + time * velocity[0],
         start[1] + time * velocity[1],
@@ -51,9 +49,7 @@ def moving(
     )
 
 
-def look_at(
-    position: tuple[float, float, float], target: tuple[float, float, float]
-) -> PosedCamera:
+def look_at(position: Point, target: Point) -> PosedCamera:
     forward = np.subtract(target, position).astype(np.float64)
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
@@ -90,16 +86,16 @@ def day(ground: Ground = Ground.GRASS) -> Environment:
 
 
 def lamp_row(
-    place: tuple[float, float, float],
-    light: tuple[float, float, float] = (2.0, 2.0, 2.0),
+    place: Point,
+    light: Point = (2.0, 2.0, 2.0),
     *,
     reach: float = 100.0,
-    beam: tuple[float, float, float] | None = None,
+    beam: Point | None = None,
     cosines: tuple[float, float] = (-2.0, -2.0),
     radius: float = 0.01,
     casts: bool = False,
     glows: bool = False,
-) -> NDArray[Any]:
+) -> np.ndarray:
     """[1] `LAMP_RECORD`."""
     direction = (0.0, 0.0, 0.0) if beam is None else beam
     return np.array([(place, light, reach, direction, *cosines, radius, casts, glows)], LAMP_RECORD)

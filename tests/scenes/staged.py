@@ -38,9 +38,7 @@ def stage(
     """
     description = SceneDescription(
         objects=objects,
-        relations=tuple(
-            IndexedRelation(kind, who, tuple(targets)) for kind, who, *targets in relations
-        ),
+        relations=tuple(IndexedRelation(kind, who, tuple(to)) for kind, who, *to in relations),
         effects=effects,
         camera=camera or Camera(),
         light=Light(light),

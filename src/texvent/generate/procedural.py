@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from texvent.scenes.report import PromptReport
     from texvent.scenes.staging.compose import ComposedScene
 
+Rendered: TypeAlias = tuple[NDArray[np.float32], NDArray[np.int64]]
+"""Pixels and codes, as of `SceneFrame`."""
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
 IMAGES_AHEAD = 8
@@ -157,9 +159,7 @@ class ProceduralVideo(NotebookFrames):
         pixels, _ = self._render(self._renderer, t_us)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
-    def _render(
-        self, renderer: IncrementalRenderer, t_us: int
-    ) -> tuple[NDArray[Any], NDArray[Any]]:
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
         return renderer.render(t_us / MICROSECONDS)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:

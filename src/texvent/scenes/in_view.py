@@ -141,9 +141,8 @@ def _find_unshown(
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     bare = replace(scene, still=assemble([]))
     if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
-        yield Violation(
-            "place", said.name or "", f"{said.name}, of which only the ground is in view"
-        )
+        line = f"{said.name}, of which only the ground is in view"
+        yield Violation("place", said.name or "", line)
 
 
 def _list_without(

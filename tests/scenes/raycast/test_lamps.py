@@ -1,11 +1,9 @@
 """Lamps: light, beams, shadows and glow."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.scenes.raycast.lamps.light import (
@@ -23,7 +21,7 @@ from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, still
 SMALL = SensorSize(96, 72)
 
 
-def dark(*lamps: NDArray[Any], ground: Ground = Ground.PLAIN) -> Environment:
+def dark(*lamps: np.ndarray, ground: Ground = Ground.PLAIN) -> Environment:
     black = np.zeros(3, dtype=np.float32)
     return replace(
         day(ground), sky_top=black, sky_horizon=black, sun_colour=black, ambient=black,

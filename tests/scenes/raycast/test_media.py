@@ -62,15 +62,8 @@ def numeric_depth(row: np.void, scene: HandScene, point: tuple[float, float], st
     square = (((place - centre) / wide) ** 2).sum(axis=1)
     density = np.where(square < 1.0, (1.0 - np.minimum(square, 1.0)) ** 2, 0.0)
     thinned = np.cbrt((half / wide).prod()) ** 2 / np.cbrt(wide.prod())
-    return (
-        15.0
-        / 16.0
-        * row["optical_depth"]
-        * thinned
-        * density.mean()
-        * min(stop, 20.0)
-        * np.linalg.norm(direction)
-    )
+    mass = density.mean() * min(stop, 20.0) * np.linalg.norm(direction)
+    return 15.0 / 16.0 * row["optical_depth"] * thinned * mass
 
 
 @given(half=st.floats(0.0, 1.0), start=st.floats(-1.5, 1.5), length=st.floats(0.0, 3.0))
@@ -104,10 +97,8 @@ def test_a_moving_medium_changes_no_pixel_by_a_jump(detail):
     """1/32 pixel of motion: no pixel may change by more than 1/10 of what a whole pixel changes."""
     step = 6.0 / 96.0 / 32.0
     images = [
-        render_light(
-            scene_of(medium((k * step, 0.0, 0.0), thickness=2.0, detail=detail)), 0.0, SMALL
-        )
-        for k in (0, 1, 2, 3, 32)
+        render_light(scene_of(medium((x, 0.0, 0.0), thickness=2.0, detail=detail)), 0.0, SMALL)
+        for x in step * np.array([0, 1, 2, 3, 32])
     ]
     whole = np.abs(images[-1] - images[0]).max()
     for before, after in pairwise(images[:4]):

@@ -63,10 +63,8 @@ def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
         seen = (size > 0.004 * reach) & above
         assert way[seen].max(initial=0.0) < 0.01 * reach
         clouds = [scene.environment(t).media for t in (time_s, time_s + 1e-4)]
-        drift = np.linalg.norm(
-            clouds[1]["to_world"][:, :, 3] - clouds[0]["to_world"][:, :, 3], axis=1
-        )
-        depths = [one["optical_depth"] for one in clouds]
+        places, depths = ([one[name] for one in clouds] for name in ("to_world", "optical_depth"))
+        drift = np.linalg.norm((places[1] - places[0])[:, :, 3], axis=1)
         thick = np.minimum(*depths)
         assert drift[thick > 0.02].max(initial=0.0) < 0.01 * reach
         assert np.abs(depths[1] - depths[0]).max(initial=0.0) < 0.05

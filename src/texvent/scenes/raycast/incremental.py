@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -70,16 +71,12 @@ class IncrementalRenderer:
     """
 
     def __init__(
-        self,
-        scene: RenderedScene,
-        size: SensorSize,
-        *,
-        samples: int,
-        shadows: bool,
+        self, scene: RenderedScene, size: SensorSize, *, samples: int, shadows: bool,
         code: Callable[[Float64Array], Float32Array] = encode_srgb,
-    ) -> None:
-        self._scene, self._size, self._code = scene, size, code
-        self._samples, self._shadows = samples, shadows
+    ) -> None:  # fmt: skip
+        self._size, self._code = size, code
+        self._draw = partial(world_and_shapes, scene, size=size, shadows=shadows, samples=samples)
+        self._light = partial(light_of_rows, rows=(0, size.height), size=size, samples=samples)
         self._last: tuple[Drawn, Float32Array, Codes] | None = None
         self._kept: Mapping[float, Drawn] = {}
 
@@ -102,12 +99,9 @@ class IncrementalRenderer:
         return pixels, codes
 
     def render_between(
-        self,
-        first: DrawnInstant,
-        last: DrawnInstant,
-        speeds: Float32Array,
+        self, first: DrawnInstant, last: DrawnInstant, speeds: Float32Array,
         times_s: Sequence[float],
-    ) -> Iterator[Float32Array]:
+    ) -> Iterator[Float32Array]:  # fmt: skip
         """Luma [H, W] at the inner times, in their order.
 
         Args:
@@ -126,13 +120,9 @@ class IncrementalRenderer:
         return (one.luma for one in self._divide(first, last, blocks, speeds, times_s))
 
     def _divide(
-        self,
-        before: DrawnInstant,
-        after: DrawnInstant,
-        blocks: Mask,
-        speeds: Float32Array,
+        self, before: DrawnInstant, after: DrawnInstant, blocks: Mask, speeds: Float32Array,
         times_s: Sequence[float],
-    ) -> Iterator[DrawnInstant]:
+    ) -> Iterator[DrawnInstant]:  # fmt: skip
         """The instants between two others; only `blocks` do not change evenly there."""
         steps = after.number - before.number
         if steps < 2:
@@ -159,10 +149,7 @@ class IncrementalRenderer:
         yield from self._divide(middle, after, blocks, speeds, times_s)
 
     def _drawn(self, time_s: float) -> Drawn:
-        size, samples = self._size, self._samples
-        return self._kept.get(time_s) or world_and_shapes(
-            self._scene, time_s, size, shadows=self._shadows, samples=samples
-        )
+        return self._kept.get(time_s) or self._draw(time_s=time_s)
 
     def _luma(self, time_s: float, wanted: Mask, codes: Codes) -> Float32Array:
         """Luma [k] of the wanted pixels at an instant."""
@@ -171,10 +158,7 @@ class IncrementalRenderer:
 
     def _levels(self, drawn: Drawn, wanted: Mask, codes: Codes) -> Float32Array:
         """Levels [k, 3] of the wanted pixels; `codes` are known ones, and those found."""
-        size, samples = self._size, self._samples
-        rows = (0, size.height)
-        light = light_of_rows(drawn.world, rows, size, samples=samples, wanted=wanted, codes=codes)
-        return self._code(light[wanted])
+        return self._code(self._light(drawn.world, wanted=wanted, codes=codes)[wanted])
 
 
 def _refined(cells: Mask, side: int, shape: tuple[int, ...]) -> Mask:

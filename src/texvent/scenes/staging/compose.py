@@ -46,6 +46,7 @@ VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
 
 
+_NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK = -0.18
@@ -89,12 +90,9 @@ class ComposedScene:
         effects = self.particles.effects
         lamps = np.concatenate([self.lamps.at(time_s), *(one.lamps(time_s) for one in effects)])
         lamps["light"] *= self.animated_environment.flicker(time_s)
-        media = [np.zeros(0, MEDIUM_RECORD), *(one.media(time_s) for one in effects)]
+        media = np.concatenate([_NO_MEDIA, *(one.media(time_s) for one in effects)])
         surroundings = self.animated_environment.at(time_s)
-        return replace(
-            surroundings, lamps=lamps, media=np.concatenate(media),
-            has_highlights=self.has_highlights,
-        )  # fmt: skip
+        return replace(surroundings, lamps=lamps, media=media, has_highlights=self.has_highlights)
 
     @property
     def flicker_hz(self) -> float | None:

@@ -75,9 +75,8 @@ def look_at(position: Float64Array, target: Float64Array, focal: float) -> Posed
     right = right / max(float(np.linalg.norm(right)), 1e-9)
     (fx, fy, fz), (rx, ry, rz) = forward, right
     down = (fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
-    return PosedCamera(
-        np.asarray(position, dtype=np.float64), np.array([right, down, forward]), focal
-    )
+    axes = np.array([right, down, forward])
+    return PosedCamera(np.asarray(position, dtype=np.float64), axes, focal)
 
 
 def fit(
