@@ -15,7 +15,7 @@ import numpy as np
 
 import texvent
 from texvent.scenes import Camera, Place, Scene, SceneObject
-from texvent.scenes.scene import project
+from texvent.scenes.rendered_scene import project
 
 STEP_S, STEPS = 0.005, 400
 LENGTH_M, RADIUS_M = 1.0, 0.03

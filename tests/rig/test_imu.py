@@ -18,7 +18,7 @@ from texvent.rig.imu import (
     true_samples,
     with_noise,
 )
-from texvent.scenes.scene import Camera, Scene
+from texvent.scenes.rendered_scene import PosedCamera, RenderedScene
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 
@@ -27,7 +27,7 @@ LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Camera axes in the world: right is x, down is −z, forward is y."""
 
 
-def scene_of(prompt: str) -> Scene:
+def scene_of(prompt: str) -> RenderedScene:
     description = understand(prompt, list_nouns())
     return compose_scene(description, seed=3, size=SensorSize(64, 48), duration_s=DURATION)
 
@@ -58,7 +58,7 @@ def integrate(samples: ImuSamples, velocity: np.ndarray) -> tuple[np.ndarray, np
     return place, turn
 
 
-def first_velocity(scene: Scene, offset: np.ndarray) -> np.ndarray:
+def first_velocity(scene: RenderedScene, offset: np.ndarray) -> np.ndarray:
     step = 1e-4
     ends = [true_samples(scene, offset, np.array([t])) for t in (-100, 100)]
     return (ends[1].position[0] - ends[0].position[0]) / (2.0 * step)
@@ -94,11 +94,11 @@ def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(
     """
     radius, spin, faster = 2.0, 1.5, 4.0
 
-    def camera_at(time: float) -> Camera:
+    def camera_at(time: float) -> PosedCamera:
         angle = spin * time + 0.5 * faster * time**2
         forward = np.array([-math.sin(angle), math.cos(angle), 0.0])
         right = np.array([math.cos(angle), math.sin(angle), 0.0])
-        return Camera(radius * right, np.stack([right, [0, 0, -1.0], forward]), 1.0)
+        return PosedCamera(radius * right, np.stack([right, [0, 0, -1.0], forward]), 1.0)
 
     mount = np.eye(4)
     mount[:3, 3] = right, down, forward = offset
@@ -115,7 +115,7 @@ def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(
 def test_an_imu_at_rest_feels_gravity_alone_wherever_it_is_and_however_it_is_turned() -> None:
     mount = np.eye(4)
     mount[:3, :3], mount[:3, 3] = rotation_of(np.array([0.3, -1.1, 0.7])), (0.1, 0.2, 0.3)
-    scene = HandScene(camera_at=lambda time: Camera(np.array([5.0, 6.0, 7.0]), LEVEL, 1.0))
+    scene = HandScene(camera_at=lambda time: PosedCamera(np.array([5.0, 6.0, 7.0]), LEVEL, 1.0))
     samples = true_samples(scene, mount, np.array([0, 10**6]))
     up = mount[:3, :3].T @ [0.0, -GRAVITY, 0.0]
     np.testing.assert_allclose(samples.acceleration, [up] * 2, atol=1e-7)
@@ -172,8 +172,8 @@ def test_times_are_whole_microseconds_of_the_rate() -> None:
 
 
 def test_across_a_corner_of_the_path_it_leads_to_the_same_pose() -> None:
-    def camera_at(time: float) -> Camera:
-        return Camera(np.array([0.0, 0.0, abs(time - 0.5)]), LEVEL, 1.0)
+    def camera_at(time: float) -> PosedCamera:
+        return PosedCamera(np.array([0.0, 0.0, abs(time - 0.5)]), LEVEL, 1.0)
 
     samples = true_samples(HandScene(camera_at=camera_at), np.eye(4), sample_times_us(RATE, 10**6))
     place, _ = integrate(samples, np.array([0.0, 0.0, -1.0]))

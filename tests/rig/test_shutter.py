@@ -21,7 +21,7 @@ from texvent.rig.shutter import (
     make_shutter,
 )
 from texvent.scenes.raycast.render import render_light
-from texvent.scenes.scene import Camera, Ground, Shape
+from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(96, 64)
@@ -40,7 +40,7 @@ def board(light: float = 0.5) -> HandScene:
     shape = MovingShape(
         Shape.BOX, (50.0, 0.001, 50.0), place, colour=(light, light, light), emission=1.0
     )
-    return HandScene((shape,), lambda time: Camera(np.zeros(3), LEVEL, 1.0), dark)
+    return HandScene((shape,), lambda time: PosedCamera(np.zeros(3), LEVEL, 1.0), dark)
 
 
 def test_blur_of_a_moving_edge_is_a_ramp_in_linear_light() -> None:

@@ -20,7 +20,7 @@ from texvent.rig.description import ImuNoise, Rig, RigCamera
 from texvent.rig.layouts.dsec import rectified_points, rectify, write_disparity
 from texvent.rig.recording import Recording
 from texvent.runtime.progress import NO_PROGRESS
-from texvent.scenes.scene import Camera, Ground, Shape, project
+from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape, project
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 
@@ -68,8 +68,8 @@ def plates() -> HandScene:
             )
         )  # fmt: skip
 
-    def camera_at(time: float) -> Camera:
-        return Camera(np.array([SPEED_M_S * (time - 0.05), 0.0, 0.0]), LEVEL, 1.0)
+    def camera_at(time: float) -> PosedCamera:
+        return PosedCamera(np.array([SPEED_M_S * (time - 0.05), 0.0, 0.0]), LEVEL, 1.0)
 
     return HandScene(tuple(shapes), camera_at, sky)
 

@@ -7,16 +7,18 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.scene import (
-    LAMP_COLUMNS,
-    Camera,
+from texvent.scenes.rendered_scene import (
+    LAMP_RECORD,
     Environment,
     Float64Array,
     Ground,
+    PosedCamera,
     Primitives,
     Shape,
     Texture,
 )
+
+Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -24,10 +26,10 @@ class MovingShape:
     """One shape: where it is at each instant, and what it looks like."""
 
     shape: Shape
-    scale: tuple[float, float, float]
-    place: Callable[[float], tuple[float, float, float]]
-    colour: tuple[float, float, float] = (0.8, 0.1, 0.05)
-    second: tuple[float, float, float] = (0.9, 0.9, 0.9)
+    scale: Point
+    place: Callable[[float], Point]
+    colour: Point = (0.8, 0.1, 0.05)
+    second: Point = (0.9, 0.9, 0.9)
     texture: Texture = Texture.PLAIN
     texture_scale: float = 1.0
     spin: float = 0.0
@@ -35,13 +37,11 @@ class MovingShape:
     instance: int = 0
 
 
-def still(x: float, y: float, z: float) -> Callable[[float], tuple[float, float, float]]:
+def still(x: float, y: float, z: float) -> Callable[[float], Point]:
     return lambda time: (x, y, z)
 
 
-def moving(
-    start: tuple[float, float, float], velocity: tuple[float, float, float]
-) -> Callable[[float], tuple[float, float, float]]:
+def moving(start: Point, velocity: Point) -> Callable[[float], Point]:
     return lambda time: (
         start[0] + time * velocity[0],
         start[1] + time * velocity[1],
@@ -49,12 +49,12 @@ def moving(
     )
 
 
-def look_at(position: tuple[float, float, float], target: tuple[float, float, float]) -> Camera:
+def look_at(position: Point, target: Point) -> PosedCamera:
     forward = np.subtract(target, position).astype(np.float64)
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
-    return Camera(
+    return PosedCamera(
         np.array(position, dtype=np.float64),
         np.stack([right, np.cross(forward, right), forward]),
         1.0,
@@ -80,26 +80,25 @@ def day(ground: Ground = Ground.GRASS) -> Environment:
         fog_distance=np.inf,
         fog_colour=np.array([0.7, 0.75, 0.8], dtype=np.float32),
         exposure=1.0,
-        lamps=np.zeros((0, LAMP_COLUMNS)),
+        lamps=np.zeros(0, LAMP_RECORD),
         time_s=0.0,
     )
 
 
 def lamp_row(
-    place: tuple[float, float, float],
-    light: tuple[float, float, float] = (2.0, 2.0, 2.0),
+    place: Point,
+    light: Point = (2.0, 2.0, 2.0),
     *,
     reach: float = 100.0,
-    beam: tuple[float, float, float] | None = None,
+    beam: Point | None = None,
     cosines: tuple[float, float] = (-2.0, -2.0),
     radius: float = 0.01,
     casts: bool = False,
     glows: bool = False,
-) -> Float64Array:
-    """[1, 15] one lamp."""
+) -> np.ndarray:
+    """[1] `LAMP_RECORD`."""
     direction = (0.0, 0.0, 0.0) if beam is None else beam
-    numbers = (*place, *light, reach, *direction, *cosines, radius, casts, glows)
-    return np.array([numbers], dtype=np.float64)
+    return np.array([(place, light, reach, direction, *cosines, radius, casts, glows)], LAMP_RECORD)
 
 
 def turned(angle: float) -> Float64Array:
@@ -112,7 +111,7 @@ class HandScene:
     """A scene of `Thing`s."""
 
     shapes: tuple[MovingShape, ...] = ()
-    camera_at: Callable[[float], Camera] = field(
+    camera_at: Callable[[float], PosedCamera] = field(
         default=lambda time: look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
     )
     environment_base: Environment = field(default_factory=day)
@@ -135,7 +134,7 @@ class HandScene:
             instance=np.array([shape.instance for shape in shapes], dtype=np.int32),
         )
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         return self.camera_at(time_s)
 
     def environment(self, time_s: float) -> Environment:

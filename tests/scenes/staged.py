@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.description import Relation, SceneDescription
-from texvent.scenes.scene import project
+from texvent.scenes.description import IndexedRelation, SceneDescription
+from texvent.scenes.rendered_scene import project
 from texvent.scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
@@ -38,7 +38,7 @@ def stage(
     """
     description = SceneDescription(
         objects=objects,
-        relations=tuple(Relation(kind, who, tuple(targets)) for kind, who, *targets in relations),
+        relations=tuple(IndexedRelation(kind, who, tuple(to)) for kind, who, *to in relations),
         effects=effects,
         camera=camera or Camera(),
         light=Light(light),

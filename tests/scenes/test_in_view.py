@@ -7,11 +7,11 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.description import Relation, SceneDescription
+from texvent.scenes.description import IndexedRelation, SceneDescription
 from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.spec.scene import SceneObject
-from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent.scenes.staging.camera.framing import pose
 
 CAR = SceneObject("car")
@@ -20,7 +20,7 @@ CAR = SceneObject("car")
 def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
-        scene = replace(scene, camera_path=CameraPath(pose(position, target), (), DURATION_S))
+        scene = replace(scene, camera_path=CameraTrajectory(pose(position, target), (), DURATION_S))
     return find_unseen(scene, SceneDescription(objects=objects), SIZE, DURATION_S)
 
 
@@ -80,8 +80,8 @@ def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
     scene = stage(*objects, relations=((kind, 0, 1),), place="plain")
 
     def find(said):
-        description = SceneDescription(objects=objects, relations=(Relation(said, 0, (1,)),))
-        return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).unheld]
+        description = SceneDescription(objects=objects, relations=(IndexedRelation(said, 0, (1,)),))
+        return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).violations]
 
     assert (find(kind), find(OTHER[kind])) == ([], [OTHER[kind]])
 
@@ -91,8 +91,8 @@ def test_a_direction_holds_where_it_is_staged(way, other):
     scene = stage(thing("drone", ("fly", way)), place="plain")
     for said, faults in ((way, ()), (other, (other,))):
         description = SceneDescription(objects=(thing("drone", ("fly", said)),))
-        unheld = find_unseen(scene, description, SIZE, DURATION_S).unheld
-        assert tuple(one.value for one in unheld) == faults
+        violations = find_unseen(scene, description, SIZE, DURATION_S).violations
+        assert tuple(one.value for one in violations) == faults
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from texvent.lens import Lens, lens_reach, normalised
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.trace import ray_direction
-from texvent.scenes.scene import Camera, Shape, camera_rays, project
+from texvent.scenes.rendered_scene import PosedCamera, Shape, camera_rays, project
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(160, 120)
@@ -33,7 +33,7 @@ def opencv_points(lens: Lens, points: np.ndarray) -> np.ndarray:
     return placed[:, 0] + CENTRE
 
 
-def ray_directions(camera: Camera, size: SensorSize, points: np.ndarray) -> np.ndarray:
+def ray_directions(camera: PosedCamera, size: SensorSize, points: np.ndarray) -> np.ndarray:
     """Directions [n, 3] through image points [n, 2]; their component along the axis is 1."""
     lens = camera.lens
     if lens is not None and lens.distortion != "none":
@@ -44,9 +44,9 @@ def ray_directions(camera: Camera, size: SensorSize, points: np.ndarray) -> np.n
     return np.asarray(rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down)
 
 
-def camera_with(lens: Lens | None) -> Camera:
+def camera_with(lens: Lens | None) -> PosedCamera:
     camera = look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
-    return Camera(camera.position, camera.rotation, 1.0, lens)
+    return PosedCamera(camera.position, camera.rotation, 1.0, lens)
 
 
 @BOTH
@@ -76,9 +76,9 @@ def test_kernel_and_reference_give_the_same_rays(lens):
 def test_flow_and_depth_agree_with_the_projection(lens):
     """A still ground under a moving camera: flow is the difference of projections."""
 
-    def camera_at(time_s: float) -> Camera:
+    def camera_at(time_s: float) -> PosedCamera:
         camera = camera_with(lens)
-        return Camera(camera.position + time_s * VELOCITY, camera.rotation, 1.0, lens)
+        return PosedCamera(camera.position + time_s * VELOCITY, camera.rotation, 1.0, lens)
 
     scene = HandScene(camera_at=camera_at)
     truth = ground_truth(scene, 0.0, 0.1, SIZE)

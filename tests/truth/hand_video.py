@@ -9,7 +9,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
-from texvent.scenes.scene import Camera, Ground, Shape
+from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape
 from texvent.sensor import SensorSize
 
 from ..scenes.hand_scenes import HandScene, MovingShape, day, look_at, moving
@@ -21,7 +21,7 @@ DEPTH_M = 7.5
 SPEED_PX_PER_FRAME = SPEED_MS * 80.0 / DEPTH_M / 25.0
 
 
-def level(time_s: float) -> Camera:
+def level(time_s: float) -> PosedCamera:
     return look_at((0.0, -8.0, 1.5), (0.0, 0.0, 1.5))
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
 from texvent.truth.source import Snapshot

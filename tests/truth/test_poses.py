@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.lens import Lens
-from texvent.scenes.scene import Camera, project
+from texvent.scenes.rendered_scene import PosedCamera, project
 from texvent.truth.poses import (
     camera_facts,
     intrinsics,
@@ -48,7 +48,7 @@ def test_opencv_projects_as_the_scene_does():
 
 def test_a_lens_is_written_as_calibrations_have_it():
     lens = Lens(90.0, 91.0, 40.5, 30.5, "radtan", (-0.1, 0.01, 0.001, 0.002))
-    camera = Camera(np.zeros(3), np.eye(3), 1.0, lens)
+    camera = PosedCamera(np.zeros(3), np.eye(3), 1.0, lens)
     facts = camera_facts(camera, SIZE)
     assert facts["intrinsics"] == [90.0, 91.0, 40.0, 30.0]
     assert facts["distortion_model"] == "radtan"

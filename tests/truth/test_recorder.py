@@ -17,7 +17,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.scenes.models.tables import CLASS_IDS
-from texvent.scenes.scene import Camera
+from texvent.scenes.rendered_scene import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.sinks import encode_flow, write_png
@@ -126,7 +126,7 @@ def test_truth_changes_no_event(written):
 
 
 def test_a_zoom_is_in_the_intrinsics(tmp_path):
-    def zooming(time_s: float) -> Camera:
+    def zooming(time_s: float) -> PosedCamera:
         return replace(level(time_s), focal=1.0 + time_s)
 
     texvent.save_truth(board_video(zooming), tmp_path / "z.truth", "poses")

@@ -13,13 +13,12 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._version import __version__
-from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
@@ -43,11 +42,13 @@ if TYPE_CHECKING:
     from texvent.scenes.description import SceneDescription
     from texvent.scenes.models.protocol import Noun
     from texvent.scenes.raycast.ground_truth import GroundTruth
-    from texvent.scenes.raycast.reuse import FrameMemory
+    from texvent.scenes.raycast.incremental import IncrementalRenderer
+    from texvent.scenes.rendered_scene import PosedCamera, RenderedScene
     from texvent.scenes.report import PromptReport
-    from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
 
+Rendered: TypeAlias = tuple[NDArray[np.float32], NDArray[np.int64]]
+"""Pixels and codes, as of `SceneFrame`."""
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
 IMAGES_AHEAD = 8
@@ -56,7 +57,7 @@ IMAGES_AHEAD = 8
 
 @dataclass(frozen=True, kw_only=True)
 class ProceduralConfig:
-    """Rendering of a scene by the embedded generator."""
+    """Options of the embedded generator."""
 
     fps: Fraction = Fraction(24)
     """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, every part of the image is
@@ -107,14 +108,14 @@ class SceneFrame(Frame):
 class ProceduralVideo(NotebookFrames):
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
-    scene: Scene
-    """Scene to render."""
+    scene: RenderedScene
+    """The scene that is rendered."""
     size: SensorSize
     """Width and height of every frame, pixels."""
     config: ProceduralConfig = field(default_factory=ProceduralConfig)
-    """Options of its rendering."""
+    """Options of the generator."""
     metadata: Mapping[str, Any] = field(default_factory=dict)
-    """Facts of the prompt's reading (JSON-serialisable)."""
+    """Result of the generator for the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
     """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
     has_motion: bool = False
@@ -146,20 +147,20 @@ class ProceduralVideo(NotebookFrames):
 
     def from_frame(self, first: int) -> Iterator[Frame]:
         """The frames from number `first` on; those before it are not rendered."""
-        memory = self._make_memory()
+        renderer = self._make_renderer()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels, codes = self._render(memory, t_us)
+            pixels, codes = self._render(renderer, t_us)
             motion = self._motion(index) if self.has_motion else None
             yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._render(self._memory, t_us)
+        pixels, _ = self._render(self._renderer, t_us)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
-    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        return memory.render(t_us / MICROSECONDS)
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
+        return renderer.render(t_us / MICROSECONDS)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -176,7 +177,7 @@ class ProceduralVideo(NotebookFrames):
 
         return visible_instances(self.scene, t_us / MICROSECONDS, self.size, points)
 
-    def camera_at(self, t_us: int) -> Camera:
+    def camera_at(self, t_us: int) -> PosedCamera:
         """The camera at `t_us`."""
         return self.scene.camera(t_us / MICROSECONDS)
 
@@ -207,18 +208,14 @@ class ProceduralVideo(NotebookFrames):
     def _draw_between(
         self, first: Frame, second: Frame, times_us: Sequence[int]
     ) -> Iterator[NDArray[np.float32]]:
-        from texvent.scenes.raycast.between import Between, Instant, block_speeds
+        from texvent.scenes.raycast.incremental import DrawnInstant, block_speeds
 
-        def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
-            return np.asarray(luma_bt601(self._code(light)[None])[0], dtype=np.float32)
-
-        config, start, stop = self.config, first.motion or Motion(), second.motion or Motion()
+        start, stop = first.motion or Motion(), second.motion or Motion()
         speeds = block_speeds(self.size, start.forward, stop.backward)
-        drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        before = Instant(0, first.float_luma, getattr(first, "codes", None))
-        after = Instant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
-        return drawing.draw(before, after, speeds, times)
+        before = DrawnInstant(0, first.float_luma, getattr(first, "codes", None))
+        after = DrawnInstant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
+        return self._renderer.render_between(before, after, speeds, times)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
@@ -233,20 +230,16 @@ class ProceduralVideo(NotebookFrames):
         )
 
     @cached_property
-    def _memory(self) -> FrameMemory:
-        """The last frame of `at`: what stands still since then is not drawn again."""
-        return self._make_memory()
+    def _renderer(self) -> IncrementalRenderer:
+        """Renderer of single instants and of those between frames."""
+        return self._make_renderer()
 
-    def _make_memory(self) -> FrameMemory:
-        from texvent.scenes.raycast.reuse import FrameMemory
+    def _make_renderer(self) -> IncrementalRenderer:
+        from texvent.scenes.raycast.incremental import IncrementalRenderer
 
-        config = self.config
-        return FrameMemory(
-            self.scene,
-            self.size,
-            samples=config.samples,
-            shadows=config.shadows,
-            code=self._code,
+        samples, shadows, code = self.config.samples, self.config.shadows, self._code
+        return IncrementalRenderer(
+            self.scene, self.size, samples=samples, shadows=shadows, code=code
         )
 
     def gamma_coded(self) -> ProceduralVideo:
@@ -356,8 +349,8 @@ class ProceduralGenerator:
         unseen = find_unseen(scene, description, self.size, duration_s)
         report = replace(
             said,
-            shown=without_words(said.shown, unseen.unheld),
-            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.unheld))),
+            shown=without_words(said.shown, unseen.violations),
+            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.violations))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )

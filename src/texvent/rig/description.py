@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 from texvent.lens import Lens
 from texvent.options.values import option_names
-from texvent.scenes.scene import Camera, Environment, Primitives, Scene
+from texvent.scenes.rendered_scene import Environment, PosedCamera, Primitives, RenderedScene
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ class Rig:
 class MountedScene:
     """A scene seen by one camera of a rig, whose first camera follows the scene's camera path."""
 
-    scene: Scene
+    scene: RenderedScene
     mount: RigCamera
 
     def primitives(self, time_s: float) -> Primitives:
@@ -93,17 +93,17 @@ class MountedScene:
         """Instance id → noun."""
         return self.scene.class_names
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         """This camera at that instant."""
         first = self.scene.camera(time_s)
         turn, shift = self.mount.from_first[:3, :3], self.mount.from_first[:3, 3]
         place = first.position - first.rotation.T @ (turn.T @ shift)
         lens = self.mount.lens
         focal = first.focal if lens is None else lens.fx / self.mount.size.width
-        return Camera(np.asarray(place), np.asarray(turn @ first.rotation), focal, lens)
+        return PosedCamera(np.asarray(place), np.asarray(turn @ first.rotation), focal, lens)
 
 
-def path_lens(scene: Scene, camera: RigCamera, duration_s: float) -> Lens:
+def path_lens(scene: RenderedScene, camera: RigCamera, duration_s: float) -> Lens:
     """The lens of a camera, or what the scene's own camera is where the rig states none.
 
     Raises:
@@ -122,7 +122,7 @@ def path_lens(scene: Scene, camera: RigCamera, duration_s: float) -> Lens:
 
 
 def body_poses(
-    scene: Scene, first_from_imu: Float64Array, t_s: NDArray[Any]
+    scene: RenderedScene, first_from_imu: Float64Array, t_s: NDArray[Any]
 ) -> tuple[Float64Array, Float64Array]:
     """Poses of a body along the scene's camera path.
 

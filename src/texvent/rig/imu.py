@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.rig.description import Float64Array, ImuNoise, body_poses
-from texvent.scenes.scene import Scene
+from texvent.scenes.rendered_scene import RenderedScene
 from texvent.simulate.random.draws import draw_normals, frame_key
 from texvent.video import MICROSECONDS
 
@@ -61,7 +61,9 @@ def sample_times_us(rate_hz: float, stop_us: int) -> NDArray[np.int64]:
     return times[times <= stop_us]
 
 
-def true_samples(scene: Scene, first_from_imu: Float64Array, t_us: NDArray[np.int64]) -> ImuSamples:
+def true_samples(
+    scene: RenderedScene, first_from_imu: Float64Array, t_us: NDArray[np.int64]
+) -> ImuSamples:
     """Samples of an IMU without noise."""
     t_s = t_us / MICROSECONDS
     position, to_world, acceleration, turning = _derivatives(scene, first_from_imu, t_s)
@@ -107,7 +109,7 @@ def _noise(
 
 
 def _derivatives(
-    scene: Scene, first_from_imu: Float64Array, t_s: Float64Array
+    scene: RenderedScene, first_from_imu: Float64Array, t_s: Float64Array
 ) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
     """Position, rotation to the world, acceleration, and the rotation's derivative."""
     around = t_s[:, None] + STEP_S * np.arange(-4, 5)

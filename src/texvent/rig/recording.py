@@ -39,7 +39,7 @@ from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_time
 from texvent.run.prepare import check_run, prepare_video
 from texvent.runtime.identity import derived_seed
 from texvent.runtime.progress import Progress
-from texvent.scenes.scene import Scene
+from texvent.scenes.rendered_scene import RenderedScene
 from texvent.sensor import SensorSize
 from texvent.settings.config_files import read_document
 from texvent.settings.provenance import describe_run
@@ -68,7 +68,7 @@ class Recording:
         """Time of the last event at most, µs; the first is at 0."""
         return frame_time_us(self.video.frame_count - 1, self.video.fps)
 
-    def scene_of(self, camera: RigCamera) -> Scene:
+    def scene_of(self, camera: RigCamera) -> RenderedScene:
         """The scene as a camera sees it."""
         return MountedScene(self.video.scene, camera)
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from texvent.rig.config import RigConfig
 from texvent.rig.description import Float64Array
-from texvent.scenes.scene import Scene
+from texvent.scenes.rendered_scene import RenderedScene
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, frame_time_us
 
@@ -98,7 +98,7 @@ def frame_times_us(fps: Fraction, shutter: Shutter, stop_us: int) -> list[int]:
 
 
 def expose_frames(
-    scene: Scene,
+    scene: RenderedScene,
     size: SensorSize,
     shutter: Shutter,
     times_us: list[int],
@@ -118,7 +118,7 @@ def expose_frames(
 
 
 def expose(
-    scene: Scene,
+    scene: RenderedScene,
     size: SensorSize,
     shutter: Shutter,
     time_s: float,
@@ -146,7 +146,7 @@ def count_instants(speed_px_s: float, exposure_s: float) -> int:
     return min(math.ceil(speed_px_s * exposure_s) + 1, MOST_INSTANTS)
 
 
-def fastest_px_s(scene: Scene, size: SensorSize, time_s: float) -> float:
+def fastest_px_s(scene: RenderedScene, size: SensorSize, time_s: float) -> float:
     """Speed that `FASTEST_SHARE` of the pixels do not exceed, px/s."""
     from texvent.scenes.raycast.ground_truth import cast_centres, move_to
     from texvent.scenes.raycast.render import world_at

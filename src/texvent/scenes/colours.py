@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.scenes.scene import Colour, decode_hex
+from texvent.scenes.rendered_scene import Colour, decode_hex
 
 COLOURS: dict[str, Colour] = {
     name: decode_hex(code)
@@ -94,7 +94,7 @@ PALETTES: Mapping[str, Mapping[str, Colour]] = {
     "surface": SURFACES,
     "light": TINTS,
 }
-"""What has a colour → its colours."""
+"""Use of a colour → its colours."""
 _HEX = re.compile(r"#[0-9a-fA-F]{6}")
 
 

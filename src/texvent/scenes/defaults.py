@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, STANDING, Relation, SceneDescription
+from texvent.scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
@@ -120,17 +120,17 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
     if motion is None:
         return Motion("work")
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
-    way = motion.direction if kept else None
+    direction = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
     if motion.rate_hz is not None and own_hz is not None:
         pace = motion.rate_hz / own_hz
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
-    return Motion("work", way, pace, end_pace=motion.end_pace)
+    return Motion("work", direction, pace, end_pace=motion.end_pace)
 
 
 def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What is only said to be somewhere stays there; bicycles without a rider are parked."""
+    """Rest for objects that relations only place, and for bicycles without a rider."""
     motions: dict[int, Motion] = {}
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
@@ -146,9 +146,9 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
 
 
 def _rest_of(
-    relation: Relation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
+    relation: IndexedRelation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
 ) -> dict[int, Motion]:
-    """Who is on a seat or at a table sits; what a relation would be undone by stands."""
+    """People on seats or at tables sit; objects whose motion would break a relation stand."""
     kind, target = relation.kind, objects[relation.targets[0]]
     is_person = objects[relation.subject].noun in PERSON_NOUNS
     seats = nouns_with("seat") | nouns_with("sat on")
@@ -166,7 +166,7 @@ def _rest_of(
 
 
 def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What is followed or overtaken moves; who runs on what works, as a belt, stays in place."""
+    """Motion for objects that are followed or overtaken; runners on a belt stay in place."""
     motions: dict[int, Motion] = {}
     new: dict[int, SceneObject] = {}
     kinds = [nouns[one.noun] for one in description.objects]
@@ -229,7 +229,7 @@ def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) ->
 
 
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
-    """What it does if nothing else moves: people stay in a close shot, cars in a room."""
+    """Motion of a noun if nothing else moves: people stay in a close shot, cars in a room."""
     place, is_person = description.place.name, noun.name in PERSON_NOUNS
     if is_person and (place == "space" or description.camera.framing in ("close", "medium")):
         return "hover" if place == "space" else "stand"
@@ -246,7 +246,7 @@ def _list_ridden(description: SceneDescription) -> set[int]:
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What only stands there has no rider."""
+    """Vehicles that only stand have no rider."""
     ridden, new = _list_ridden(description), {}
     for n, one in enumerate(description.objects):
         parked = f"parked {one.noun}"
@@ -288,7 +288,7 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
 
 
 def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:
-    """Where objects usually are that do what they do."""
+    """Usual place of objects with these motions."""
     habitats = {noun.habitat for noun in members}
     of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
     if habitats == {"water"} or (habitats == {"ground"} and kinds & {"swim", "surf"}):

@@ -18,7 +18,7 @@ STANDING = Motion("stand")
 
 
 @dataclass(frozen=True)
-class Relation:
+class IndexedRelation:
     """A position or an action of an object with respect to others."""
 
     kind: str
@@ -33,11 +33,11 @@ class Relation:
 class SceneDescription(Scene):
     """A scene whose objects have ids of their own, which their nouns may no longer tell."""
 
-    relations: tuple[Relation, ...] = ()
+    relations: tuple[IndexedRelation, ...] = ()
     words: PromptReport = field(default_factory=PromptReport)
-    """What became of the words of a prompt that was read."""
+    """Report of the words of a prompt that was read."""
     notes: tuple[str, ...] = ()
-    """What was decided where the scene leaves it open, as sentences."""
+    """Decisions where the scene leaves a choice open, as sentences."""
 
     def index(self, id: str | None) -> int | None:
         """Index of the object of an id."""
@@ -49,7 +49,7 @@ def to_description(scene: Scene) -> SceneDescription:
     ids = object_ids(scene)
     objects = tuple(replace(one, id=id) for one, id in zip(scene.objects, ids, strict=True))
     relations = tuple(
-        Relation(one.kind, number, tuple(map(ids.index, one.to)), one.distance_m)
+        IndexedRelation(one.kind, number, tuple(map(ids.index, one.to)), one.distance_m)
         for number, subject in enumerate(objects)
         for one in subject.relations
     )
@@ -57,7 +57,7 @@ def to_description(scene: Scene) -> SceneDescription:
 
 
 def report_of(description: SceneDescription) -> PromptReport:
-    """What becomes of a scene and of the words of its prompt, before it is staged.
+    """Report of a scene and of the words of its prompt, before it is staged.
 
     Its lines are those of a scene file, an object each; `Scene.prompt` is left out.
 

@@ -22,8 +22,8 @@ from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
-from texvent.scenes.relation_check import Body, Unheld, body_of, find_unheld
-from texvent.scenes.scene import Camera, Ground, Scene, Texture, project
+from texvent.scenes.relation_check import Body, Violation, body_of, find_violations
+from texvent.scenes.rendered_scene import Ground, PosedCamera, RenderedScene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.spec.scene import Place
 from texvent.scenes.staging.actors import Actor, assemble
@@ -62,7 +62,7 @@ class Unseen(NamedTuple):
     """Such as "tree", or "dog (2 of 3)"."""
     too_small: tuple[str, ...]
     """Such as "bird (2 pixels)"."""
-    unheld: tuple[Unheld, ...] = ()
+    violations: tuple[Violation, ...] = ()
     """Relations, directions, weather, effects and light."""
 
 
@@ -95,16 +95,16 @@ def find_unseen(
         elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
     lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
-    unheld = [Unheld("noun", noun, "") for noun, *_ in lines]
-    unheld += [one for one in find_unheld(description, bodies)
+    violations = [Violation("noun", noun, "") for noun, *_ in lines]
+    violations += [one for one in find_violations(description, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
-    unheld += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+    violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
     return Unseen(
-        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
+        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(violations))
     )
 
 
-def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
+def without_words(words: Sequence[str], faults: Sequence[Violation]) -> tuple[str, ...]:
     """Words of a report, but for those that mean what a picture does not show."""
     lost = {(kind, value) for kind, value, _ in faults}
     return tuple(
@@ -116,7 +116,7 @@ def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, 
 
 def _find_unshown(
     scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Unheld]:
+) -> Iterator[Violation]:
     """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
     place, said = scene.place, description.place
     for name, value, other in _list_without(scene, description):
@@ -124,24 +124,25 @@ def _find_unshown(
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
-            yield Unheld(name, value if is_kind else "", line)
+            yield Violation(name, value if is_kind else "", line)
     for one in description.objects:
         if one.is_lit and one.noun not in LAMPS:
-            yield Unheld("is_lit", "", f"lights of the {one.noun}")
+            yield Violation("is_lit", "", f"lights of the {one.noun}")
         if one.noun in nouns_with("part of a wall"):
-            yield Unheld("noun", one.noun, f"the {one.noun} in a wall")
+            yield Violation("noun", one.noun, f"the {one.noun} in a wall")
     turning = [one for one in description.objects
                if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
     if turning and not description.camera.is_moving and not _differs(scene, scene, times, _LATER_S):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
-        yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
+        yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     is_shared = place.is_room or place.surface in _FLOORS or place is not next(
         one for one in alike if one.surface is place.surface)  # fmt: skip
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     bare = replace(scene, still=assemble([]))
     if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
-        yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
+        line = f"{said.name}, of which only the ground is in view"
+        yield Violation("place", said.name or "", line)
 
 
 def _list_without(
@@ -175,7 +176,7 @@ def _list_without(
 
 
 def _is_cut_off(
-    actor: Actor, cameras: Sequence[Camera], times: Sequence[float], size: SensorSize
+    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
 ) -> bool:
     """Whether no instant has more than a share of its box in the image."""
     for time_s, camera in zip(times, cameras, strict=True):
@@ -189,7 +190,7 @@ def _is_cut_off(
 
 
 def _differs(
-    scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0,
+    scene: RenderedScene, other: RenderedScene, times: Sequence[float], later_s: float = 0.0,
     least: float = _LEAST_SHARE,
 ) -> bool:  # fmt: skip
     """Whether enough pixels of small pictures are others at one of the instants."""
@@ -203,7 +204,7 @@ def _differs(
 
 
 def count_pixels(
-    scene: Scene, instances: list[int], size: SensorSize, times: Sequence[float]
+    scene: RenderedScene, instances: list[int], size: SensorSize, times: Sequence[float]
 ) -> dict[int, int]:
     """Instance id → its pixels at the instant that shows most of it, from a grid of points."""
     step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))

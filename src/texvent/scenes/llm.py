@@ -178,7 +178,7 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
 
 
 class _Grounding:
-    """What the words of a prompt stand for, and what an answer uses of it."""
+    """Meanings of the words of a prompt, and those that an answer uses."""
 
     def __init__(self, tokens: Sequence[Token], answer: Mapping[str, Any]) -> None:
         self._said = {key: one for one in tokens for key in meanings_of(one.senses)}
@@ -211,7 +211,7 @@ class _Grounding:
         return found
 
     def _keep(self, value: Any, kind: str) -> str | None:
-        """What a word of the answer stands for, if the prompt says it."""
+        """Meaning of a word of the answer, if the prompt says it."""
         meaning = self._meaning(value, "noun" if kind == "object" else kind)
         if kind == "object":
             return meaning if meaning in self._objects else None
@@ -222,7 +222,7 @@ class _Grounding:
         return meaning
 
     def _meaning(self, value: Any, kind: str) -> str | None:
-        """What the longest end of a text stands for that the prompt says too: "big automobile"."""
+        """Meaning of the longest end of a text that the prompt says too: "big automobile"."""
         words = value.split() if isinstance(value, str) else []
         ends = (" ".join(words[first:]) for first in range(len(words)))
         keys = (key for end in ends for key in list_meanings(end))

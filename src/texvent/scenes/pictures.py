@@ -22,7 +22,7 @@ from texvent.scenes.mesh import SurfaceImage, decode_srgb, light_of, surface_ima
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Colour, Shape, Texture
+from texvent.scenes.rendered_scene import Colour, Shape, Texture
 from texvent.scenes.spec.scene import Picture
 
 VIDEO_ENDINGS = frozenset({".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm", ".gif", ".mpg", ".ts"})
@@ -194,7 +194,7 @@ _INK, PAPER = 0.03, 0.85
 
 
 def load_picture(picture: Picture) -> PictureSource:
-    """What a picture shows at each instant.
+    """Image that a picture shows at each instant.
 
     A video plays from the clip's beginning at its own rate, and again when it has ended.
 
@@ -220,7 +220,7 @@ def read_image(path: Path) -> NDArray[np.float32]:
 
 
 def _version(picture: Picture) -> tuple[float, int]:
-    """What changes when the file of a picture is written anew."""
+    """Mark of a picture's file that changes when it is written anew."""
     if picture.kind != "file":
         return 0.0, 0
     status = Path(picture.value).stat()
@@ -287,7 +287,7 @@ _DARK: Colour = (0.01, 0.01, 0.01)
 _FACE = 1
 """The side of the first part that shows the picture, +x; see `data/traits/pictures.toml`."""
 _BESIDE = 1.001
-"""What reaches farther than this from the middle of a face, in half sides, is no print on it."""
+"""Farthest reach of a print from the middle of its face, in half sides."""
 
 
 class PicturedModel:

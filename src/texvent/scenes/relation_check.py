@@ -15,23 +15,23 @@ from numpy.typing import NDArray
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.staging.actors import Actor
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
                        "fall"})  # fmt: skip
-"""Motions whose direction is that of the way."""
+"""Motions whose direction is that of the displacement."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
 _LASTING = ("on", "in")
 """Relations that hold at half of the instants at least; others hold at one."""
-_LEAST_WAY, _MOST_COPIES = 0.1, 0.75
-"""Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
+_LEAST_DISPLACEMENT, _MOST_COPIES = 0.1, 0.75
+"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 
 
-class Unheld(NamedTuple):
+class Violation(NamedTuple):
     """A word of a scene that no instant shows."""
 
     kind: str
@@ -51,13 +51,13 @@ class Body(NamedTuple):
     """Extents, m."""
     seen: Float64Array
     """Middle in the image: tangents to the right and downwards, and depth, m."""
-    way: Float64Array
+    displacement: Float64Array
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
     parts: Float64Array
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
 
 
-def body_of(actor: Actor, cameras: Sequence[Camera], times: Sequence[float]) -> Body:
+def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> Body:
     """The body of an actor at instants, s, with the camera at each."""
     corners = np.array([actor.corners(time) for time in times])
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -65,15 +65,15 @@ def body_of(actor: Actor, cameras: Sequence[Camera], times: Sequence[float]) -> 
     seen = np.array([camera.rotation @ (place - camera.position)
                      for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
     seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
-    way = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
+    displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
     parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
-    return Body(middle, high - low, seen, way, np.array(parts))
+    return Body(middle, high - low, seen, displacement, np.array(parts))
 
 
-def find_unheld(
+def find_violations(
     description: SceneDescription, copies: Sequence[Sequence[Body]]
-) -> Iterator[Unheld]:
-    """What the bodies of the objects do not realise; without a line where one is out of view."""
+) -> Iterator[Violation]:
+    """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw")}  # fmt: skip
@@ -82,7 +82,7 @@ def find_unheld(
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         side = description.objects[one.subject].placement
         if one.kind in ("past", "overtake") and side in ("left", "right"):
-            yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
+            yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
         is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
         rule = _RULES.get("in" if is_flat else one.kind)
@@ -94,14 +94,15 @@ def find_unheld(
             targets = " and ".join(names[target] for target in one.targets)
             said = one.kind.replace("front", "in front of")
             line = f"{names[one.subject]} {said} {targets}"
-            yield Unheld("relation", one.kind, line if own and others else "")
+            yield Violation("relation", one.kind, line if own and others else "")
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
             axis, sign = _AXES[motion.direction]
-            if not any(sign * one.way[axis] > 0.33 * np.linalg.norm(one.way) for one in own):
-                yield Unheld("direction", motion.direction, f"{names[index]} going "
+            all_moved = [one.displacement for one in own]
+            if not any(sign * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
+                yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
 
 
@@ -153,21 +154,21 @@ def _deeper(one: Body, other: Body, sign: int) -> _Flags:
 
 def _recedes(one: Body, other: Body, sign: int) -> _Flags:
     away = np.linalg.norm(one.middle - other.middle, axis=1)
-    return np.asarray(sign * (away - away[0]) > _LEAST_WAY * one.size.max())
+    return np.asarray(sign * (away - away[0]) > _LEAST_DISPLACEMENT * one.size.max())
 
 
 def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
     """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
     off = (one.middle - other.middle)[:, :2]
-    way = off[-1] - off[0]
-    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(way)
-    return np.array([off[0] @ way < room and off[-1] @ way > -room])
+    displacement = off[-1] - off[0]
+    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
+    return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
 
 
 def _is_around(one: Body, other: Body) -> _Flags:
     """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_WAY * one.size.max()
+    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max()
     return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or is_still])
 
 

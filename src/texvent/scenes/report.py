@@ -1,4 +1,4 @@
-"""What became of the words of a prompt: one report, the same in every output."""
+"""Account of the words of a prompt: one report, the same in every output."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Substitution:
     said: str
     """The word or words of the prompt, such as "spaniel"."""
     shown: str
-    """What is shown, such as "dog"."""
+    """The noun that is shown, such as "dog"."""
 
     def __str__(self) -> str:
         return f"{self.said} → {self.shown}"
@@ -36,7 +36,7 @@ class Substitution:
 
 @dataclass(frozen=True)
 class PromptReport:
-    """What is shown of a prompt, and every word of it accounted for.
+    """Account of a prompt: the scene that is shown, and every word.
 
     Example:
         >>> report = PromptReport(
@@ -52,7 +52,7 @@ class PromptReport:
     """
 
     scene: tuple[str, ...] = ()
-    """What is shown, line by line, for a person to check."""
+    """The scene, line by line, for a person to check."""
     shown: tuple[str, ...] = ()
     """Words that the scene shows, in order, each once."""
     substituted: tuple[Substitution, ...] = ()
@@ -60,13 +60,13 @@ class PromptReport:
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
     not_shown: tuple[str, ...] = ()
-    """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     out_of_view: tuple[str, ...] = ()
     """Objects that the camera never shows, such as "tree" or "dog (2 of 3)"."""
     too_small: tuple[str, ...] = ()
     """Objects that are a few pixels large at most, such as "bird (2 pixels)"."""
     notes: tuple[str, ...] = ()
-    """What was decided where the prompt leaves it open, as sentences."""
+    """Decisions where the prompt leaves a choice open, as sentences."""
 
     @property
     def is_faithful(self) -> bool:
@@ -74,7 +74,7 @@ class PromptReport:
         return not self.faults()
 
     def faults(self, most: int | None = None) -> list[str]:
-        """What is not shown as it says: a line for each kind, with so many words; None: all."""
+        """Deviations from the prompt: a line for each kind, with so many words; None: all."""
         return [
             f"{kind}: {few(words, len(words) if most is None else most)}"
             for kind, words in self.kinds().items()
@@ -103,7 +103,7 @@ class PromptReport:
         return [*self.scene, *self.notes, *self.faults()]
 
     def refusal(self) -> str | None:
-        """What `strict` says against the prompt; None where nothing is to say."""
+        """Reason for which `strict` refuses the prompt; None where there is none."""
         if self.is_faithful:
             return None
         return (

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.scene import Camera
+from texvent.scenes.rendered_scene import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
 
@@ -64,7 +64,7 @@ def quaternion(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(best / np.linalg.norm(best) * (-1.0 if best[3] < 0 else 1.0))
 
 
-def pose_matrix(camera: Camera) -> NDArray[np.float64]:
+def pose_matrix(camera: PosedCamera) -> NDArray[np.float64]:
     """Camera-to-world, [4, 4], metres."""
     pose = np.eye(4)
     pose[:3, :3] = np.asarray(camera.rotation).T
@@ -95,12 +95,12 @@ def seconds_text(t_us: int) -> str:
     return f"{'-' if t_us < 0 else ''}{seconds}.{rest:06d}"
 
 
-def intrinsics(camera: Camera, size: SensorSize) -> tuple[float, float, float, float]:
+def intrinsics(camera: PosedCamera, size: SensorSize) -> tuple[float, float, float, float]:
     """fx, fy, cx, cy in pixels; pixel centres have whole coordinates, as in OpenCV and DSEC.
 
     Example:
         >>> eye = np.eye(3)
-        >>> intrinsics(Camera(np.zeros(3), eye, 1.5), SensorSize(100, 60))
+        >>> intrinsics(PosedCamera(np.zeros(3), eye, 1.5), SensorSize(100, 60))
         (150.0, 150.0, 49.5, 29.5)
     """
     lens = camera.lens
@@ -115,7 +115,7 @@ def intrinsics_row(t_us: int, values: NDArray[np.float64]) -> str:
     return f"{t_us} {' '.join(f'{value:.9g}' for value in values)}\n"
 
 
-def camera_facts(camera: Camera, size: SensorSize) -> Mapping[str, Any]:
+def camera_facts(camera: PosedCamera, size: SensorSize) -> Mapping[str, Any]:
     """Camera at the first frame, from camera.json."""
     lens = camera.lens
     return {

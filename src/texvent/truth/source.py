@@ -21,7 +21,7 @@ from texvent.capture.scale_check import CheckedFrames
 from texvent.errors import ConfigError, InputError
 from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
-from texvent.scenes.scene import Camera
+from texvent.scenes.rendered_scene import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import box_records
 from texvent.truth.layout import PARTS
@@ -44,7 +44,7 @@ WHO_KNOWS = (
 class CameraStream(Protocol):
     """Frames whose camera is known."""
 
-    def camera_at(self, t_us: int) -> Camera:
+    def camera_at(self, t_us: int) -> PosedCamera:
         """The camera at `t_us`."""
         ...
 
@@ -147,7 +147,7 @@ class TruthSource:
             self.classes[UNNAMED] = UNNAMED_OBJECT
         return found
 
-    def camera_at(self, t_us: int) -> Camera | None:
+    def camera_at(self, t_us: int) -> PosedCamera | None:
         """The camera at an instant; None where it is not known."""
         return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
 

@@ -10,7 +10,7 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.interpolate.motion.interpolator import MotionInterpolator
 from texvent.metrics.compare import compare
 from texvent.pipeline import Simulation
-from texvent.scenes.raycast.between import Between
+from texvent.scenes.raycast.incremental import IncrementalRenderer
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 
@@ -56,13 +56,13 @@ def test_motion_of_frames_is_the_ground_truth():
 )
 def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, most_drawn):
     drawn = []
-    draw = Between._luma
+    draw = IncrementalRenderer._luma
 
     def count(self, time_s, wanted, codes):
         drawn.append(wanted.mean())
         return draw(self, time_s, wanted, codes)
 
-    monkeypatch.setattr(Between, "_luma", count)
+    monkeypatch.setattr(IncrementalRenderer, "_luma", count)
     streams = {}
     for interpolate in ("motion", "exact"):
         options = {"interpolate": interpolate, "fixed_count": 15, "noise": "none"}

@@ -68,6 +68,8 @@ def numbers(value: Any) -> Iterator[NDArray[Any]]:
     elif isinstance(value, Sequence) or np.asarray(value).dtype == np.object_:
         for one in value:
             yield from numbers(one)
+    elif np.asarray(value).dtype.names:
+        yield np.asarray(value).view(np.float64)  # a record array of numbers
     else:
         yield np.ravel(value).astype(np.float64)
 

@@ -5,7 +5,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
+from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
 from texvent.scenes.models.joints import read_cycle
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.parts import PartsBuilder
@@ -72,7 +72,7 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
     acts = NOUNS[noun].acts
-    assert acts in (frozenset(ANIMAL_ACTS), MOUTH_ACTS)
+    assert acts in (frozenset(ANIMAL_ACTIVITIES), MOUTH_ACTIVITIES)
     for act in acts:
         start, moved = parts_at(noun, act, 0.0), 0.0
         for time_s in np.arange(0.0, 2.0, 0.21):

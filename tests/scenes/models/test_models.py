@@ -8,7 +8,7 @@ import pytest
 
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 
 from ..every_row import for_every
 from ..golden.rows import usual_model

@@ -14,7 +14,7 @@ from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.surfaces import read_surface, shared_surfaces
 from texvent.scenes.models.tables import CLASS_IDS, FIRST_OTHER
-from texvent.scenes.scene import Texture
+from texvent.scenes.rendered_scene import Texture
 
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
 

@@ -7,7 +7,7 @@ import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.scene import Camera, Ground, Shape, camera_rays
+from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape, camera_rays
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, look_at, moving, showcase, still
@@ -16,11 +16,11 @@ SIZE = SensorSize(80, 60)
 NAMES = {one: f"thing {one}" for one in range(1, 7)}
 
 
-def level(time: float) -> Camera:
+def level(time: float) -> PosedCamera:
     return look_at((0.0, -8.0, 1.5), (0.0, 0.0, 1.5))
 
 
-def moving_camera(time: float) -> Camera:
+def moving_camera(time: float) -> PosedCamera:
     return look_at((0.4 * time, -8.0 + 0.5 * time, 1.7), (0.8 * time, 0.0, 1.0 + 0.2 * time))
 
 
@@ -86,7 +86,7 @@ def test_what_a_shape_moves_in_front_of_is_occluded():
 
 
 def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded():
-    def forward(time: float) -> Camera:
+    def forward(time: float) -> PosedCamera:
         return look_at((0.0, -8.0 + time, 1.5), (0.0, time, 1.5))
 
     truth = ground_truth(HandScene(camera_at=forward), 0.0, 6.0, SIZE)

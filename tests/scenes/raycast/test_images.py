@@ -8,26 +8,26 @@ from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 from texvent.scenes.mesh import SurfaceImage, surface_image
 from texvent.scenes.pictures import draw_checks
 from texvent.scenes.raycast.render import render_light
-from texvent.scenes.scene import Camera, place_in_image
+from texvent.scenes.rendered_scene import PosedCamera, place_in_image
 from texvent.sensor import SensorSize
 from texvent.transfer import encode_srgb
 
 SIZE = SensorSize(48, 36)
 
 
-def camera(distance: float, turn: float = 0.0) -> Camera:
+def camera(distance: float, turn: float = 0.0) -> PosedCamera:
     """In front of the sheet, at its height; turned aside by an angle, rad."""
     position = np.array([distance * np.sin(turn), -distance * np.cos(turn), 1.0])
     forward = (np.array([0.0, 0.0, 1.0]) - position) / distance
     right = np.cross(forward, [0.0, 0.0, 1.0])
-    return Camera(position, np.stack([right, np.cross(forward, right), forward]), 1.0)
+    return PosedCamera(position, np.stack([right, np.cross(forward, right), forward]), 1.0)
 
 
-def scene_of(image: SurfaceImage, seen_by: Camera) -> MeshScene:
+def scene_of(image: SurfaceImage, seen_by: PosedCamera) -> MeshScene:
     return MeshScene(sheet(image), camera_at=lambda time: seen_by)
 
 
-def light_on(image: SurfaceImage, seen_by: Camera, size: SensorSize = SIZE) -> np.ndarray:
+def light_on(image: SurfaceImage, seen_by: PosedCamera, size: SensorSize = SIZE) -> np.ndarray:
     return render_light(scene_of(image, seen_by), 0.0, size, shadows=False)
 
 

@@ -5,7 +5,7 @@ import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.scenes.raycast.trace import hit_shape
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 
 UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]
 

@@ -13,7 +13,7 @@ from texvent.scenes.raycast.lamps.light import (
     order_lamps,
 )
 from texvent.scenes.raycast.render import render_light, world_at
-from texvent.scenes.scene import Environment, Float64Array, Ground, Shape
+from texvent.scenes.rendered_scene import Environment, Ground, Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, still
@@ -21,7 +21,7 @@ from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, still
 SMALL = SensorSize(96, 72)
 
 
-def dark(*lamps: Float64Array, ground: Ground = Ground.PLAIN) -> Environment:
+def dark(*lamps: np.ndarray, ground: Ground = Ground.PLAIN) -> Environment:
     black = np.zeros(3, dtype=np.float32)
     return replace(
         day(ground), sky_top=black, sky_horizon=black, sun_colour=black, ambient=black,

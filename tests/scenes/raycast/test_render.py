@@ -7,7 +7,7 @@ import pytest
 
 from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.scenes.raycast.render import render
-from texvent.scenes.scene import Environment, Ground, Shape
+from texvent.scenes.rendered_scene import Environment, Ground, Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still

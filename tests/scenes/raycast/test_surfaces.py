@@ -24,7 +24,7 @@ from texvent.scenes.raycast.surfaces.catalogue import (
     build_tile,
 )
 from texvent.scenes.raycast.surfaces.fields import SIDE
-from texvent.scenes.scene import Ground, Texture
+from texvent.scenes.rendered_scene import Ground, Texture
 from texvent.scenes.staging.surroundings.environment import RoadLine
 
 Floats = np.ndarray

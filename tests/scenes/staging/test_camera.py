@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent.scenes.scene import project
+from texvent.scenes.rendered_scene import project
 from texvent.scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
-from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent.scenes.staging.camera.framing import (
     come_near,
     fit,
@@ -44,7 +44,7 @@ def prominence_of(*boxes):
 
 
 def camera_at(framing):
-    return CameraPath(framing, (), 2.0, has_floor=False).at(0.0)
+    return CameraTrajectory(framing, (), 2.0, has_floor=False).at(0.0)
 
 
 @pytest.mark.parametrize("goal", [0.2, 0.5, 0.9, 5.0])

@@ -11,12 +11,12 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
-from texvent.scenes.scene import Camera, Float64Array, Texture
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera, Texture
 from texvent.scenes.spec.scene import Place, SceneObject
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.perform import ACTS
 from texvent.scenes.staging.camera.framing import image_of
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.interactions.perform import ACTS
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)
@@ -47,7 +47,7 @@ def staged(prompt: str, seed: int = 0, duration_s: float = 2.0) -> ComposedScene
     return compose_scene(described(prompt), seed=seed, size=SIZE, duration_s=duration_s)
 
 
-def inside(camera: Camera, points: Float64Array) -> Float64Array:
+def inside(camera: PosedCamera, points: Float64Array) -> Float64Array:
     """Right and down in half image sizes from the middle (-1..1 is inside), and depth, m."""
     return image_of(camera, points) * [2.0, 2.0 * SIZE.width / SIZE.height, 1.0]
 

@@ -17,15 +17,15 @@ CAR = thing("car", ("drive", "left"))
 
 
 def beams(scene):
-    return [row for row in scene.environment(0.0).lamps if row[10] >= -1.0]
+    return [row for row in scene.environment(0.0).lamps if row["full"] >= -1.0]
 
 
 def test_headlights_are_on_at_night_and_off_by_day():
     night, day = (stage(CAR, light=light, place="road") for light in ("night", "day"))
     assert len(beams(night)) == 4  # two in front, two behind
     assert len(day.environment(0.0).lamps) == 0
-    front = max(beams(night), key=lambda row: row[3:6].max())
-    assert front[7] < -0.9  # it drives left
+    front = max(beams(night), key=lambda row: row["light"].max())
+    assert front["beam"][0] < -0.9  # it drives left
 
 
 def test_lamps_move_with_what_carries_them():
@@ -33,9 +33,9 @@ def test_lamps_move_with_what_carries_them():
     before, after = (scene.environment(t).lamps for t in (0.2, 0.4))
     car = scene.actors[0].trajectory
     moved = np.subtract(car.at(0.4).position, car.at(0.2).position)
-    carried = before[:, 10] >= -1.0
+    carried = before["full"] >= -1.0
     np.testing.assert_allclose(
-        (after - before)[carried, :3], np.tile(moved, (carried.sum(), 1)), atol=1e-12
+        (after["place"] - before["place"])[carried], np.tile(moved, (carried.sum(), 1)), atol=1e-12
     )
     np.testing.assert_array_equal(after[~carried], before[~carried])
 
@@ -53,7 +53,7 @@ def test_lamps_can_be_switched_on_by_day_and_off_at_night():
 def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
     drone = stage(thing("drone", ("hover",), blink_hz=5.0), light="day", place="sky")
     is_on = time_s % 0.2 < 0.1
-    assert (drone.environment(time_s).lamps[:, 3:6].max() > 0.0) == is_on
+    assert (drone.environment(time_s).lamps["light"].max() > 0.0) == is_on
     assert (drone.primitives(time_s).emission.max() > 0.0) == is_on
     assert drone.flicker_hz == 5.0
 
@@ -61,11 +61,11 @@ def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
 @pytest.mark.parametrize("noun", sorted(set(LAMPS) & set(NOUNS)))
 def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
     scene = stage(thing(noun, is_lit=True), light="night", place="plain")
-    levels = [scene.environment(t).lamps[:, 3:6].max(initial=0.0) for t in (0.0, 0.1, 0.3)]
+    levels = [scene.environment(t).lamps["light"].max(initial=0.0) for t in (0.0, 0.1, 0.3)]
     assert max(levels) > 0.0
     rows = scene.environment(0.0).lamps
-    assert (rows[:, 13] > 0.0).sum() <= 4
-    assert np.isfinite(rows).all()
+    assert (rows["casts"] > 0.0).sum() <= 4
+    assert all(np.isfinite(rows[name]).all() for name in rows.dtype.names)
 
 
 def placed(*lamps):
@@ -99,9 +99,9 @@ def test_lamps_are_modulated_at_their_frequency(wave, levels):
     assert scene.flicker_hz == 125.0
     for share, level in zip((0.0, 0.25, 0.5), levels, strict=True):
         lamps = scene.environment((7.0 + share) / 125.0).lamps
-        np.testing.assert_allclose(lamps[0, :3], position)
-        np.testing.assert_allclose(lamps[0, 3:6], (level, 0.0, 0.0), atol=1e-6)
-        np.testing.assert_allclose(lamps[1, 3:6], 1.0)
+        np.testing.assert_allclose(lamps["place"][0], position)
+        np.testing.assert_allclose(lamps["light"][0], (level, 0.0, 0.0), atol=1e-6)
+        np.testing.assert_allclose(lamps["light"][1], 1.0)
 
 
 @pytest.mark.parametrize("colour", ["white", "grey", "black", "red", "yellow"])

@@ -7,7 +7,7 @@ from tests.scenes.staged import SIZE, stage
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import Effect, SceneObject
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.emitter import TINY_M, flight
@@ -32,18 +32,18 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
     scene, again = (staged(Effect(kind, source)) for _ in range(2))
     other = staged(Effect(kind, source), seed=1)
     count = len(small(scene, 0.0))
-    puffs = len(scene.environment(0.0).puffs)
-    assert count or puffs
+    media = len(scene.environment(0.0).media)
+    assert count or media
     for time_s in (0.137, 0.4, 5.3):
-        maps, cloud = small(scene, time_s), scene.environment(time_s).puffs
-        assert (len(maps), len(cloud)) == (count, puffs)
+        maps, cloud = small(scene, time_s), scene.environment(time_s).media
+        assert (len(maps), len(cloud)) == (count, media)
         assert np.isfinite(maps).all()
-        assert np.isfinite(cloud).all()
-        assert (cloud[:, 15] >= 0.0).all()
+        assert all(np.isfinite(cloud[name]).all() for name in cloud.dtype.names)
+        assert (cloud["optical_depth"] >= 0.0).all()
         np.testing.assert_array_equal(maps, small(again, time_s))
-        np.testing.assert_array_equal(cloud, again.environment(time_s).puffs)
+        np.testing.assert_array_equal(cloud, again.environment(time_s).media)
     assert not np.array_equal(maps, small(other, 5.3)) or not np.array_equal(
-        cloud, other.environment(5.3).puffs
+        cloud, other.environment(5.3).media
     )
 
 
@@ -62,11 +62,12 @@ def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
         above = np.minimum(first[:, 2, 3] + size, second[:, 2, 3] + size) > 0.0
         seen = (size > 0.004 * reach) & above
         assert way[seen].max(initial=0.0) < 0.01 * reach
-        clouds = [scene.environment(t).puffs for t in (time_s, time_s + 1e-4)]
-        drift = np.linalg.norm(clouds[1][:, [3, 7, 11]] - clouds[0][:, [3, 7, 11]], axis=1)
-        thick = np.minimum(clouds[0][:, 15], clouds[1][:, 15])
+        clouds = [scene.environment(t).media for t in (time_s, time_s + 1e-4)]
+        places, depths = ([one[name] for one in clouds] for name in ("to_world", "optical_depth"))
+        drift = np.linalg.norm((places[1] - places[0])[:, :, 3], axis=1)
+        thick = np.minimum(*depths)
         assert drift[thick > 0.02].max(initial=0.0) < 0.01 * reach
-        assert np.abs(clouds[1][:, 15] - clouds[0][:, 15]).max(initial=0.0) < 0.05
+        assert np.abs(depths[1] - depths[0]).max(initial=0.0) < 0.05
 
 
 def test_no_chip_is_seen_right_before_the_camera():

@@ -12,7 +12,7 @@ from tests.scenes.staged import stage, thing
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.raycast.render import render
-from texvent.scenes.scene import Ground
+from texvent.scenes.rendered_scene import Ground
 from texvent.scenes.spec.scene import Motion, SceneObject
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.sensor import SensorSize

@@ -20,7 +20,7 @@ from texvent.dataset.specification.clips import Clip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
-from texvent.generate.procedural import ProceduralVideo
+from texvent.generate.procedural import ProceduralVideo, Rendered
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
@@ -34,7 +34,7 @@ from texvent.video_check.measurements import VideoMeasurer
 
 if TYPE_CHECKING:
     from texvent.scenes.raycast.ground_truth import Box, GroundTruth
-    from texvent.scenes.raycast.reuse import FrameMemory
+    from texvent.scenes.raycast.incremental import IncrementalRenderer
     from texvent.truth.recorder import TruthRecorder
     from texvent.truth.sinks import SampleSink
 
@@ -69,9 +69,9 @@ class _SharedVideo(ProceduralVideo):
             kept.values[key] = value
         return value
 
-    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        make = partial(super()._render, memory, t_us)
-        return cast("tuple[NDArray[Any], NDArray[Any]]", self._once("frame", t_us, make=make))
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
+        make = partial(super()._render, renderer, t_us)
+        return cast(Rendered, self._once("frame", t_us, make=make))
 
     def _motion(self, index: int) -> Motion:
         return cast(Motion, self._once("motion", index, make=partial(super()._motion, index)))

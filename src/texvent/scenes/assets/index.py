@@ -35,7 +35,7 @@ class Asset:
     path: Path
     """Its file."""
     noun: str
-    """What prompts call it: lower case, singular."""
+    """Name in prompts: lower case, singular."""
     synonyms: tuple[str, ...] = ()
     """Other names."""
     height: Size | None = None
@@ -51,11 +51,11 @@ class Asset:
     habitat: Habitat | None = None
     """"ground", "air", "water" or "fixed"; None: as the embedded noun of that name."""
     motion: str | None = None
-    """What it does if the prompt does not say; None: as the embedded noun of that name."""
+    """Motion if the prompt does not say; None: as the embedded noun of that name."""
     speed: Size | None = None
     """Its usual speed, m/s; None: as the embedded noun of that name."""
     place: str | None = None
-    """Where it usually is, such as "indoor"; None: as the embedded noun of that name."""
+    """Usual place, such as "indoor"; None: as the embedded noun of that name."""
 
 
 def read_folder(folder: Path) -> tuple[Asset, ...]:

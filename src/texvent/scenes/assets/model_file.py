@@ -39,9 +39,9 @@ FARTHEST = 1e15
 IMAGE_FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "TGA", "GIF", "DDS")
 """Pillow also opens formats that other programs would have to draw, such as EPS."""
 VALUE_BYTES = 64
-"""Of an item of an accessor, at most: a 4x4 matrix of floats."""
+"""Largest item of an accessor: a 4x4 matrix of floats."""
 TRIANGLE_BYTES = 300
-"""Of a triangle while it is read: corners with normals, colours and places in the image."""
+"""Size of a triangle while it is read: corners with normals, colours and places in the image."""
 _CLEAR = 0.4
 """Surfaces less opaque than this are left out: panes of glass."""
 _GREY: Colour = (0.5, 0.5, 0.5)

@@ -20,7 +20,7 @@ from texvent.scenes.mesh import Colour, Float64Array, Mesh
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 from texvent.scenes.spec.scene import Scene
 
 _UNITS = ((20.0, 0.01), (1000.0, 0.001))
@@ -83,7 +83,7 @@ def load_model(
 
 
 def _changed_ns(asset: Asset) -> int:
-    """When the file of an asset was last changed.
+    """Time of the last change of an asset's file.
 
     Raises:
         InputError: it is gone.
@@ -147,7 +147,7 @@ def usual_noun(name: str) -> Noun | None:
 
 
 @dataclass(frozen=True)
-class _Builder:
+class _ModelBuilder:
     """Makes a model of one of several assets with the same noun; the seed chooses."""
 
     assets: tuple[Asset, ...]
@@ -194,7 +194,7 @@ def with_models(nouns: Mapping[str, Noun], models: Mapping[str, str]) -> Mapping
 def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
     listed = _part_noun(assets[0])
     if listed is not None:
-        return replace(listed, build=_Builder(assets, is_centred=False))
+        return replace(listed, build=_ModelBuilder(assets, is_centred=False))
     first, usual = assets[0], usual_noun(name)
     habitat = first.habitat or (usual.habitat if usual is not None else "fixed")
     is_fixed = habitat == "fixed"
@@ -208,7 +208,7 @@ def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
     is_centred = habitat in ("air", "water") and name not in AFLOAT
     return Noun(
         name,
-        _Builder(assets, is_centred),
+        _ModelBuilder(assets, is_centred),
         habitat,
         0.0 if is_fixed else speed,
         motion,
@@ -220,7 +220,7 @@ def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
 
 def assets_of(noun: Noun) -> tuple[Asset, ...]:
     """The assets that a noun's models come from; none for an embedded noun."""
-    return noun.build.assets if isinstance(noun.build, _Builder) else ()
+    return noun.build.assets if isinstance(noun.build, _ModelBuilder) else ()
 
 
 def describe_file(path: Path) -> dict[str, str]:

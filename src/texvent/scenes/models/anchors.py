@@ -1,4 +1,4 @@
-"""Where other things go on a model: named places, and the surface that carries what is on it."""
+"""Anchors of a model for other things: named places, and the surface that carries what is on it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, Point
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 
 _ON_BOX: dict[str, Point] = {
     "mouth": (0.46, 0.0, 0.72), "right hand": (0.40, -0.20, 0.45), "left hand": (0.40, 0.20, 0.45),

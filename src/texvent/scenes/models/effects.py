@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from texvent.scenes.models.tables import frozen, read_table, trait_values
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 Vector = tuple[float, float, float]
 
@@ -24,17 +24,17 @@ class EmitterStyle:
     are quick.
     """
 
-    body: Literal["puff", "drop", "flake"]
-    """Translucent puffs, drops that are stretched along their flight, or tumbling solid flakes that
+    body: Literal["medium", "drop", "flake"]
+    """Translucent media, drops that are stretched along their flight, or tumbling solid flakes that
     come to rest on the ground."""
     count: int
     life: float = 0.0
-    """Of a particle; 0 = without end, and of drops until they reach the ground."""
+    """Lifetime of a particle; 0 = without end, and of drops until they reach the ground."""
     salvos: int = 0
     """Number of volleys that follow one another: in each all are born at once, from a new place and
     of one colour in each life; 0 = one after the other."""
     speed: float = 0.0
-    """At birth."""
+    """Speed at birth."""
     spread_rad: tuple[float, float] = (0.0, 0.0)
     """Least and greatest angle to `aim`."""
     aim: Vector = (0.0, 0.0, 1.0)
@@ -52,19 +52,19 @@ class EmitterStyle:
     curl: float = 0.0
     """Distance that eddies carry a particle by the end of its life."""
     radius: tuple[float, float] = (0.1, 0.1)
-    """At birth and at the end."""
+    """Radii at birth and at the end."""
     proportions: Vector = (1.0, 1.0, 1.0)
     """Half extents by the radius; the last one is upright, of drops along the flight."""
     turns: float = 1.0
     """Rate at which flakes tumble."""
     colours: tuple[Colour, ...] = ()
-    """Of puffs at birth and at the end; of solid bodies those that occur."""
+    """Colours of media at birth and at the end; of solid bodies those that occur."""
     emission: tuple[float, float] = (0.0, 0.0)
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)
-    """Optical depth of a puff at birth and at the end."""
+    """Optical depth of a medium at birth and at the end."""
     detail: float = 0.0
-    """Fine structure of puffs, 0..1."""
+    """Fine structure of media, 0..1."""
     light: float = 0.0
     """Light shed at 1 m per square metre of s²."""
 
@@ -83,14 +83,14 @@ class EffectWords:
     """Its size without an object, its height above what the camera looks at (0 = on the ground)
     and its distance behind that; by the distance of the camera."""
     anchor: Vector = (0.0, 0.0, 1.0)
-    """Where it leaves its object: x and y in half extents, z in heights from below."""
+    """Point where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
     """Traits that say so for some nouns, tried in order."""
     emitters: tuple[EmitterStyle, ...] = ()
 
 
-_BODIES: Mapping[str, Literal["puff", "drop", "flake"]] = MappingProxyType(
-    {"flakes": "flake", "drops": "drop", "puffs": "puff"}
+_BODIES: Mapping[str, Literal["medium", "drop", "flake"]] = MappingProxyType(
+    {"flakes": "flake", "drops": "drop", "media": "medium"}
 )
 """Kind of particles in the table → their bodies."""
 
@@ -114,17 +114,17 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
 
 
 Wave = Literal["square", "sine", "flame"]
-"""How a lamp's light goes up and down: on and off; as mains light does; as a flame does."""
+"""Modulation of a lamp's light: on and off; as mains light; as a flame."""
 
 
 @dataclass(frozen=True)
-class Lamp:
+class LampKind:
     """One kind of lamp."""
 
     intensity: float
     """Light it casts on a surface that faces it at 1 m, where full daylight is 1."""
     direction: tuple[float, float, float] | None = None
-    """Where a beam points, in body coordinates; None = to all sides."""
+    """Direction of a beam, in body coordinates; None = to all sides."""
     half_angle: float = 180.0
     """From the middle of the beam to where it has faded, degrees."""
     soft_share: float = 0.5
@@ -138,9 +138,9 @@ class Lamp:
     least_dark: float = 0.0
     """For what is not always on: strength of artificial light above which it is usually on."""
     blink_hz: float | None = None
-    """How often it usually blinks; None = steady."""
+    """Usual frequency at which it blinks; None = steady."""
     wave: Wave = "square"
-    """How it blinks."""
+    """Waveform with which it blinks."""
     hue: str = ""
     """Which of a model's glowing parts it is: "white", "red", "blue", "amber", "green"; empty =
     any."""
@@ -149,13 +149,13 @@ class Lamp:
     is_single: bool = False
     """Whether only the first of its parts sheds light: the parts of one flame are one lamp."""
     own_hz: float = 0.0
-    """How often the model itself lets its part shine up and down each second."""
+    """Frequency at which the model itself modulates its part."""
     turns_hz: float = 0.0
-    """How often its beam turns round the upright axis each second."""
+    """Turns of its beam round the upright axis each second."""
 
 
-_KINDS = {kind: Lamp(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
-LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(
+_KINDS = {kind: LampKind(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
+LAMPS: Mapping[str, tuple[LampKind, ...]] = MappingProxyType(
     {noun: tuple(_KINDS[one] for one in own) for noun, own in trait_values("lamps").items()}
 )
 """Noun → its lamps; a part takes the first whose hue suits its colour."""
@@ -177,7 +177,7 @@ def hue_of(colour: tuple[float, float, float]) -> str:
     return "green" if green == top else "blue"
 
 
-def lamp_of(noun: str, colour: tuple[float, float, float]) -> Lamp | None:
+def lamp_of(noun: str, colour: tuple[float, float, float]) -> LampKind | None:
     """The lamp that a glowing part of that colour is, if any."""
     hue = hue_of(colour)
     return next((lamp for lamp in LAMPS.get(noun, ()) if lamp.hue in ("", hue)), None)

@@ -13,37 +13,37 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS, act_stance
+from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES, activity_stance
 from texvent.scenes.models.materials import shade
 from texvent.scenes.models.protocol import ModelPart, Pose, between, fraction
 from texvent.scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
 
-RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTS})
+RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTIVITIES})
 """Activities of a body that stays where it is."""
 _RESTING_VIGOUR = 0.3
-"""How far a swimmer at rest undulates."""
+"""Undulation of a swimmer at rest."""
 _HEAD_X, _HEAD_REACH, _WAVE_LAG = 0.45, 0.12, 3.6
-"""Where a swimmer's head is, how far it swings compared with its tail, and how much the wave lags
-along its body, rad: for a body of length 1."""
+"""Place of a swimmer's head, its swing relative to the tail's, and the lag of the wave along its
+body, rad: for a body of length 1."""
 
 Cycle = Callable[[Pose, int], float]
 """Pose and seed → cycles so far."""
-Motion = Callable[[Pose, int], Affine]
+JointMotion = Callable[[Pose, int], Affine]
 """Pose and seed → [3, 4] map."""
 
 
 @dataclass(frozen=True)
 class Joint:
-    """How parts move in their body."""
+    """Motion of parts in their body."""
 
-    motion: Motion
+    motion: JointMotion
     rolls: bool = False
     """Whether it turns with the distance travelled."""
 
 
 @dataclass(frozen=True)
-class Light:
-    """How parts get brighter and darker."""
+class LightModulation:
+    """Modulation of the light of parts over time."""
 
     level: Callable[[float, int], float]
     """Time in seconds and seed → 0..1."""
@@ -179,7 +179,7 @@ def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Jo
     reach = _angle(words[0])
     return Joint(
         lambda pose, seed: turn_about(
-            axis, reach * act_stance(pose.activity, pose.time_s).head_down, pivot
+            axis, reach * activity_stance(pose.activity, pose.time_s).head_down, pivot
         )
     )
 
@@ -269,7 +269,7 @@ _RAMP = 0.01
 """Share of a cycle in which a lamp comes on or goes off: a filament's glow."""
 
 
-def read_light(text: str) -> Light:
+def read_light(text: str) -> LightModulation:
     """A light from its text, such as "sine at 1hz start blink" or "switched at 2hz between 0 .5".
 
     Raises:
@@ -294,7 +294,7 @@ def read_light(text: str) -> Light:
             inside = phase - 1.0
         return min(1.0, max(0.0, 0.5 + inside / _RAMP))
 
-    return Light(level, dim)
+    return LightModulation(level, dim)
 
 
 def read_wave(text: str) -> Callable[[ModelPart, Pose, int], ModelPart]:

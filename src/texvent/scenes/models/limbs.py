@@ -35,7 +35,7 @@ class Gait:
 
 
 def foot_path(gait: Gait, distance: float, offset: float, amount: float) -> tuple[float, float]:
-    """Where a foot is, relative to the point on the ground below its hip.
+    """Place of a foot, relative to the point on the ground below its hip.
 
     On the ground the foot moves back exactly as fast as the body moves forward, so it does not
     slide; then it swings forward in an arc.
@@ -60,7 +60,7 @@ def foot_path(gait: Gait, distance: float, offset: float, amount: float) -> tupl
 
 
 def step_amount(activity: str, speed: float, full_speed: float) -> float:
-    """How fully a body steps: 0 while it stands or sits, 1 from `full_speed` (m/s) on."""
+    """Amplitude of steps: 0 while a body stands or sits, 1 from `full_speed` (m/s) on."""
     if activity in ("stand", "sit", "lie"):
         return 0.0
     share = min(1.0, max(0.0, speed / full_speed))
@@ -95,12 +95,12 @@ def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -
 
 @dataclass(frozen=True)
 class Steps:
-    """How far a body is in its cycle of steps at one instant."""
+    """Phase of a body in its cycle of steps at one instant."""
 
     gait: Gait
     strides: float
     amount: float
-    """How fully it steps, 0 to 1."""
+    """Amplitude of its steps, 0 to 1."""
 
 
 DrawLegs = Callable[[Steps, float], list[ModelPart]]
@@ -113,20 +113,19 @@ class Legs:
 
     surface: str
     pairs: tuple[tuple[float, ...], ...]
-    """Of each left leg: its root x y z, its foot x y on the ground, and how far it is ahead,
-    cycles."""
+    """Left legs: root x y z, foot x y on the ground, and lead, cycles."""
     bones: tuple[float, float]
     """Lengths of the upper and the lower part."""
     radii: tuple[float, float]
     """Half thicknesses of them."""
     towards: Point
-    """Where its knee points."""
+    """Direction of its knee."""
     ankle: float = 0.0
     """Height of the ankle above the ground."""
     foot: str = ""
     """Part lines around the ankle."""
     apart: float = 0.5
-    """How far the right legs are ahead of the left ones, cycles: 0 = it hops."""
+    """Lead of the right legs over the left ones, cycles: 0 = it hops."""
 
     def drawn_in(self, painted: Painted) -> DrawLegs:
         """Draws all legs."""
@@ -158,18 +157,18 @@ class Chain:
     surface: str
     start: Point
     step: Point
-    """From one joint to the next at rest, m."""
+    """Vector from one joint to the next at rest, m."""
     links: int
     radii: tuple[float, float]
-    """Of the first and the last link, m."""
+    """Radii of the first and the last link, m."""
     wave: str
     """Axis along which it waves, reach at its end, m, and the words of its rate."""
     lag: float
-    """How much later each joint waves than the one before, cycles."""
+    """Lag of each joint's wave behind that of the joint before, cycles."""
     grows: float = 1.0
     """Power of the share of the length with which the reach grows; 0 = the same all along."""
     curl: float = 0.0
-    """How much more upwards each link points than the one before, rad."""
+    """Upward turn of each link from the one before, rad."""
     tall: float = 0.0
     """Height of upright planks, m; 0 = the links are round."""
     around: int = 1

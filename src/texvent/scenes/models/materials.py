@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
-from texvent.scenes.scene import Colour, Texture
+from texvent.scenes.rendered_scene import Colour, Texture
 
 
 @dataclass(frozen=True)
@@ -17,8 +17,8 @@ class Material:
     second_colour: Colour = (0.0, 0.0, 0.0)
     texture: Texture = Texture.WORN
     scale: float = 1.0
-    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES and
-    CHECKS, repeats per local unit (half the part's size)."""
+    """Fineness of a material, 1 = as in life; of the patterns MOTTLED, STRIPES and CHECKS, repeats
+    per local unit (half the part's size)."""
     emission: float = 0.0
 
 
@@ -146,7 +146,7 @@ CLOTH_COLOURS: tuple[Colour, ...] = (
 
 
 _OWN_SHARE = 0.25
-"""How much of a part's own brightness stays, so that parts can be told apart."""
+"""Share of a part's own brightness that stays, so that parts can be told apart."""
 
 
 class OverriddenModel:

@@ -39,8 +39,8 @@ NOUNS: Mapping[str, Noun] = MappingProxyType(
 )
 """Every noun by its singular name."""
 
-DRESSING: frozenset[str] = frozenset(noun.name for noun in FAMILIES["dressing"])
-"""Set dressing of places: no prompt means it."""
+SCENERY_ONLY: frozenset[str] = frozenset(noun.name for noun in FAMILIES["extra_scenery"])
+"""Nouns that only scenery uses: no prompt means them."""
 
 AFLOAT: frozenset[str] = frozenset(
     name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")

@@ -22,7 +22,7 @@ from texvent.scenes.models.shapes import (
     shift,
     turn_about,
 )
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 
 
 @dataclass(frozen=True)
@@ -50,13 +50,13 @@ _AXES = {
 _WORDS = frozenset({"lean", "turn", "about", "rows"})
 """Words with which the options of a line begin."""
 _ROUNDED = 0.6
-"""How far a limb reaches beyond its joints, in its half thicknesses."""
+"""Reach of a limb beyond its joints, in its half thicknesses."""
 
 
 def read_groups(text: str) -> list[tuple[str, str]]:
-    """What stands after "moving" in lines that begin with it, and the lines of parts that follow.
+    """Groups of part lines: the words after "moving" in the line that begins one, and its parts.
 
-    The first has no such line: its parts do not move.
+    The first group has no such line: its parts do not move.
     """
     groups: list[tuple[str, list[str]]] = [("", [])]
     for line in _whole_lines(text):

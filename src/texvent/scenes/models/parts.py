@@ -25,13 +25,13 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
+from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
 from texvent.scenes.models.animals.body import build_quadruped
 from texvent.scenes.models.animals.build import QUADRUPED_KEYS
 from texvent.scenes.models.joints import (
     RESTING,
     Joint,
-    Light,
+    LightModulation,
     place,
     read_joint,
     read_light,
@@ -53,7 +53,7 @@ from texvent.scenes.models.shapes import (
     turn_about,
 )
 from texvent.scenes.models.surfaces import Painted, paint_model, toned
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {
     "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
@@ -82,7 +82,7 @@ class _Group:
     joints: tuple[Joint, ...]
     at_rest: tuple[Joint, ...] | None = None
     """Its joints while the body stays where it is; None = the same."""
-    light: Light | None = None
+    light: LightModulation | None = None
     clip: tuple[int, float, float] | None = None
     """Axis, least and greatest coordinate between which its boxes are seen, m."""
     is_paired: bool = False
@@ -327,7 +327,7 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
     words = table.get("parts", "").split()
-    mouth = MOUTH_ACTS if "bow" in words else frozenset()
+    mouth = MOUTH_ACTIVITIES if "bow" in words else frozenset()
     return Noun(
         name,
         PartsBuilder(where, table),
@@ -337,6 +337,6 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("names", ())),
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
-        acts=frozenset(ANIMAL_ACTS) if "build" in table else mouth,
+        acts=frozenset(ANIMAL_ACTIVITIES) if "build" in table else mouth,
         is_working=bool(table.get("works", habitat == "fixed" and "moving" in words)),
     )

@@ -11,10 +11,10 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from texvent.scenes.models.tables import frozen, read_table
-from texvent.scenes.scene import Colour, Ground, Texture
+from texvent.scenes.rendered_scene import Colour, Ground, Texture
 
 Where = Literal["around", "walls", "under", "water", "far", "route"]
-"""Where scenery stands."""
+"""Regions of a place for scenery."""
 _SCALES: Mapping[str, tuple[float, float]] = {
     "walls": (0.95, 1.1), "under": (1.0, 1.0),
 }  # fmt: skip
@@ -47,13 +47,13 @@ class Scenery:
 
 
 @dataclass(frozen=True)
-class Place:
+class PlaceModel:
     """The ground of a place, its walls, and its scenery."""
 
     names: tuple[str, ...]
     ground: Ground
     colours: tuple[Colour, Colour]
-    """Of the ground's pattern, or of land and of road or water."""
+    """Colours of the ground's pattern, or of land and of road or water."""
     surface: Texture | None = None
     """Material of the ground; None = the usual one of its kind."""
     walls: Texture = Texture.PLASTER
@@ -63,7 +63,7 @@ class Place:
     light: str = ""
     """Its daylight, where that is not that of the open air."""
     flight_m: float = 0.0
-    """How much higher than elsewhere things fly."""
+    """Additional height of things that fly."""
     is_backdrop: bool = False
     """Whether it is a background without horizon and stars."""
     scenery: tuple[Scenery, ...] = field(default=())
@@ -84,7 +84,7 @@ class Place:
         return self.ground in (Ground.RIVER, Ground.LAKE)
 
 
-def _place_of(fields: dict[str, Any]) -> Place:
+def _place_of(fields: dict[str, Any]) -> PlaceModel:
     ground, walls = fields.pop("ground"), fields.pop("walls", None)
     if "surface" in ground:
         fields["surface"] = Texture[ground["surface"].upper()]
@@ -97,10 +97,10 @@ def _place_of(fields: dict[str, Any]) -> Place:
     )
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
     fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
-    return Place(ground=kind, colours=ground["colours"], **fields)
+    return PlaceModel(ground=kind, colours=ground["colours"], **fields)
 
 
-PLACES: Mapping[str, Place] = MappingProxyType(
+PLACES: Mapping[str, PlaceModel] = MappingProxyType(
     {name: _place_of(row) for name, row in frozen(read_table("places")).items()}
 )
 

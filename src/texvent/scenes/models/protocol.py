@@ -1,4 +1,4 @@
-"""What a noun's model offers: an articulated object built from unit shapes.
+"""Interface of models: articulated objects built from unit shapes.
 
 Body coordinates: metres, origin on the ground below the middle, facing +x, y to its left, z up.
 An object that flies, swims or is thrown has its origin at its middle instead (`Noun.habitat`).
@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.mesh import Mesh, SurfaceImage
-from texvent.scenes.scene import Colour, Shape, Texture
+from texvent.scenes.rendered_scene import Colour, Shape, Texture
 
 Habitat = Literal["ground", "air", "water", "fixed"]
-"""Where an object belongs: moves on the ground, in the air, in the water; or does not move."""
+"""Medium of an object's motion: on the ground, in the air, in the water; or it does not move."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class ModelPart:
     mesh: Mesh | None = None
     """Its triangles, for `Shape.MESH`; `colour` multiplies their own."""
     image: SurfaceImage | None = None
-    """What a face of a box shows now."""
+    """Image that a face of a box shows now."""
     image_face: int = 1
     """That face: 0..5 = -x, +x, -y, +y, -z, +z."""
 
@@ -49,7 +49,7 @@ class ModelPart:
 
 @dataclass(frozen=True)
 class Pose:
-    """What moves a model's limbs, wheels and wings."""
+    """State that decides a model's limbs, wheels and wings."""
 
     time_s: float
     """Time, s."""
@@ -58,16 +58,16 @@ class Pose:
     speed_m_s: float
     """Speed along its path, m/s; 0 = standing."""
     activity: str = "move"
-    """What it does: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ...; for
-    people and hands a name of `people.activities`."""
+    """Activity: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ...; for people
+    and hands a name of `people.activities`."""
     before: str | None = None
-    """What a body with limbs did until a moment ago; None = the same."""
+    """Activity of a body with limbs until a moment ago; None = the same."""
     share: float = 1.0
-    """How far it has gone over from that to `activity`, 0..1."""
+    """Progress of the transition from that to `activity`, 0..1."""
     act_s: float | None = None
     """Time since the instant of contact of a single act such as a kick, s; None = it repeats."""
     grips: tuple[tuple[str, tuple[float, float, float]], ...] = ()
-    """Where "left hand", "right hand", "left foot", "right foot" or "hips" are held, m, in body
+    """Points that hold "left hand", "right hand", "left foot", "right foot" or "hips", m, in body
     coordinates."""
 
 
@@ -105,7 +105,7 @@ class Noun:
     speed_m_s: float
     """Usual speed when it moves, m/s."""
     motion: str
-    """What it does if the prompt does not say, such as "walk", "drive", "fly", "swim", "stand"."""
+    """Motion if the prompt does not say, such as "walk", "drive", "fly", "swim", "stand"."""
     synonyms: tuple[str, ...] = ()
     """Other singular names, such as ("automobile", "sedan")."""
     plurals: tuple[str, ...] = ()
@@ -113,7 +113,7 @@ class Noun:
     place: str = ""
     """Place where it usually is, such as "indoor"; empty = no usual place of its own."""
     acts: frozenset[str] = frozenset()
-    """What an animal's model shows besides moving: names of `animals.acts.ANIMAL_ACTS`."""
+    """Activities of an animal in place: names of `animals.activities.ANIMAL_ACTIVITIES`."""
     is_working: bool = False
     """Whether it stays in place and moves by itself, as a metronome does."""
 

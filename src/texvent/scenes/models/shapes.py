@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import ModelPart, Pose
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 
 Affine = NDArray[np.float64]
 Point = tuple[float, float, float]

@@ -14,7 +14,7 @@ from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.protocol import ModelPart, choose
 from texvent.scenes.models.shapes import part
 from texvent.scenes.models.tables import read_table
-from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture, decode_hex
+from texvent.scenes.rendered_scene import FIRST_SURFACE, Colour, Texture, decode_hex
 
 PAINT = "paint"
 """Name of the colour that a prompt may say."""

@@ -19,8 +19,7 @@ from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
-    LAMP_RECORD,
-    PUFF_RECORD,
+    SEEN_MEDIUM_RECORD,
     SHAPE_RECORD,
     World,
     describe_lens,
@@ -28,7 +27,8 @@ from texvent.scenes.raycast.records import (
     describe_rays,
     describe_surroundings,
 )
-from texvent.scenes.scene import (
+from texvent.scenes.rendered_scene import (
+    LAMP_RECORD,
     Environment,
     Float64Array,
     Primitives,
@@ -109,7 +109,7 @@ def sort_into_cells(
 def screen_bounds(
     is_round: NDArray[np.bool_], to_world: Float64Array, rays: Rays, size: SensorSize
 ) -> tuple[Float64Array, Float64Array]:
-    """Where shapes may appear, from the corners of the boxes around them.
+    """Screen bounds of shapes, from the corners of the boxes around them.
 
     Args:
         is_round: [n] whether a shape is an ellipsoid.
@@ -194,7 +194,7 @@ def build_world(
     samples: int,
     lens: Lens | None = None,
 ) -> World:
-    """Everything the kernels need to draw one instant but lamps and puffs: see `render.light_up`.
+    """Everything the kernels need to draw one instant but lamps and media: see `render.light_up`.
 
     Args:
         primitives: the shapes.
@@ -245,7 +245,7 @@ def build_world(
         _join_lists(tiles, sun_cells),
         surfaces,
         lamps=np.zeros(0, dtype=LAMP_RECORD),
-        puffs=np.zeros(0, dtype=PUFF_RECORD),
+        media=np.zeros(0, dtype=SEEN_MEDIUM_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
     ).addressed()
 

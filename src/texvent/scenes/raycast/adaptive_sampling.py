@@ -19,7 +19,7 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
-from texvent.scenes.raycast.puffs import through_puffs
+from texvent.scenes.raycast.media import through_media
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
@@ -32,7 +32,7 @@ from texvent.scenes.raycast.trace import (
     surface_code,
 )
 from texvent.scenes.raycast.vectors import scaled
-from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.rendered_scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
@@ -51,7 +51,7 @@ _SOFT_CLIP_START = 0.75
 
 @jit(error_model="numpy", inner=True)
 def _probe(instant: Record, x: float, y: float) -> int:
-    """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
+    """Probe of image point (x, y): surface code and light bits of the first hit, in one int."""
     depth, number, face, _ = first_hit(instant, x, y)
     lit = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)[0]
     return (surface_code(instant, number, face) << LIT_BITS) + lit
@@ -84,8 +84,8 @@ def _shade(instant: Record, x: float, y: float, probe: int) -> Colour:
     if depth == math.inf:
         depth, number, face = background_hit(instant, ray_direction(instant, x, y))
     light = shade_hit(instant, x, y, (depth, number, face), lit)
-    if instant.puff_count > 0:
-        light = through_puffs(instant, x, y, depth, light)
+    if instant.medium_count > 0:
+        light = through_media(instant, x, y, depth, light)
     return _expose(instant, light)
 
 
@@ -160,7 +160,7 @@ def _find_edge(
     low: float,
     probes: tuple[int, int],
 ) -> tuple[float, int]:
-    """Where a line leaves the surface `probes[0]`, and what comes next.
+    """First edge on a line that begins on the surface `probes[0]`: its place, and the next probe.
 
     `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """

@@ -19,12 +19,12 @@ from texvent.runtime.jit import intrinsic
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     IMAGE_RECORD,
-    LAMP_RECORD,
     NODE_RECORD,
-    PUFF_RECORD,
+    SEEN_MEDIUM_RECORD,
     SHAPE_RECORD,
     TRIANGLE_RECORD,
 )
+from texvent.scenes.rendered_scene import LAMP_RECORD
 
 
 def _reader(dtype: Any) -> Any:
@@ -54,7 +54,7 @@ def _reader(dtype: Any) -> Any:
 
 shape_at: Any = _reader(SHAPE_RECORD)
 lamp_at: Any = _reader(LAMP_RECORD)
-puff_at: Any = _reader(PUFF_RECORD)
+medium_at: Any = _reader(SEEN_MEDIUM_RECORD)
 glow_at: Any = _reader(GLOW_RECORD)
 node_at: Any = _reader(NODE_RECORD)
 triangle_at: Any = _reader(TRIANGLE_RECORD)

@@ -27,7 +27,13 @@ from texvent.scenes.raycast.trace import (
     tile_at,
 )
 from texvent.scenes.raycast.vectors import plane_point
-from texvent.scenes.scene import Float32Array, Float64Array, Primitives, Scene, place_in_image
+from texvent.scenes.rendered_scene import (
+    Float32Array,
+    Float64Array,
+    Primitives,
+    RenderedScene,
+    place_in_image,
+)
 from texvent.sensor import SensorSize
 from texvent.video import Motion
 
@@ -58,7 +64,7 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class GroundTruth:
-    """What is true of each pixel's centre at t0, and where it goes until t1."""
+    """Depth, instance and flow of each pixel's centre, from t0 to t1."""
 
     depth: Float32Array
     """[H, W] metres along the optical axis; inf for the sky, and where a lens sees nothing."""
@@ -75,7 +81,7 @@ class GroundTruth:
     """Boxes at t0 of all objects with an id and at least one visible pixel, by id."""
 
 
-def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> GroundTruth:
+def ground_truth(scene: RenderedScene, t0_s: float, t1_s: float, size: SensorSize) -> GroundTruth:
     """Ground truth at t0 and motion from t0 to t1.
 
     A piece of surface is followed through its shape's motion and the camera's. Ground, water
@@ -108,9 +114,9 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
 
 
 def visible_instances(
-    scene: Scene, time_s: float, size: SensorSize, points: Float64Array
+    scene: RenderedScene, time_s: float, size: SensorSize, points: Float64Array
 ) -> tuple[Float64Array, NDArray[np.int32]]:
-    """What is seen through image points at one instant.
+    """Depth and instance seen through image points at one instant.
 
     Args:
         scene: the scene.
@@ -143,7 +149,9 @@ def _hidden(world: World, place: Float64Array, size: SensorSize) -> NDArray[np.b
     return np.asarray(hidden, dtype=np.bool_)
 
 
-def _boxes(scene: Scene, time_s: float, seen: Seen, instance: NDArray[np.int32]) -> tuple[Box, ...]:
+def _boxes(
+    scene: RenderedScene, time_s: float, seen: Seen, instance: NDArray[np.int32]
+) -> tuple[Box, ...]:
     """Boxes around the visible pixels of each object."""
     owner = scene.primitives(time_s).instance.astype(np.int32)
     alone = np.zeros(1 + max(owner.max(initial=0), 0), dtype=np.int64)
@@ -193,7 +201,7 @@ def see_from(
     pose: tuple[Float64Array, Float64Array],
     seen: Float64Array,
 ) -> None:
-    """Where surfaces seen through image points are for a camera at another instant.
+    """Image points, for a camera at another instant, of the surfaces seen through image points.
 
     Args:
         instants: `World.instant` of the scene at the first instant.
@@ -232,7 +240,7 @@ def count_unoccluded(
     points: Float64Array,
     counts: NDArray[np.int64],
 ) -> None:
-    """At how many points of the image each instance would be seen if nothing stood before it.
+    """Numbers of image points that would show each instance if nothing stood before it.
 
     Args:
         instants: `World.instant` of the scene.
@@ -263,7 +271,7 @@ def count_unoccluded(
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What the pixel centres show at one instant."""
+    """First hits through the pixel centres at one instant."""
 
     world: World
     """The scene at that instant."""
@@ -276,7 +284,11 @@ class Seen:
 
 
 def frame_motion(
-    scene: Scene, time_s: float, before_s: float | None, after_s: float | None, size: SensorSize
+    scene: RenderedScene,
+    time_s: float,
+    before_s: float | None,
+    after_s: float | None,
+    size: SensorSize,
 ) -> Motion:
     """Motion of every pixel to the frames before and after, and depth.
 
@@ -307,7 +319,7 @@ def frame_motion(
 
 
 def cast_centres(world: World, size: SensorSize) -> Seen:
-    """What the pixel centres show."""
+    """First hits through the pixel centres."""
     row, column = np.indices(size.shape)
     points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
     return Seen(world, points, *cast(world, points))
@@ -323,7 +335,7 @@ def cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.i
 
 
 def move_to(
-    scene: Scene, times_s: tuple[float, float], size: SensorSize, seen: Seen
+    scene: RenderedScene, times_s: tuple[float, float], size: SensorSize, seen: Seen
 ) -> Float64Array:
     """Image point and depth at t1 of the surface seen through each pixel centre at t0, [H · W, 3].
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.lens import Lens, lens_limits
 from texvent.scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
 from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
-from texvent.scenes.scene import Environment, Ground, Primitives, Rays, Texture
+from texvent.scenes.rendered_scene import Environment, Ground, Primitives, Rays, Texture
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
@@ -27,7 +27,7 @@ MAX_CROSSINGS = 4
 
 INSTANT_RECORD = np.dtype(
     [
-        # Rays: see camera.Rays; `step` is the angle that one pixel covers, radians.
+        # Rays: see `rendered_scene.Rays`; `step` is the angle that one pixel covers, radians.
         ("origin", "f8", 3),
         ("corner", "f8", 3),
         ("right", "f8", 3),
@@ -47,9 +47,9 @@ INSTANT_RECORD = np.dtype(
         ("tile_columns", "i8"),
         ("tile_rows", "i8"),
         ("sun_cells", "i8"),
-        # Where the cells of the lamps that cast shadows begin, and the screen tiles of puffs.
+        # Where the cells of the lamps that cast shadows begin, and the screen tiles of media.
         ("lamp_cells", "i8"),
-        ("puff_tiles", "i8"),
+        ("medium_tiles", "i8"),
         # Addresses of the arrays of `World` and of its meshes and images, and numbers of items.
         ("shapes", "i8"),
         ("lists", "i8"),
@@ -59,14 +59,14 @@ INSTANT_RECORD = np.dtype(
         ("texels", "i8"),
         ("lamps", "i8"),
         ("lamp_count", "i8"),
-        ("puffs", "i8"),
-        ("puff_count", "i8"),
+        ("media", "i8"),
+        ("medium_count", "i8"),
         ("glows", "i8"),
         ("glow_count", "i8"),
         ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
-        # Surroundings: see primitives.Environment.
+        # Surroundings: see `rendered_scene.Environment`.
         ("ground", "i8"),
         ("colour", "f8", 3),
         ("second_colour", "f8", 3),
@@ -170,22 +170,7 @@ IMAGE_RECORD = np.dtype(
 )
 """One image of `scenes.mesh`."""
 
-LAMP_RECORD = np.dtype(
-    [
-        ("place", "f8", 3),
-        ("light", "f8", 3),
-        ("reach", "f8"),
-        ("beam", "f8", 3),
-        ("full", "f8"),
-        ("dark", "f8"),
-        ("radius", "f8"),
-        ("casts", "f8"),
-        ("glows", "f8"),
-    ]
-)
-"""One lamp: a row of `Environment.lamps`, see `scene.LAMP_COLUMNS`."""
-
-PUFF_RECORD = np.dtype(
+SEEN_MEDIUM_RECORD = np.dtype(
     [
         ("inverse", "f8", (3, 4)),  # world → unit sphere
         ("eye", "f8", 3),  # the camera's position there
@@ -200,7 +185,7 @@ PUFF_RECORD = np.dtype(
     ],
     align=True,
 )
-"""One translucent ellipsoid."""
+"""One participating medium as the camera sees it."""
 
 GLOW_RECORD = np.dtype(
     [
@@ -247,19 +232,19 @@ class World(NamedTuple):
     """Meshes and images of the shapes."""
     lamps: NDArray[Any]
     """[m] `LAMP_RECORD`; those that cast shadows come first."""
-    puffs: NDArray[Any]
-    """[k] `PUFF_RECORD`."""
+    media: NDArray[Any]
+    """[k] `SEEN_MEDIUM_RECORD`."""
     glows: NDArray[Any]
     """[g] `GLOW_RECORD`."""
 
     def addressed(self) -> World:
         """The same world, whose instant has the addresses of its arrays."""
         instant, surfaces = self.instant[0], self.surfaces
-        for name in ("shapes", "lists", "lamps", "puffs", "glows"):
+        for name in ("shapes", "lists", "lamps", "media", "glows"):
             instant[name] = getattr(self, name).ctypes.data
         for name in ("nodes", "triangles", "images", "texels"):
             instant[name] = getattr(surfaces, name).ctypes.data
-        instant["puff_count"], instant["glow_count"] = len(self.puffs), len(self.glows)
+        instant["medium_count"], instant["glow_count"] = len(self.media), len(self.glows)
         instant["lamp_count"] = len(self.lamps)
         return self
 
@@ -293,7 +278,7 @@ _GROUND_SURFACES = {
     Ground.RIVER: (Texture.GRASS, Texture.WATER),
     Ground.LAKE: (Texture.GRASS, Texture.WATER),
 }
-"""What each ground is usually made of, and the road on it."""
+"""Usual materials of each ground, and of the road on it."""
 
 
 def ground_surfaces(environment: Environment) -> tuple[int, int, int]:

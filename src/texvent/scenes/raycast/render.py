@@ -16,15 +16,15 @@ from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
-from texvent.scenes.raycast.puffs import describe_puffs
+from texvent.scenes.raycast.media import describe_media
 from texvent.scenes.raycast.records import World
-from texvent.scenes.scene import (
+from texvent.scenes.rendered_scene import (
     Environment,
     Float32Array,
     Float64Array,
     Primitives,
     Rays,
-    Scene,
+    RenderedScene,
     camera_rays,
 )
 from texvent.sensor import SensorSize
@@ -39,7 +39,7 @@ def light_up(
     *,
     shadows: bool,
 ) -> World:
-    """The world with its lamps, their shadows and glow, and its puffs.
+    """The world with its lamps, their shadows and glow, and its media.
 
     Args:
         world: of `build_world`.
@@ -48,17 +48,17 @@ def light_up(
         rays: the camera's rays.
         shadows: False turns the shadows of lamps off.
     """
-    if not len(environment.lamps) and not len(environment.puffs):
+    if not len(environment.lamps) and not len(environment.media):
         return world
     instant = world.instant
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
     grids = [list_casters(lamp, world.shapes, primitives) for lamp in lamps[:casting]]
     instant["shadow_lamps"] = casting
     instant["lamp_cells"] = len(world.lists)
-    puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])
-    instant["puff_tiles"] = len(world.lists) + sum(len(bins.start) for bins in grids)
+    media, tiles = describe_media(environment.media, rays, instant[0])
+    instant["medium_tiles"] = len(world.lists) + sum(len(bins.start) for bins in grids)
     lists = np.concatenate([world.lists, *_joined([*grids, tiles], len(world.lists))])
-    world = world._replace(lists=lists.astype(np.int32), lamps=lamps, puffs=puffs).addressed()
+    world = world._replace(lists=lists.astype(np.int32), lamps=lamps, media=media).addressed()
     return world._replace(glows=see_glows(world, rays)).addressed()
 
 
@@ -73,9 +73,9 @@ def _joined(grids: list[Bins], first: int) -> list[np.ndarray]:
 
 
 def world_at(
-    scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
+    scene: RenderedScene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> World:
-    """What the kernels read about one instant of a scene."""
+    """Records of one instant of a scene, as the kernels read them."""
     return world_and_shapes(scene, time_s, size, shadows=shadows, samples=samples).world
 
 
@@ -87,9 +87,9 @@ class Drawn(NamedTuple):
 
 
 def world_and_shapes(
-    scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
+    scene: RenderedScene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> Drawn:
-    """What the kernels read about one instant of a scene, and the shapes that it is made of."""
+    """Records of one instant of a scene, and the shapes that they were made from."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
     primitives, environment = scene.primitives(time_s), scene.environment(time_s)
@@ -100,7 +100,7 @@ def world_and_shapes(
 
 
 def render(
-    scene: Scene,
+    scene: RenderedScene,
     time_s: float,
     size: SensorSize,
     *,
@@ -125,7 +125,7 @@ def render(
 
 
 def render_light(
-    scene: Scene,
+    scene: RenderedScene,
     time_s: float,
     size: SensorSize,
     *,

@@ -36,7 +36,7 @@ _FLAT = 1e-300
 
 @jit(error_model="numpy", inner=True)
 def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
-    """Where a ray enters the unit sphere: (parameter, face), (inf, 0) if it does not."""
+    """Entry of a ray into the unit sphere: (parameter, face), (inf, 0) if it misses."""
     a, b, c = dot(d, d), dot(o, d), dot(o, o) - 1.0
     discriminant = b * b - a * c
     if discriminant <= 0.0:
@@ -49,7 +49,7 @@ def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
 
 @jit(error_model="numpy", inner=True)
 def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
-    """Where a ray enters the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
+    """Entry of a ray into the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
     enter, leave, face = -MISS, MISS, 0
     for axis in range(3):
         inverse = 1.0 / (d[axis] if d[axis] != 0.0 else _FLAT)
@@ -69,7 +69,7 @@ def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
 
 @jit(error_model="numpy", inner=True)
 def _hit_disc(o: Vector, d: Vector, height: float) -> float:
-    """Where a ray crosses the unit disc at z = `height`; inf if it passes by."""
+    """Parameter where a ray crosses the unit disc at z = `height`; inf if it misses."""
     if d[2] == 0.0:
         return MISS
     t = (height - o[2]) / d[2]
@@ -79,7 +79,7 @@ def _hit_disc(o: Vector, d: Vector, height: float) -> float:
 
 @jit(error_model="numpy", inner=True)
 def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
-    """Where a ray enters x² + y² <= 1, |z| <= 1: side 0, top 1, bottom 2."""
+    """Entry of a ray into x² + y² <= 1, |z| <= 1: side 0, top 1, bottom 2."""
     a = d[0] * d[0] + d[1] * d[1]
     b = o[0] * d[0] + o[1] * d[1]
     c = o[0] * o[0] + o[1] * o[1] - 1.0
@@ -101,7 +101,7 @@ def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
 
 @jit(error_model="numpy", inner=True)
 def hit_cone(o: Vector, d: Vector, near: float) -> tuple[float, int]:
-    """Where a ray enters the cone x² + y² <= ((1 - z) / 2)², |z| <= 1: side 0, base 2."""
+    """Entry of a ray into the cone x² + y² <= ((1 - z) / 2)², |z| <= 1: side 0, base 2."""
     w, dw = 0.5 * (1.0 - o[2]), -0.5 * d[2]
     a = d[0] * d[0] + d[1] * d[1] - dw * dw
     b = o[0] * d[0] + o[1] * d[1] - w * dw
@@ -123,7 +123,7 @@ def hit_cone(o: Vector, d: Vector, near: float) -> tuple[float, int]:
 
 @jit(error_model="numpy")
 def hit_shape(shape: int, o: Vector, d: Vector, near: float) -> tuple[float, int]:
-    """Where the ray `o + t · d`, in unit-shape coordinates, enters the shape from outside.
+    """Entry of the ray `o + t · d`, in unit-shape coordinates, into the shape from outside.
 
     Args:
         shape: a `Shape`.
@@ -165,7 +165,7 @@ GROUND = -1
 SKY = -2
 ROOM = -3
 NOTHING = -4
-"""What a ray may meet besides shape number 0, 1, ...; NOTHING: the lens lets no ray through."""
+"""Hits other than shape number 0, 1, ...; NOTHING: the lens lets no ray through."""
 CODES = 64
 """Numbers that `surface_code` keeps for each shape."""
 BOX, MESH = 1, 4
@@ -194,7 +194,7 @@ def plane_direction(rays: Record, x: float, y: float) -> Vector:
 
 @jit(error_model="numpy", inner=True)
 def _hit_one(instant: Record, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
-    """Where a camera ray meets one shape: depth, face (of a mesh: triangle), local direction."""
+    """Hit of a camera ray on one shape: depth, face (of a mesh: triangle), local direction."""
     d = turned(shape.inverse, direction)
     if shape.kind == MESH:
         t, face = hit_mesh(instant, shape.root, triple(shape.eye), d, NEAR_M, False)
@@ -212,7 +212,7 @@ def hit_again(instant: Record, x: float, y: float, number: int) -> tuple[float, 
 
 @jit(error_model="numpy", inner=True)
 def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
-    """Where the ray from `o` meets a thin shape, widened; inf if even that misses.
+    """Parameter where the ray from `o` meets a thin shape, widened; inf if even that misses.
 
     Of a mesh with thin parts the box around it is met.
     """
@@ -262,7 +262,7 @@ def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
 
 @jit(error_model="numpy", inner=True)
 def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, bool]:
-    """What the ray through image point (x, y) meets first.
+    """First hit of the ray through image point (x, y).
 
     Returns:
         (depth in metres, shape number or GROUND / SKY / ROOM / NOTHING, face, whether a thin
@@ -370,7 +370,7 @@ def surface_normal(instant: Record, number: int, face: int, point: Vector) -> Ve
 
 @jit(error_model="numpy", inner=True)
 def shadow_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
-    """Where shadow rays of a surface start: at its point, for a mesh where it would be smooth."""
+    """Origin of a surface's shadow rays: its point, for a mesh that on the smooth surface."""
     if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
         return smooth_point(instant, number, face, point)
     return point

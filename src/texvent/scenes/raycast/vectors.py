@@ -7,7 +7,7 @@ import math
 from texvent.lens import CONVERGED, ITERATIONS, WIDEST
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 
 Vector = tuple[float, float, float]
 
@@ -135,7 +135,7 @@ def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, fl
 
 @jit(error_model="numpy", inner=True)
 def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
-    """Where the ray through image point (x, y) meets the image without distortion, pixels.
+    """Undistorted place of image point (x, y), pixels.
 
     NaN where the lens lets nothing through.
     """

@@ -29,7 +29,7 @@ class Group:
     """Tokens without effect: words that are not known, or that another word stands before."""
     article: str = ""
     of: Phrase | None = None
-    """What follows: "of apples"."""
+    """Phrase with "of" that follows: "of apples"."""
 
     @property
     def is_plural(self) -> bool:
@@ -122,7 +122,7 @@ class _Parser:
         return self._token(-1)
 
     def _end(self, clause: Clause) -> Clause | None:
-        """How the next clause begins, where this one ends here."""
+        """Beginning of the next clause, where this one ends here."""
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()

@@ -80,7 +80,7 @@ class SceneDraft:
     not known."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
-    """Of moves of the camera: those said after "then" follow."""
+    """Phase of moves of the camera: those said after "then" follow."""
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
@@ -154,8 +154,8 @@ class SceneDraft:
             name, value = sense.value if (sense := one.first("adverb")) else ("", "")
             if name == "direction":
                 phrase = f"{move['kind']} {value}"
-                way = split_move(turned.get(phrase, phrase))
-                name, move = ("pace", move | way) if "direction" in way else ("", move)
+                side = split_move(turned.get(phrase, phrase))
+                name, move = ("pace", move | side) if "direction" in side else ("", move)
             elif name in ("pace", "speed_m_s"):
                 move[name] = move.get("pace", 1.0) * value if name == "pace" else value
             if name in ("pace", "speed_m_s"):

@@ -11,9 +11,9 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from texvent.scenes.colours import SURFACES
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS
+from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES
 from texvent.scenes.models.effects import EFFECTS
-from texvent.scenes.models.nouns import DRESSING, NOUNS
+from texvent.scenes.models.nouns import NOUNS, SCENERY_ONLY
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.protocol import Noun
@@ -71,7 +71,7 @@ class Sense:
     [grammar]."""
     value: Any
     form: str = ""
-    """Of a verb: "base", "s", "ing" or "ed"."""
+    """Form of a verb: "base", "s", "ing" or "ed"."""
 
 
 Senses: TypeAlias = tuple[Sense, ...]
@@ -107,7 +107,7 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     said = [
         one for one in nouns.values()
-        if one.name not in DRESSING and not one.name.startswith(_UNSAID)
+        if one.name not in SCENERY_ONLY and not one.name.startswith(_UNSAID)
     ]  # fmt: skip
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
@@ -154,7 +154,7 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
             yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
             for phrase in activity.named:  # "a hand shows a thumbs up"
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
-    for name, verbs in ANIMAL_ACTS.items():
+    for name, verbs in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in verbs)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)

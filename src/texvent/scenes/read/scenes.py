@@ -23,13 +23,13 @@ def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
     tokens = split_prompt(prompt, lexicon_of(nouns))
     draft = SceneDraft(tokens)
-    reader = _Reader(draft, nouns)
+    reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
     return draft.reading(prompt)
 
 
-class _Reader:
+class _SentenceReader:
     """Applies clauses to a draft."""
 
     def __init__(self, draft: SceneDraft, nouns: Mapping[str, Noun]) -> None:

@@ -16,11 +16,11 @@ from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.people.outfit import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, compose, moved
-from texvent.scenes.scene import Float64Array, Primitives
+from texvent.scenes.rendered_scene import Float64Array, Primitives
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-"""Of a box two units wide."""
+"""Corners of a box two units wide."""
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
@@ -51,7 +51,7 @@ class PlacedModel:
 
 
 CHANGE_S = 0.35
-"""How long a body takes from one activity to the next, s."""
+"""Duration of a body's transition from one activity to the next, s."""
 _HALVINGS = 24
 
 
@@ -76,7 +76,7 @@ class Actor:
     lead_m: float = 0.0
     """Head start of its gait, m, so that a herd does not walk in step."""
     props: tuple[Prop, ...] = ()
-    """What a person's activity needs, such as a guitar."""
+    """Props of a person's activity, such as a guitar."""
     goes_across: bool = False
     """Whether it crosses the road."""
     _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
@@ -121,7 +121,7 @@ class Actor:
         return PlacedModel(self.own_parts(self.pose(time_s)), to_world, self.instance)
 
     def pose(self, time_s: float) -> Pose:
-        """What moves its limbs at that instant."""
+        """State of its limbs at that instant."""
         state = self.trajectory.at(time_s)
         return Pose(
             state.tempo * time_s + 0.37 * self.lead_m,
@@ -134,7 +134,7 @@ class Actor:
         )
 
     def _change_over(self, time_s: float, activity: str) -> tuple[str | None, float]:
-        """What a body with limbs did just before, and how far it has gone over to the next."""
+        """Previous activity of a body with limbs, and its progress to the next."""
         if not self._has_limbs:
             return None, 1.0
         earlier, later = time_s - CHANGE_S, time_s

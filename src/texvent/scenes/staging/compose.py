@@ -9,18 +9,18 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
-from texvent.scenes.models.places import PLACES, Place
+from texvent.scenes.models.places import PLACES, PlaceModel
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.scene import (
-    PUFF_COLUMNS,
-    Camera,
+from texvent.scenes.rendered_scene import (
+    MEDIUM_RECORD,
     Environment,
     Ground,
+    PosedCamera,
     Primitives,
 )
 from texvent.scenes.staging.actors import Actor, assemble, join_primitives, seeded
-from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.particles.choose import (
     Staged,
@@ -46,31 +46,32 @@ VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
 
 
+_NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _OFF_THE_BED = 0.5
-"""How high people swim above the bed of the sea, as a multiple of their height."""
+"""Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK = -0.18
 """Height of the origin of what swims at the surface, in its sizes."""
 
 
 @dataclass(frozen=True)
 class ComposedScene:
-    """A scene as a continuous function of time; implements `scene.Scene`."""
+    """A scene as a continuous function of time; implements `rendered_scene.RenderedScene`."""
 
     actors: tuple[Actor, ...]
     still: Primitives
     """Scenery: the same at every instant."""
     particles: Staged
     """Weather, smoke, sparks, pieces ..."""
-    camera_path: CameraPath
-    place: Place
+    camera_path: CameraTrajectory
+    place: PlaceModel
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
     class_names: dict[int, str]
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
-    """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     has_highlights: bool = False
-    """Whether light above white is kept; see `scene.Environment`."""
+    """Whether light above white is kept; see `rendered_scene.Environment`."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -80,18 +81,18 @@ class ComposedScene:
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
         return self.camera_path.at(time_s)
 
     def environment(self, time_s: float) -> Environment:
         """Surroundings and light at that instant."""
         effects = self.particles.effects
-        lamps = np.vstack([self.lamps.rows(time_s), *(one.lamps(time_s) for one in effects)])
-        lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = np.vstack([np.zeros((0, PUFF_COLUMNS)), *(one.puffs(time_s) for one in effects)])
+        lamps = np.concatenate([self.lamps.at(time_s), *(one.lamps(time_s) for one in effects)])
+        lamps["light"] *= self.animated_environment.flicker(time_s)
+        media = np.concatenate([_NO_MEDIA, *(one.media(time_s) for one in effects)])
         surroundings = self.animated_environment.at(time_s)
-        return replace(surroundings, lamps=lamps, puffs=puffs, has_highlights=self.has_highlights)
+        return replace(surroundings, lamps=lamps, media=media, has_highlights=self.has_highlights)
 
     @property
     def flicker_hz(self) -> float | None:
@@ -161,8 +162,8 @@ def compose_scene(
 
 def _describe_view(
     description: SceneDescription,
-    place: Place,
-    path: CameraPath,
+    place: PlaceModel,
+    path: CameraTrajectory,
     actors: Sequence[Actor],
     duration_s: float,
 ) -> ViewClearance:
@@ -207,7 +208,7 @@ def _scatter_all(
 
 
 def _choose_levels(
-    place: Place, description: SceneDescription, nouns: Mapping[str, Noun]
+    place: PlaceModel, description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> dict[str, float]:
     """Height of origins above the ground: habitat or noun → multiple of an object's size.
 

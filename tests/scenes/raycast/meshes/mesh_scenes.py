@@ -9,7 +9,7 @@ import numpy as np
 from tests.scenes.hand_scenes import day, look_at
 
 from texvent.scenes.mesh import Mesh, SurfaceImage, make_mesh, smooth_normals
-from texvent.scenes.scene import Camera, Environment, Float64Array, Primitives, Shape
+from texvent.scenes.rendered_scene import Environment, Float64Array, PosedCamera, Primitives, Shape
 
 
 def ball(across: int = 24, down: int = 12) -> tuple[Float64Array, np.ndarray]:
@@ -58,7 +58,7 @@ def sheet(image: SurfaceImage) -> tuple[Mesh, Float64Array]:
     )
 
 
-def front(time_s: float) -> Camera:
+def front(time_s: float) -> PosedCamera:
     del time_s
     return look_at((0.0, -4.0, 1.0), (0.0, 0.0, 1.0))
 
@@ -69,7 +69,7 @@ class MeshScene:
 
     placed: tuple[Mesh, Float64Array]
     move: Callable[[float], Float64Array] = lambda time: np.eye(3, 4)
-    camera_at: Callable[[float], Camera] = front
+    camera_at: Callable[[float], PosedCamera] = front
     surroundings: Environment = field(default_factory=day)
     class_names: dict[int, str] = field(default_factory=lambda: {1: "thing"})
 
@@ -92,7 +92,7 @@ class MeshScene:
             mesh=meshes,
         )
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         return self.camera_at(time_s)
 
     def environment(self, time_s: float) -> Environment:

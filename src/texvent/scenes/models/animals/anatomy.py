@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import STANDING, Stance
+from texvent.scenes.models.animals.activities import STANDING, Stance
 from texvent.scenes.models.animals.build import Build, Coat, placed_marks
 from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import BLACK, Material, fur
@@ -27,13 +27,13 @@ from texvent.scenes.models.shapes import (
 LOWEST = -1.15
 """Angle of a neck that is let down, rad."""
 _DROOP = 0.12
-"""How far the head of a lying animal is let down."""
+"""Lowering of the head of a lying animal."""
 _LEVEL = 0.35
 """The same of who sits with its chest up, and looks ahead."""
 
 
 def tail_lift(build: Build, stance: Stance, sits: float, lies: float) -> float:
-    """How far the tail is turned up, rad; of who sits or lies it is along the ground."""
+    """Elevation of the tail, rad; that of a sitting or lying animal is along the ground."""
     lift = 0.0 if stance is STANDING else 0.4 * stance.wag
     return lift - lies * (build.tail[1] + 0.25) - sits * (build.tail[1] - _seated_pitch(build))
 
@@ -47,12 +47,12 @@ def tip(build: Build, stance: Stance, sits: float) -> Affine:
 
 
 def lowered_head(build: Build, stance: Stance) -> float:
-    """How low the head is, 0 to 1: what has a trunk lets down that instead."""
+    """Lowering of the head, 0 to 1: an animal with a trunk lowers the trunk instead."""
     return 0.1 * stance.head_down if build.trunk_length > 0.0 else stance.head_down
 
 
 def _bow(build: Build) -> float:
-    """How far the trunk bows for the mouth to reach the ground, rad."""
+    """Bow of the trunk with which the mouth reaches the ground, rad."""
     length, _, height = build.body_size
     long = (build.neck[0] + 0.2 * height) * math.sin(LOWEST)
     nose = build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
@@ -61,13 +61,13 @@ def _bow(build: Build) -> float:
 
 
 def sit_drop(build: Build) -> float:
-    """How far the hips come down, m: until the rump is on the ground."""
+    """Descent of the hips, m: until the rump is on the ground."""
     _, _, height = build.body_size
     return max(build.shoulder - 0.5 * height - 0.48 * build.waist * height, 0.0)
 
 
 def _seated_pitch(build: Build) -> float:
-    """How far the trunk of who sits is turned up, rad: until the fore legs are straight."""
+    """Pitch of a sitting animal's trunk, rad: until the fore legs are straight."""
     length, _, height = build.body_size
     leg = build.shoulder - 0.52 * height
     low = build.shoulder - 0.5 * height - sit_drop(build)
@@ -90,12 +90,12 @@ def offset(index: int, runs: bool) -> float:
 
 
 def droop(build: Build, sits: float, lies: float) -> float:
-    """How far who sits or lies lets its head down; a body near the ground has no way to."""
+    """Lowering of the head when sitting or lying; a body near the ground has no room for it."""
     return _DROOP * lies + _LEVEL * sits * min(1.0, 2.0 * build.shoulder / build.body_size[0])
 
 
 def lying_drop(build: Build) -> float:
-    """How far the trunk of who lies moves up, m: it is negative."""
+    """Rise of a lying animal's trunk, m: it is negative."""
     return build.body_size[2] - 0.98 * build.shoulder
 
 
@@ -132,7 +132,7 @@ def _rounded(material: Material, middle: Point, size: Point) -> ModelPart:
 def draw_neck_and_head(
     build: Build, coat: Coat, swings: tuple[float, float], stance: Stance, droop: float
 ) -> list[ModelPart]:
-    """Of `swings` the first moves the neck, the second ears and trunk; `droop` lowers the head."""
+    """Neck and head. Of `swings` the first moves the neck, the second ears and trunk."""
     beat, wag = swings
     down = lowered_head(build, stance) + droop
     length, width, height = build.body_size

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import STANDING, act_stance, lowered
+from texvent.scenes.models.animals.activities import STANDING, activity_stance, lowered
 from texvent.scenes.models.animals.anatomy import (
     NOSE,
     bob,
@@ -36,7 +36,7 @@ from texvent.scenes.models.animals.build import (
 from texvent.scenes.models.limbs import Gait, foot_path, step_amount
 from texvent.scenes.models.protocol import ModelPart, Pose, fraction
 from texvent.scenes.models.shapes import Affine, ArticulatedModel, Point, moved, shift
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 
 def build_quadruped(
@@ -67,7 +67,7 @@ class _Body:
     build: Build
     coat: Coat
     start: float
-    """Where its cycle of steps begins, cycles."""
+    """Phase at which its cycle of steps begins, cycles."""
 
     def parts(self, pose: Pose) -> list[ModelPart]:
         """Trunk, neck, head, tail, marks and legs.
@@ -81,7 +81,7 @@ class _Body:
         distance = pose.distance_m + self.start * gait.stride
         turn = 2.0 * math.pi * distance / gait.stride
         sits, lies = lowered(pose.activity, pose.time_s)
-        stance = act_stance(pose.activity, pose.time_s)
+        stance = activity_stance(pose.activity, pose.time_s)
         rise = amount * bob(build, turn, runs) + lies * lying_drop(build) - sits * sit_drop(build)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + self.start))
         swings = (amount * math.sin(turn), wag)

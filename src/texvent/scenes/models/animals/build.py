@@ -12,7 +12,7 @@ from texvent.scenes.models.materials import Material, fur, shade
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point
 from texvent.scenes.models.surfaces import FIXED_HUES, Painted, paint_model, read_colour
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 
 @dataclass(frozen=True)

@@ -210,7 +210,7 @@ class Activity:
     moves_as: str = ""
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
-    """Of an act with one instant of contact, when that comes if the act is repeated, s."""
+    """Time of the contact in an act that has one, if the act is repeated, s."""
 
 
 def _read(name: str) -> Mapping[str, Activity]:
@@ -224,21 +224,21 @@ def _read(name: str) -> Mapping[str, Activity]:
 
 
 def motion_of(table: str, activity: str) -> dict[str, Any]:
-    """What a row says of motion: the channels of a track."""
+    """Motion of a row: the channels of a track."""
     known = {one.name for one in fields(Activity)} | {"props"}
     row = read_table(table).get(activity, {})
     return {key: value for key, value in row.items() if key not in known}
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")
-"""What a person can do: name → activity."""
+"""Activities of people: name → activity."""
 HAND_GESTURES: Mapping[str, Activity] = _read("hand_gestures")
-"""What a hand can do: name → gesture."""
+"""Gestures of hands: name → gesture."""
 
 TRAVELLING = frozenset(name for name, one in ACTIVITIES.items() if one.travels)
 """Names of the activities that go from place to place."""
 DONE_SEATED = frozenset(name for name, one in ACTIVITIES.items() if one.is_done_seated)
-"""What a person does just as well sitting: torso, head and arms move, the hips do not."""
+"""Activities that people also do sitting: torso, head and arms move, the hips do not."""
 SINGLE_ACTS = frozenset(name for name, one in ACTIVITIES.items() if one.contact_s is not None)
 """Acts with one instant of contact."""
 TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
@@ -246,7 +246,7 @@ TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
 ON_GROUND: Mapping[str, str] = MappingProxyType(
     {"sit": "sit on ground", "sit down": "sit down on ground", "stand up": "stand up from ground"}
 )
-"""What they are called, and sitting, where there is no seat."""
+"""Names of these activities, and of sitting, where there is no seat."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 

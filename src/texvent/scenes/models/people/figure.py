@@ -58,11 +58,11 @@ def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
     """A cone from the chest down to the knees; of who sits it begins lower and is narrower."""
     hips = joints.torso[:, 3]
     knees = 0.5 * (np.array(joints.knees[0]) + np.array(joints.knees[1]))
-    way = knees - hips
-    level = float(np.linalg.norm(way[:2])) / max(float(np.linalg.norm(way)), 1e-9)
+    thigh = knees - hips
+    level = float(np.linalg.norm(thigh[:2])) / max(float(np.linalg.norm(thigh)), 1e-9)
     level = max(level - 0.5, 0.0) * 2.0
     tip = joints.torso @ np.array([0.02, 0.0, 0.46 - 0.34 * level, 1.0])
-    x, y, z = hips + 1.12 * way
+    x, y, z = hips + 1.12 * thigh
     wide = 0.33 - 0.15 * level
     return spike(outfit.shirt, (x, y, z), (float(tip[0]), float(tip[1]), float(tip[2])), wide)
 
@@ -221,7 +221,7 @@ _CRANK_M = 0.17
 
 @dataclass(frozen=True)
 class Rider:
-    """Where a rider touches a cycle, m: the left of hand and pedal, as the other is its mirror."""
+    """Contact points of a rider on a cycle, m; the right hand and pedal mirror the left ones."""
 
     hips: Point
     neck: Point

@@ -27,7 +27,7 @@ from texvent.scenes.models.shapes import (
     turn_about,
 )
 from texvent.scenes.models.tables import read_table
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 _FINGERS = (
     # Where it begins: left (towards the thumb), up; its three bones; its radius, m.
@@ -37,7 +37,7 @@ _FINGERS = (
     (-0.030, 0.044, (0.033, 0.021, 0.020), 0.0083),
 )
 _JOINTS = (1.45, 1.75, 1.05)
-"""How far the joints of a finger in a fist are bent, radians."""
+"""Flexion of the joints of a finger in a fist, radians."""
 _SPREAD = (0.22, 0.04, -0.12, -0.30)
 _WRIST_Z = -0.055
 
@@ -57,7 +57,7 @@ class HandShape:
     yaw: float = 0.0
     """About the forearm, radians."""
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Of the whole hand: front, left, up, m."""
+    """Displacement of the whole hand: front, left, up, m."""
 
 
 def find_shape(gesture: str, time_s: float) -> HandShape:
@@ -120,7 +120,7 @@ def _shape_at(pose: Pose) -> HandShape:
 
 
 def _turned(shape: HandShape) -> Affine:
-    """How the hand turns about the wrist; the forearm stays."""
+    """Rotation of the hand about the wrist; the forearm stays."""
     wrist: Point = (0.0, 0.0, _WRIST_Z)
     tilted = compose(turn_about("x", -shape.roll, wrist), turn_about("y", shape.pitch, wrist))
     return compose(tilted, turn_about("z", shape.yaw, wrist))

@@ -29,12 +29,12 @@ from texvent.scenes.models.protocol import ModelPart, choose, paint
 from texvent.scenes.models.shapes import ball
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
 from texvent.scenes.models.tables import frozen, read_table
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 
 @dataclass(frozen=True)
 class PersonKind:
-    """What sets one kind of person apart: fields of a row of `people` in `data/outfits.toml`."""
+    """Kind of person: fields of a row of `people` in `data/outfits.toml`."""
 
     height: float = 1.0
     """Relative to an adult of 1.75 m."""
@@ -240,12 +240,12 @@ HOLDS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
 
 
 def list_props(activity: str, size: float = 1.0) -> tuple[Prop, ...]:
-    """What comes with an activity; `size` is that of the body, relative to an adult."""
+    """Props of an activity; `size` is that of the body, relative to an adult."""
     return tuple(_scaled(prop, size) for prop in PROPS.get(activity, ()))
 
 
 def _scaled(prop: Prop, size: float) -> Prop:
-    """What the body stands at or wears is as large as the body; what a hand holds is not."""
+    """Prop at the size of the body if the body stands at it or wears it, but not in a hand."""
     if size == 1.0 or prop.anchor not in ("ground", "torso"):
         return prop
 

@@ -39,13 +39,13 @@ from texvent.scenes.models.people.posture import (
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Affine, ArticulatedModel, Point, point
 from texvent.scenes.models.tables import read_table
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 _ELBOWS: Mapping[str, Point] = {"down": DOWN, "out": OUT}
 
 
 def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Posture | None:
-    """What an activity decides of the posture.
+    """Posture that an activity decides.
 
     Args:
         activity: a name of `ACTIVITIES`; of another one nothing is decided.

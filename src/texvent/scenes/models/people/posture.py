@@ -34,7 +34,7 @@ OUT: Point = (-0.3, 1.0, -0.5)
 
 @dataclass(frozen=True)
 class Arm:
-    """Where one hand is."""
+    """Pose of one arm, by its hand."""
 
     hand: Point = (0.06, 0.05, -0.60)
     """Middle of the palm from the shoulder, in the torso's axes: forward, outward, up; or in body
@@ -46,14 +46,14 @@ class Arm:
 
 @dataclass(frozen=True)
 class Leg:
-    """Where one foot is."""
+    """Pose of one leg, by its foot."""
 
     foot: Point = (0.0, 0.08, ANKLE)
     """Ankle: forward, outward, up, in body coordinates."""
     knee: Point = (1.0, 0.1, 0.35)
     """Direction in which the knee points: forward, outward, up."""
     pitch: float = 0.0
-    """How far the toes point down."""
+    """Downward pitch of the toes."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""How a lamp looks to the camera: a spot of light with a faint halo (compiled by Numba).
+"""Glow of lamps in the image: a spot of light with a faint halo (compiled by Numba).
 
 A lamp of a few millimetres covers a hundredth of a pixel, yet it is the brightest thing in the
 image. Its light is spread over a normal distribution as wide as the lens blurs it, integrated over
@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M
 from texvent.scenes.raycast.addresses import glow_at, list_at, shape_at
-from texvent.scenes.raycast.puffs import optical_depth
+from texvent.scenes.raycast.media import optical_depth
 from texvent.scenes.raycast.records import GLOW_RECORD, Record, World
 from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
 from texvent.scenes.raycast.vectors import plane_point, triple, turned
-from texvent.scenes.scene import Colour, Float64Array, Rays
+from texvent.scenes.rendered_scene import Colour, Float64Array, Rays
 
 BLUR_PX = 0.55
 """Standard deviation of the spot that the lens makes of a point, pixels."""
@@ -109,7 +109,7 @@ def see_lamps(
     probes: Float64Array,
     visible: Float64Array,
 ) -> None:
-    """How much of each lamp the camera sees: share of its disc, through smoke.
+    """Visible share of each lamp's disc, attenuated by participating media.
 
     Args:
         instants: `World.instant` of the scene.
@@ -129,7 +129,7 @@ def see_lamps(
             if not _is_hidden(instant, x, y, near):
                 count += 1
         share = count / probes.shape[1]
-        if share > 0.0 and instant.puff_count > 0:
+        if share > 0.0 and instant.medium_count > 0:
             x, y = places[index, 0], places[index, 1]
             share *= math.exp(-optical_depth(instant, x, y, depths[index]))
         visible[index] = share

@@ -1,4 +1,4 @@
-"""Light and shadow of lamps: columns of their table, casters by direction, what a surface sees."""
+"""Light and shadow of lamps: falloff, casters by direction, lamps that reach a surface."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
 from texvent.scenes.raycast.addresses import lamp_at, list_at, shape_at
-from texvent.scenes.raycast.records import LAMP_RECORD, Record
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.trace import (
     ROOM,
     SHADOW_BIAS_M,
@@ -24,7 +24,7 @@ from texvent.scenes.raycast.trace import (
     widened_hit,
 )
 from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, triple, turned
-from texvent.scenes.scene import Colour, Float64Array, Primitives, Shape
+from texvent.scenes.rendered_scene import Colour, Float64Array, Primitives, Shape
 
 
 @jit(error_model="numpy", inner=True)
@@ -61,7 +61,7 @@ def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
 
 @jit(error_model="numpy", inner=True)
 def towards_lamp(lamp: Record, point: Vector) -> Vector:
-    """From a point to a lamp, metres."""
+    """Vector from a point to a lamp, metres."""
     return along(triple(lamp.place), point, -1.0)
 
 
@@ -108,15 +108,14 @@ MOST_SHADOW_LAMPS = 4
 """Lamps that can cast shadows at one instant."""
 
 
-def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], int]:
-    """Records of `Environment.lamps`, those that cast shadows first, and how many these are.
+def order_lamps(lamps: NDArray[Any], *, shadows: bool) -> tuple[NDArray[Any], int]:
+    """Lamps [m], `LAMP_RECORD`, those that cast shadows first, and how many these are.
 
     `shadows` False: none does.
     """
-    rows = np.ascontiguousarray(lamps, dtype=np.float64).view(LAMP_RECORD)[:, 0]
-    casts = np.flatnonzero(rows["casts"] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
-    rest = np.setdiff1d(np.arange(len(rows)), casts)
-    return rows[np.concatenate([casts, rest])], len(casts)
+    casts = np.flatnonzero(lamps["casts"] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
+    rest = np.setdiff1d(np.arange(len(lamps)), casts)
+    return lamps[np.concatenate([casts, rest])], len(casts)
 
 
 def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bins:
@@ -208,21 +207,20 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
 
 @jit(error_model="numpy", inner=True)
 def _distance(box: Float64Array, axes: int) -> float:
-    """At most how far a box is from 0, in the plane of x and y (2 axes) or in space (3).
+    """Lower bound of a box's distance from 0, in the plane of x and y (2 axes) or in space (3).
 
-    The farthest of the planes at right angles to its axes, or to the way to its middle, that hold
-    it off.
+    The greatest separation along the normals of its faces, or along the line to its middle.
     """
     farthest = 0.0
-    for way in range(4):
+    for normal in range(4):
         length, gap, half = 1e-300, 0.0, 0.0
         for axis in range(axes):
-            length += box[axis, way] * box[axis, way]
-            gap += box[axis, way] * box[axis, 3]
+            length += box[axis, normal] * box[axis, normal]
+            gap += box[axis, normal] * box[axis, 3]
         for side in range(3):
             part = 0.0
             for axis in range(axes):
-                part += box[axis, way] * box[axis, side]
+                part += box[axis, normal] * box[axis, side]
             half += abs(part)
         farthest = max(farthest, (abs(gap) - half) / math.sqrt(length))
     return farthest
@@ -230,7 +228,7 @@ def _distance(box: Float64Array, axes: int) -> float:
 
 @jit(error_model="numpy", inner=True)
 def _along_diamond(x: float, y: float) -> float:
-    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π.
+    """Place where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π.
 
     It grows with the angle, and needs no trigonometry.
     """
@@ -263,7 +261,7 @@ def _blocked(
 ) -> tuple[bool, bool]:
     """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
 
-    Shapes beyond the share `near` of the way belong to the lamp itself.
+    Shapes beyond the share `near` of the distance belong to the lamp itself.
     """
     lists, thin = instant.lists, False
     reach_mm = 1e3 * math.sqrt(dot(towards, towards))
@@ -319,7 +317,7 @@ SUN = 1
 def lit_by(
     instant: Record, x: float, y: float, hit: tuple[float, int, int], wanted: int
 ) -> tuple[int, bool]:
-    """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
+    """Lights that reach a hit point (bit 0: sun, then lamps), and whether a thin shadow is near.
 
     Only the lights in `wanted` are looked for; only lamps that cast shadows count.
     """

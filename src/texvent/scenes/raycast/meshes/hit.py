@@ -72,7 +72,7 @@ def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float
 def hit_mesh(
     instant: Record, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
-    """Where the ray `o + t · d`, in the mesh's coordinates, meets it first, from either side.
+    """First intersection of the ray `o + t · d`, in the mesh's coordinates, from either side.
 
     Args:
         instant: the scene.
@@ -152,7 +152,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 @jit(error_model="numpy", inner=True)
 def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
-    """How the weights of a triangle's second and third corner change along a vector."""
+    """Slopes of the weights of a triangle's second and third corner along a vector."""
     a = triple(triangle.corner[0])
     e1 = along(triple(triangle.corner[1]), a, -1.0)
     e2 = along(triple(triangle.corner[2]), a, -1.0)

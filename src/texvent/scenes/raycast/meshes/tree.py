@@ -24,7 +24,7 @@ from texvent.scenes.raycast.records import (
     TRIANGLE_RECORD,
     PackedSurfaces,
 )
-from texvent.scenes.scene import Primitives
+from texvent.scenes.rendered_scene import Primitives
 
 LEAF_TRIANGLES = 4
 """Triangles in a leaf at most, unless they cannot be told apart."""

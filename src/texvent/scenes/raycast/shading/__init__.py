@@ -1,1 +1,1 @@
-"""What light each surface sends to the camera: surfaces, textures, sky, water (Numba kernels)."""
+"""Shading: light that surfaces, sky and water send to the camera (Numba kernels)."""

@@ -25,7 +25,7 @@ from texvent.scenes.raycast.shading.value_noise import (
     square_wave,
 )
 from texvent.scenes.raycast.vectors import Vector, scaled, triple
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 _WHITE_PAINT = (0.62, 0.62, 0.60)
 _KERB = (0.46, 0.46, 0.44)
@@ -37,7 +37,7 @@ _RIVER = 11
 _LAKE = 12
 _WATER = 30
 _BREAKERS_M, _ROLL_M_S = 6.0, 2.0
-"""From one line of foam to the next, and how fast they come."""
+"""Distance from one line of foam to the next, and their speed."""
 _FOAM = (0.82, 0.84, 0.84)
 _FLOW_M_S = 0.9
 _DRIFT_M_S = 0.25
@@ -48,7 +48,7 @@ Strip = tuple[float, float, float, float]
 
 @jit(error_model="numpy")
 def strip_place(instant: Record, x: float, y: float) -> Strip:
-    """Where a ground point lies on the main road's line."""
+    """Position of a ground point along and across the main road's line."""
     cosine, sine, _, x0, y0 = instant.road
     return (
         (x - x0) * cosine + (y - y0) * sine,

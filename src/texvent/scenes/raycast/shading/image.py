@@ -10,7 +10,7 @@ from texvent.scenes.raycast.meshes.hit import slopes_of, weights_at
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.value_noise import mix
 from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 MOST_TAPS = 16
 """A footprint is taken to be at most this many times as long as wide."""

@@ -38,7 +38,7 @@ from texvent.scenes.raycast.vectors import (
     triple,
     unit,
 )
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 FOAM_FROM, FOAM_STEEPNESS = 0.085, 5.0
 """Sum of the waves' heights over their lengths, per wave height, from which on crests foam."""

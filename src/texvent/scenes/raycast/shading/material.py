@@ -23,7 +23,7 @@ from texvent.scenes.raycast.shading.value_noise import mix
 from texvent.scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS
 from texvent.scenes.raycast.surfaces.fields import SIDE
 from texvent.scenes.raycast.vectors import along, scaled, triple
-from texvent.scenes.scene import FIRST_SURFACE, Colour
+from texvent.scenes.rendered_scene import FIRST_SURFACE, Colour
 
 _pack: Any = cgutils.pack_array
 _tuple_of: Any = types.UniTuple
@@ -69,11 +69,11 @@ that begin `places` (four integers) numbers after the address; four float64."""
 
 
 Sample = tuple[float, float, float, float]
-"""What the first and second colour are multiplied by, and slopes along u and v."""
+"""Factors of the first and second colour, and slopes along u and v."""
 Patch = tuple[float, float, float, float]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 Corners = tuple[int, int, int, int]
-Place = tuple[float, float, float]
+TexelPlace = tuple[float, float, float]
 """(u, v) in tiles, and the ease of weights between texels there."""
 
 _SHARPNESS = 0.5
@@ -115,7 +115,7 @@ def _eased(share: float, ease: float) -> float:
 
 @jit(error_model="numpy", inner=True)
 def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Sample]:
-    """Where the four texels around (u, v), in tiles, begin in the array, and their weights.
+    """Offsets in the array of the four texels around (u, v), in tiles, and their weights.
 
     `ease` is that of `_eased`.
     """
@@ -138,7 +138,7 @@ def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Samp
 
 
 @jit(error_model="numpy", inner=True)
-def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample) -> Sample:
+def _add_texels(tile: int, level: int, place: TexelPlace, share: float, total: Sample) -> Sample:
     """`total` and `share` times the blend of a tile's texels at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
     here = blend_four(tile, corners, weights)
@@ -152,7 +152,7 @@ def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample
 
 @jit(error_model="numpy", inner=True)
 def _taps(axes: Patch, most: int) -> tuple[int, float, float]:
-    """How many averages along a patch's longer axis, which level they read, and with what ease.
+    """Number of averages along a patch's longer axis, the level that they read, and their ease.
 
     A texel that covers two pixels or more is not eased: it would show as a square.
     """
@@ -192,7 +192,7 @@ def tile_average(tile: int, u: float, v: float, axes: Patch) -> Sample:
 
 
 @jit(error_model="numpy", inner=True)
-def _first_channel(tile: int, level: int, place: Place) -> float:
+def _first_channel(tile: int, level: int, place: TexelPlace) -> float:
     """A tile's first channel at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
     return float(

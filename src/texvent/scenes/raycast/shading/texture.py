@@ -22,7 +22,7 @@ from texvent.scenes.raycast.vectors import (
     turned,
     unit,
 )
-from texvent.scenes.scene import FIRST_SURFACE, Colour
+from texvent.scenes.rendered_scene import FIRST_SURFACE, Colour
 
 _PLAIN = 0
 _BLEND = 0.8

@@ -12,7 +12,7 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.vectors import along, dot, scaled, triple
-from texvent.scenes.scene import Colour
+from texvent.scenes.rendered_scene import Colour
 
 
 @jit(error_model="numpy", inner=True)

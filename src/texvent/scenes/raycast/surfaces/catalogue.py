@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.raycast.surfaces import patterns
 from texvent.scenes.raycast.surfaces.fields import SIDE, Field
-from texvent.scenes.scene import FIRST_SURFACE, Texture
+from texvent.scenes.rendered_scene import FIRST_SURFACE, Texture
 
 LEVELS = 9
 """A tile, and its averages over 2 × 2, 4 × 4, ... texels up to the whole tile."""
@@ -36,7 +36,7 @@ class SurfaceKind:
     large: Texture = Texture.VARIATION
     """Pattern of those patches."""
     larger: float = 25.0
-    """How much larger than the tile theirs is."""
+    """Size of their tile, as a multiple of the material's."""
 
 
 SURFACES: dict[Texture, SurfaceKind] = {
@@ -116,7 +116,7 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
 
 @cache
 def surface_rows(textures: frozenset[int]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """What the kernels need to know about the materials in use.
+    """Addresses and sizes of the materials in use, for the kernels.
 
     Args:
         textures: values of `Texture`; those without a tile are passed over.

@@ -20,14 +20,14 @@ from texvent.scenes.raycast.surfaces.fields import (
 
 
 class Pattern(NamedTuple):
-    """What a tile looks like; all [SIDE, SIDE]."""
+    """Tile of a material; all arrays are [SIDE, SIDE]."""
 
     factor: Field
-    """Of the colour; its mean becomes 1."""
+    """Factor of the colour; its mean becomes 1."""
     share: Field
-    """Of the second colour, 0..1."""
+    """Share of the second colour, 0..1."""
     height: Field
-    """In units of the material's relief."""
+    """Height in units of the material's relief."""
 
 
 def variation() -> Pattern:
@@ -44,7 +44,7 @@ def asphalt() -> Pattern:
 
 
 def cracked() -> Pattern:
-    """What wear does to a road: cracks, mended patches, stains, tracks."""
+    """Wear of a road: cracks, mended patches, stains, tracks."""
     _, _, patch = cells(5, 31)
     bent, gap, _ = cells(4, 32)
     fine, fine_gap, _ = cells(11, 33)

@@ -1,1 +1,1 @@
-"""Where the camera is, what it looks at and how it moves."""
+"""Camera of a scene: placement, framing and motion."""

@@ -10,10 +10,10 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import PLACES, is_room
-from texvent.scenes.scene import Float64Array, Ground
+from texvent.scenes.rendered_scene import Float64Array, Ground
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.staging.camera.camera_path import CameraPath, Tie
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory, Tie
 from texvent.scenes.staging.camera.framing import (
     Framing,
     come_near,
@@ -30,11 +30,11 @@ from texvent.scenes.staging.camera.subject import (
     KEPT_TOGETHER,
     choose_angles,
     choose_main,
-    list_views,
+    list_framing_choices,
 )
 
 _SKY_LIFT = 0.2
-"""How far the camera looks above what matters outdoors, in half image heights."""
+"""Height of the optical axis above what matters outdoors, in half image heights."""
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
 """Lengths of its own from which on an object is followed: usually, and in a close or medium shot.
 """
@@ -47,7 +47,7 @@ and how often moves are made smaller for it."""
 
 @dataclass(frozen=True)
 class _Shooting:
-    """What the camera is placed for."""
+    """Constraints on the camera's placement."""
 
     description: SceneDescription
     actors: Sequence[Actor]
@@ -75,7 +75,7 @@ def place_camera(
     aspect: float,
     duration_s: float,
     travel: TravelPlan | None = None,
-) -> CameraPath:
+) -> CameraTrajectory:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
     `place` is a key of `PLACES`, `aspect` the image's height over its width; the seed decides the
@@ -100,7 +100,7 @@ def place_camera(
     return path.in_room(corners, shooting.times)
 
 
-def _watch(shooting: _Shooting) -> CameraPath:
+def _watch(shooting: _Shooting) -> CameraTrajectory:
     """The widest camera that shows the objects with a large subject."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
     main, times = choose_main(description, actors), shooting.times
@@ -113,14 +113,14 @@ def _watch(shooting: _Shooting) -> CameraPath:
     boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
     tie = Tie.of(moves, main)
 
-    def path_of(framing: Framing) -> CameraPath:
-        return CameraPath(framing, moves, shooting.duration_s, tie, shooting.has_floor)
+    def path_of(framing: Framing) -> CameraTrajectory:
+        return CameraTrajectory(framing, moves, shooting.duration_s, tie, shooting.has_floor)
 
     def prominence(framing: Framing) -> float:
         path, views = path_of(framing), zip(times, boxes, strict=True)
         return float(np.mean([measure_prominence(path.at(float(t)), b, aspect) for t, b in views]))
 
-    views = list_views(description, actors, main, moves, times)
+    views = list_framing_choices(description, actors, main, moves, times)
     framings = [
         fit(one.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=one.fill,
             lift=lift)
@@ -129,7 +129,7 @@ def _watch(shooting: _Shooting) -> CameraPath:
     return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
 
 
-def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraPath:
+def _keep_in_view(path: CameraTrajectory, main: Actor, shooting: _Shooting) -> CameraTrajectory:
     """The path with smaller moves if the subject would leave the picture."""
     for _ in range(_TRIES):
         if _is_visible(path, main, shooting.aspect):
@@ -142,7 +142,7 @@ def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraP
     return path
 
 
-def _is_visible(path: CameraPath, main: Actor, aspect: float) -> bool:
+def _is_visible(path: CameraTrajectory, main: Actor, aspect: float) -> bool:
     """Whether the middle of the subject is in the picture for nearly all of the clip."""
     half = np.array([0.49, 0.49 * aspect])
     times = np.linspace(0.0, path.duration_s, _CHECKS)
@@ -151,7 +151,7 @@ def _is_visible(path: CameraPath, main: Actor, aspect: float) -> bool:
     return bool(is_inside.mean() >= _VISIBLE_SHARE)
 
 
-def _look_around(shooting: _Shooting) -> CameraPath:
+def _look_around(shooting: _Shooting) -> CameraTrajectory:
     """A camera in a place where the scene has no object."""
     usual = 0.2 if PLACES[shooting.place].ground is Ground.RIVER else 0.06
     elevation = ELEVATIONS.get(shooting.description.camera.view or "", usual)
@@ -160,19 +160,19 @@ def _look_around(shooting: _Shooting) -> CameraPath:
     if is_room(shooting.place):
         empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
     moves = _plan_moves(shooting.description, None, shooting.duration_s)
-    return CameraPath(empty, moves, shooting.duration_s, has_floor=shooting.has_floor)
+    return CameraTrajectory(empty, moves, shooting.duration_s, has_floor=shooting.has_floor)
 
 
-def _stand_at(shooting: _Shooting) -> CameraPath:
+def _stand_at(shooting: _Shooting) -> CameraTrajectory:
     """The camera where metres say; its moves go through that pose at mid clip."""
     description, actors = shooting.description, shooting.actors
     framing = pose(description.camera.position_m or (), description.camera.look_at_m or ())
     moves = _plan_moves(description, None, shooting.duration_s)
     tie = Tie.of(moves, choose_main(description, actors)) if actors else None
-    return CameraPath(framing, moves, shooting.duration_s, tie, has_floor=False)
+    return CameraTrajectory(framing, moves, shooting.duration_s, tie, has_floor=False)
 
 
-def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraPath:
+def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraTrajectory:
     """A camera on a route; what it looks at is some way ahead of the middle of the route."""
     target = np.array([0.0, 0.0, 0.5 * travel.journey.height_m])
     framing = Framing(target, 0.0, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
@@ -182,7 +182,7 @@ def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraPath:
         middle = [0.5 * shooting.duration_s]
         corners = corners_over(shooting.actors, middle) if shooting.actors else np.zeros((1, 3))
         room = max(0.5 * travel.length_m + 3.5, float(np.abs(corners[:, :2]).max()) + 0.8)
-    return CameraPath(framing, moves, shooting.duration_s, has_floor=shooting.has_floor,
+    return CameraTrajectory(framing, moves, shooting.duration_s, has_floor=shooting.has_floor,
                       room_m=room, journey=travel.journey)  # fmt: skip
 
 
@@ -201,7 +201,7 @@ def _plan_moves(
     if has_landmark or (motion is not None and motion.direction in ("towards", "away")):
         return ()
     span = max(main.model.length, main.model.height)
-    way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
+    displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
     is_near = description.camera.framing in ("close", "medium")
     least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
-    return (CameraMove("follow"),) if way > least * span else ()
+    return (CameraMove("follow"),) if displacement_m > least * span else ()

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 
 USUAL_FOCAL = 1.1
 """Focal length over image width."""
@@ -29,9 +29,9 @@ class Framing:
     target: Float64Array
     """[3] m."""
     azimuth: float
-    """Of the camera around the target: 0 = south of it, looking north; radians, anticlockwise."""
+    """Azimuth of the camera about the target: 0 = south, looking north; radians, anticlockwise."""
     elevation: float
-    """Of the camera above the target, radians."""
+    """Elevation of the camera above the target, radians."""
     distance_m: float
     focal: float
 
@@ -67,7 +67,7 @@ def direction(azimuth: float, elevation: float) -> Float64Array:
     return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
 
 
-def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camera:
+def look_at(position: Float64Array, target: Float64Array, focal: float) -> PosedCamera:
     """A camera at `position` that looks at `target`, the horizon level."""
     forward = np.asarray(target - position, dtype=np.float64)
     forward = forward / np.linalg.norm(forward)
@@ -75,7 +75,8 @@ def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camer
     right = right / max(float(np.linalg.norm(right)), 1e-9)
     (fx, fy, fz), (rx, ry, rz) = forward, right
     down = (fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
-    return Camera(np.asarray(position, dtype=np.float64), np.array([right, down, forward]), focal)
+    axes = np.array([right, down, forward])
+    return PosedCamera(np.asarray(position, dtype=np.float64), axes, focal)
 
 
 def fit(
@@ -109,15 +110,15 @@ def fit(
     return Framing(target, azimuth, elevation, distance, focal)
 
 
-def image_of(camera: Camera, points: Float64Array) -> Float64Array:
+def image_of(camera: PosedCamera, points: Float64Array) -> Float64Array:
     """[..., 3] of points: x and y in image widths from the middle, y down; and depth, m."""
     seen = (points - camera.position) @ camera.rotation.T
     seen[..., :2] *= camera.focal / np.maximum(seen[..., 2:], 1e-3)
     return np.asarray(seen)
 
 
-def measure_prominence(camera: Camera, boxes: Float64Array, aspect: float) -> float:
-    """How prominent boxes [copies, 8, 3] of an object are; 1 = as large as a subject should be."""
+def measure_prominence(camera: PosedCamera, boxes: Float64Array, aspect: float) -> float:
+    """Prominence of boxes [copies, 8, 3] of an object; 1 = as large as a subject should be."""
     image = image_of(camera, boxes)[..., :2] / [1.0, aspect]
     copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
     if len(image) == 1:

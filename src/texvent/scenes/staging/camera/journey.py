@@ -11,23 +11,23 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import PLACES
-from texvent.scenes.scene import Ground
+from texvent.scenes.rendered_scene import Ground
 from texvent.scenes.spec.scene import CameraMove
-from texvent.scenes.staging.camera.camera_path import Journey
+from texvent.scenes.staging.camera.camera_trajectory import Journey
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
 NORTH = 0.5 * math.pi
 """Heading of a route."""
 VIEW_M = 70.0
-"""How far ahead scenery stands along a route."""
+"""Distance ahead up to which scenery stands along a route."""
 _LEAST_CLEAR_M = 1.1
 _ON_FOOT_M_S = 4.0
 """Speed below which a camera keeps to the pavement of a city."""
 
 
 class Means(NamedTuple):
-    """How a camera travels."""
+    """Means of travel of a camera."""
 
     speed_m_s: float
     height_m: float
@@ -50,7 +50,7 @@ _BY_GROUND = {
     Ground.ROAD: "drive", Ground.DIRT_ROAD: "drive", Ground.CITY: "drive", Ground.SEA: "sail",
     Ground.LAKE: "sail", Ground.RIVER: "sail", Ground.UNDERWATER: "swim", Ground.NONE: "fly",
 }  # fmt: skip
-"""What is usual on a ground; elsewhere one walks."""
+"""Usual means of travel on a ground; elsewhere one walks."""
 _LOW_M, _AERIAL_M, _AERIAL_PITCH, _TOP_PITCH = 0.5, 16.0, 0.5, 1.4
 """Heights and pitches of low, aerial and top views."""
 
@@ -63,7 +63,7 @@ class TravelPlan:
     length_m: float
     """From its rearmost to its foremost point."""
     clear_m: tuple[float, float]
-    """How far to the left and to the right of the route the ground stays free."""
+    """Widths to the left and to the right of the route in which the ground stays free."""
     road: RoadLine
 
     def clear(self, side: float) -> float:
@@ -117,9 +117,9 @@ def _lay_route(
     pieces = []
     for moves in phases:
         is_back = any(move.direction == "backward" for move in moves)
-        way = -speed if is_back else speed if moves else 0.0
-        pieces.append(Piece(span, way, ramp_s=ramp))
+        speed_m_s = -speed if is_back else speed if moves else 0.0
+        pieces.append(Piece(span, speed_m_s, ramp_s=ramp))
     route = SteeredPath((0.0, 0.0, 0.0), NORTH, tuple(pieces), pieces[0].speed_m_s)
-    ways = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
-    start = (0.0, -0.5 * (min(ways) + max(ways)), 0.0)
-    return replace(route, start=start), max(ways) - min(ways)
+    distances_m = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
+    start = (0.0, -0.5 * (min(distances_m) + max(distances_m)), 0.0)
+    return replace(route, start=start), max(distances_m) - min(distances_m)

@@ -11,10 +11,10 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over, seeded
-from texvent.scenes.staging.camera.camera_path import Tie
+from texvent.scenes.staging.camera.camera_trajectory import Tie
 from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 INSTANTS = 13
@@ -31,7 +31,7 @@ _PIECE = 0.7
 _GOALS = (1.0, 1.0, 0.9, 0.4)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
-"""How much less prominent the subject is in a wide shot."""
+"""Prominence of the subject in a wide shot, relative to its usual one."""
 KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of"}
@@ -46,7 +46,7 @@ ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION = 0.24
 _ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
-"""What is so many times as long as high, and longer than that, is seen at an angle to its side."""
+"""Length over height, and length in m, from which on a subject is seen at an angle to its side."""
 
 
 def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
@@ -109,8 +109,8 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     return 0.2 if is_in_depth else 0.12
 
 
-class View(NamedTuple):
-    """What the image is to hold."""
+class FramingChoice(NamedTuple):
+    """Points that the image must hold, and their share of it."""
 
     points: Float64Array
     """[n, 3] m."""
@@ -121,7 +121,7 @@ class View(NamedTuple):
 
 
 class _Scope(NamedTuple):
-    """What decides how much of each object must be seen."""
+    """Criteria of the part of each object that must be seen."""
 
     main: Actor
     times: Float64Array
@@ -132,11 +132,11 @@ class _Scope(NamedTuple):
     """Objects of which the lower part may be out of the image: people who act with their arms."""
 
 
-def list_views(
+def list_framing_choices(
     description: SceneDescription, actors: Sequence[Actor], main: Actor,
     moves: Sequence[CameraMove], times: Float64Array,
-) -> list[View]:  # fmt: skip
-    """What the image may hold, from all there is to the subject alone, at instants, s."""
+) -> list[FramingChoice]:  # fmt: skip
+    """Choices of what the image holds, from all objects to the subject alone, at instants, s."""
     shot, tie = description.camera, Tie.of(moves, main)
     relations = description.relations
     passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
@@ -147,7 +147,7 @@ def list_views(
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         boxes = corners_over([main], times if tie is None else times[:1])
-        return [View(_upper_part(main, boxes, framing), _NEAR_FILL)]
+        return [FramingChoice(_upper_part(main, boxes, framing), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
     if shot.framing == "wide":
@@ -166,7 +166,7 @@ def list_views(
     copies = [one for one in actors if one.object_index == main.object_index]
     choices = (near, [*others, *partners], partners, kept)
     return [
-        View(_points_of([*copies, *some], scope), fill, goal * least)
+        FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)
     ]
 
@@ -211,8 +211,8 @@ def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) 
     """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
     box = actor.corners(float(times[0]))
     low, high = box.min(axis=0), box.max(axis=0)
-    ways = np.array([main.middle(float(time)) for time in times])
-    nearest = np.clip(ways, low, high)
-    point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
+    places = np.array([main.middle(float(time)) for time in times])
+    nearest = np.clip(places, low, high)
+    point = nearest[int(np.argmin(np.linalg.norm(nearest - places, axis=1)))]
     ends = np.stack([np.maximum(low, point - reach_m), np.minimum(high, point + reach_m)])
     return np.array([[x, y, z] for x in ends[:, 0] for y in ends[:, 1] for z in ends[:, 2]])

@@ -58,7 +58,7 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
 ) -> list[Emitter]:
-    """What shows an effect at an object, or by itself."""
+    """Emitters of an effect at an object, or by itself."""
     words = EFFECTS[effect.kind]
     source = _source(effect.kind, actor, setting)
     return [
@@ -83,7 +83,7 @@ def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle
 
 
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
-    """Where an effect comes from."""
+    """Source of an effect."""
     words = EFFECTS[kind]
     if actor is None:
         size, height, behind = setting.camera.framing.distance_m * np.array(words.alone)

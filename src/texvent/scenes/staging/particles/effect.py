@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.scene import (
+from texvent.scenes.rendered_scene import (
     Colour,
     Float64Array,
     Primitives,
@@ -16,7 +16,7 @@ from texvent.scenes.scene import (
     Texture,
 )
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 
 _NO_GROUND = ("sky", "space", "underwater")
 TINY_M = 5e-6
@@ -25,10 +25,10 @@ TINY_M = 5e-6
 
 @dataclass(frozen=True)
 class Setting:
-    """What effects need to know about the scene."""
+    """Context of effects in the scene."""
 
     actors: Sequence[Actor]
-    camera: CameraPath
+    camera: CameraTrajectory
     place: str
     duration_s: float
     seed: int
@@ -89,7 +89,7 @@ class Source:
     """The point that particles come from: on an object, or fixed."""
 
     size_m: float
-    """What lengths of the effect are multiples of."""
+    """Unit of the effect's lengths."""
     fixed: Float64Array
     """[3] the point, m, where there is no object; else in the object's body coordinates."""
     actor: Actor | None = None

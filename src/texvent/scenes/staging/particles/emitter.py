@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.models.effects import EmitterStyle
-from texvent.scenes.scene import (
-    LAMP_COLUMNS,
-    PUFF_COLUMNS,
+from texvent.scenes.rendered_scene import (
+    LAMP_RECORD,
+    MEDIUM_RECORD,
     Float64Array,
     Primitives,
     Shape,
@@ -95,7 +95,7 @@ class Emitter:
     """[k, 3] linear RGB."""
     setting: Setting
     start_s: float = -math.inf
-    """When the first one is born, s."""
+    """Birth of the first one, s."""
 
     @classmethod
     def of(
@@ -125,7 +125,7 @@ class Emitter:
     def at(self, time_s: float) -> Primitives:
         """Its drops or flakes at that instant: always as many, in the same order."""
         style = self.style
-        if style.body == "puff":
+        if style.body == "medium":
             return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
         flown = self._fly(time_s)
         grown = _between(style.radius, flown.age) * (0.7 + 0.6 * flown.draws[:, 5])
@@ -152,30 +152,32 @@ class Emitter:
         nearest_m = _NEAREST * camera.framing.distance_m
         return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
-    def puffs(self, time_s: float) -> Float64Array:
-        """[k, 19] its puffs at that instant; those just born or about to go are thin."""
+    def media(self, time_s: float) -> NDArray[Any]:
+        """[k] `MEDIUM_RECORD` at that instant; media just born or about to end are thin."""
         style = self.style
-        if style.body != "puff":
-            return np.zeros((0, PUFF_COLUMNS))
+        if style.body != "medium":
+            return np.zeros(0, MEDIUM_RECORD)
         flown = self._fly(time_s)
         age, draws = flown.age, flown.draws
         radius = self.source.size_m * _between(style.radius, age) * (0.75 + 0.5 * draws[:, 5])
         first, last = self.colours[0], self.colours[-1]
         thick = _between(style.thickness, age) * (0.4 + 1.2 * draws[:, 5])
-        rows = np.zeros((len(age), PUFF_COLUMNS))
         half = np.maximum(radius[:, None] * style.proportions, TINY_M)
-        rows[:, [0, 5, 10]], rows[:, [3, 7, 11]] = half, flown.places
-        rows[:, 12:15] = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
-        rows[:, 15] = thick * _fade(age) * flown.is_there
-        rows[:, 16] = _between(style.emission, age)
-        rows[:, 17], rows[:, 18] = style.detail, 50.0 * draws[:, 6]
-        return rows
+        media = np.zeros(len(age), MEDIUM_RECORD)
+        media["to_world"][:, range(3), range(3)] = half
+        media["to_world"][:, :, 3] = flown.places
+        shade = 0.72 + 0.56 * draws[:, 6:7]
+        media["colour"] = (first + (last - first) * age[:, None]) * shade
+        media["optical_depth"] = thick * _fade(age) * flown.is_there
+        media["emission"] = _between(style.emission, age)
+        media["detail"], media["seed"] = style.detail, 50.0 * draws[:, 6]
+        return media
 
-    def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light of its flames, or of its salvo."""
+    def lamps(self, time_s: float) -> NDArray[Any]:
+        """[m] `LAMP_RECORD`: the light of its flames, or of its salvo."""
         style, size = self.style, self.source.size_m
         if style.light == 0.0 or time_s < self.start_s:
-            return np.zeros((0, LAMP_COLUMNS))
+            return np.zeros(0, LAMP_RECORD)
         place = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
         if style.salvos:
@@ -185,7 +187,7 @@ class Emitter:
             place += self._offsets(draws)[0]
             hue = self.colours[int(draws[0, 6] * len(self.colours))]
         light = level * style.light * size * size * hue
-        return point_lamp(place, light, 12.0 * size, 0.4 * size)[None]
+        return point_lamp(place, light, 12.0 * size, 0.4 * size)
 
     def _fly(self, time_s: float) -> _Flown:
         """All particles at an instant."""
@@ -207,10 +209,10 @@ class Emitter:
             fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
             up, down = velocity[:, 2], max(GRAVITY * style.gravity, 1e-6)
             flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
-        way, heading = flight(flown_s, velocity, drag_s, pull)
-        places = start + way
+        displacement, heading = flight(flown_s, velocity, drag_s, pull)
+        places = start + displacement
         if style.curl:
-            apart = 9.0 * size * draws[:, 4:5] * (style.body != "puff")
+            apart = 9.0 * size * draws[:, 4:5] * (style.body != "medium")
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
         if style.body == "drop":
@@ -228,7 +230,7 @@ class Emitter:
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:
-    """What goes from one value at birth to another at the end."""
+    """Linear interpolation from a value at birth to one at the end of life."""
     return ends[0] + (ends[1] - ends[0]) * age
 
 
@@ -242,16 +244,16 @@ def _fade(age: Float64Array) -> Float64Array:
 def flight(
     age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
 ) -> tuple[Float64Array, Float64Array]:
-    """Ways [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag at ages [n], s.
+    """Displacements [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag.
 
-    Solution of dv/dt = pull - v / drag; `drag_s` may be inf, `pull` is in m/s².
+    Ages [n] are in s. Solution of dv/dt = pull - v / drag; `drag_s` may be inf, `pull` is in m/s².
     """
     age = age_s[:, None]
     if math.isinf(drag_s):
         return velocity * age + 0.5 * pull * age * age, velocity + pull * age
     left, final = np.exp(-age / drag_s), pull * drag_s
-    way = final * age + (velocity - final) * drag_s * (1.0 - left)
-    return way, final + (velocity - final) * left
+    displacement = final * age + (velocity - final) * drag_s * (1.0 - left)
+    return displacement, final + (velocity - final) * left
 
 
 def turbulence(place: Float64Array, time_s: float, scale_m: float, rate_hz: float) -> Float64Array:

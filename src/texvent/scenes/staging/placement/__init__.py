@@ -1,1 +1,1 @@
-"""Where things stand: groups of copies, relations and free places."""
+"""Placement of things: groups of copies, relations and free places."""

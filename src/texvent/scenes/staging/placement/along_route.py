@@ -1,4 +1,4 @@
-"""Where objects stand and go along the route of a camera that travels."""
+"""Placement of objects along the route of a camera that travels."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.camera.journey import NORTH, TravelPlan
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
 _SEEN = 1.8
-"""What stands aside is in the picture from this many times as far ahead."""
+"""Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
 _GAP_M = 1.5
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
@@ -30,7 +30,7 @@ class RoutePlacer:
         self._taken = {1.0: 0.0, -1.0: 0.0}
         """Side (1 = right) → how far along it is taken, m."""
         self._beyond_m = 0.0
-        """How far beyond the end of the route it is taken."""
+        """Length beyond the end of the route that is taken."""
 
     def place(self, group: ObjectGroup, height: float, *, is_goal: bool) -> Float64Array:
         """[3] middle of a group, m, whose copies are placed and turned along the route."""

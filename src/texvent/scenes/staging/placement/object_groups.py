@@ -19,7 +19,7 @@ from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import moved
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import SceneObject
 from texvent.scenes.staging.actors import is_centred, lowest_point, size_of
 from texvent.scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
@@ -230,7 +230,7 @@ def part_in_midst(group: ObjectGroup, room_m: float) -> None:
 
 
 _SEAT_BACK_M = 0.03
-"""How far behind the hips the middle of a chair is."""
+"""Distance of the middle of a chair behind the hips."""
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
@@ -248,7 +248,7 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
 
 
 def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
-    """What a person's activities need, or else it has with it, and the scene does not show."""
+    """Props of a person's activities, or else its usual ones, that the scene does not show."""
     if group.noun.name not in PERSON_NOUNS:
         return ()
     shown = {scene_object.noun for scene_object in description.objects}

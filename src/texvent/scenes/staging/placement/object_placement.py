@@ -1,4 +1,4 @@
-"""Where objects stand: relations become positions, and no two objects overlap."""
+"""Placement of objects: relations become positions, and no two objects overlap."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.shapes import point
 from texvent.scenes.pictures import PicturedModel, can_show
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
@@ -48,7 +48,7 @@ from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory,
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
-"""How much nearer, for each metre to the side."""
+"""Approach for each metre to the side."""
 _ATTEMPTS = 400
 _SIDES = {"left": -1.0, "right": 1.0}
 
@@ -146,8 +146,8 @@ class ObjectPlacer:
             if partner is not None and (is_follower or is_led):
                 match_pace(group, partner, one.kind)
 
-    def _choose_goal(self, group: ObjectGroup, related: Sequence[Relation]) -> Goal:
-        """Where the scene wants a group."""
+    def _choose_goal(self, group: ObjectGroup, related: Sequence[IndexedRelation]) -> Goal:
+        """Goal of a group in the scene."""
         height = self._height(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
@@ -170,7 +170,7 @@ class ObjectPlacer:
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
 
-    def _list_sharing(self, relation: Relation) -> list[int]:
+    def _list_sharing(self, relation: IndexedRelation) -> list[int]:
         """Index of each copy that has the same relation to the same objects."""
         return [
             other.subject

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import Relation
+from texvent.scenes.description import IndexedRelation
 from texvent.scenes.models.anchors import Support, find_support
 from texvent.scenes.models.people.activities import (
     DONE_SEATED,
@@ -17,7 +17,7 @@ from texvent.scenes.models.people.activities import (
 )
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import is_centred, size_of
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
@@ -28,7 +28,7 @@ from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 
 class Goal(NamedTuple):
-    """Where a group should be."""
+    """Goal of a group's placement."""
 
     position: Float64Array
     """[3] middle of the group, m."""
@@ -51,7 +51,7 @@ _SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
 _COVERED = 0.55
 """Share of what stands behind that may be hidden where it stands right behind."""
 _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
-"""How far the camera may see past an edge, and room beside what one passes."""
+"""Angle by which the camera may see past an edge, and room beside a passed object."""
 
 
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
@@ -89,7 +89,7 @@ def place_on_targets(
 
 
 def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
-    """What moves circles its target; what stays is around it and faces it."""
+    """Circle around a target for moving objects; objects at rest stand around it and face it."""
     target = targets[0]
     x, y, level = target.centre
     if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
@@ -172,8 +172,8 @@ def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Go
     if group.noun.name in nouns_with("passage"):
         group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
-    way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
-    back = 0.1 * way + 0.5 * group.models[0].length
+    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+    back = 0.1 * extent + 0.5 * group.models[0].length
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
@@ -197,7 +197,9 @@ def _shift(place: Float64Array, x: float, y: float) -> Float64Array:
     return np.asarray(place + np.array([x, y, 0.0]))
 
 
-def place_at_distance(goal: Goal, relation: Relation, other: ObjectGroup, sign: float) -> Goal:
+def place_at_distance(
+    goal: Goal, relation: IndexedRelation, other: ObjectGroup, sign: float
+) -> Goal:
     """The goal at the distance of the relation to another group, if it has one.
 
     `sign` is 1 for the goal of the relation's subject, -1 for that of a target.

@@ -1,1 +1,1 @@
-"""What is around the objects: place, ground, roads, scenery, weather, light."""
+"""Surroundings of the objects: place, ground, roads, scenery, weather, light."""

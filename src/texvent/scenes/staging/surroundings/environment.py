@@ -12,10 +12,10 @@ from texvent.scenes.colours import rgb_of
 from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.materials import mix
-from texvent.scenes.models.places import Place
+from texvent.scenes.models.places import PlaceModel
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import (
-    LAMP_COLUMNS,
+from texvent.scenes.rendered_scene import (
+    LAMP_RECORD,
     Colour,
     Environment,
     Float32Array,
@@ -23,9 +23,9 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
-from texvent.scenes.spec.scene import Place as Surroundings
+from texvent.scenes.spec.scene import Place
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent.scenes.staging.surroundings.lighting import (
     DEPTHS,
     Lighting,
@@ -40,15 +40,15 @@ _LEAST_TURN = 0.9
 _PAVEMENT_M, _VERGE_M = 1.4, 0.5
 """Distances from the edge of the road to pedestrians and to standing objects beside it."""
 _ROADSIDE = 1.4
-"""Where one walks on a road without pavement, in lanes from its middle."""
+"""Distance of walkers from the middle of a road without pavement, in lanes."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
 _AFLOAT = ("swim", "surf")
-"""What people do in water, or on it."""
+"""Motions of people in water, or on it."""
 _BANK, _LEAST_BANK_M = 0.22, 1.0
 """Land between what the camera looks at and the water: a share of the camera's distance, and m."""
 _NEARER = 0.45
-"""How far before what floats on it a lake begins, as a share of the camera's distance."""
+"""Distance of a lake's shore before things afloat, as a share of the camera's distance."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class RoadLine:
 
 
 def find_road(
-    description: SceneDescription, place: Place, actors: Sequence[Actor], usual_y: float
+    description: SceneDescription, place: PlaceModel, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
     lane_m = 0.5 * place.road_m
@@ -154,7 +154,7 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     ]  # fmt: skip
 
 
-def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadLine:
+def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrajectory) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
     It runs through objects that float or swim, and behind those on land.
@@ -193,7 +193,7 @@ _DARKER, _LEAST_CONTRAST = 0.1, 1.0
 """Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
 keeps the usual one: edges cross a threshold of 0.25 four times."""
 _LUMA = np.array([0.2126, 0.7152, 0.0722])
-"""Of linear RGB, Rec. 709."""
+"""Luma weights of linear RGB, Rec. 709."""
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
@@ -226,7 +226,9 @@ class AnimatedEnvironment:
         return 1.0 - DEPTHS[self.wave] * (1.0 - level)
 
 
-def contrasting(place: Place, description: SceneDescription, actors: Sequence[Actor]) -> Place:
+def contrasting(
+    place: PlaceModel, description: SceneDescription, actors: Sequence[Actor]
+) -> PlaceModel:
     """The place, dark where it is an open backdrop too near in brightness to an object."""
     is_open = any(one.startswith(NO_PLACE) for one in description.notes)
     if not (is_open and place.is_backdrop and actors) or description.place.colour:
@@ -247,7 +249,7 @@ def contrasting(place: Place, description: SceneDescription, actors: Sequence[Ac
 def build_environment(
     description: SceneDescription,
     *,
-    place: Place,
+    place: PlaceModel,
     road: RoadLine,
     distance_m: float,
     room_m: float,
@@ -281,7 +283,7 @@ def build_environment(
         fog_distance=fog_distance,
         fog_colour=_array(fog_colour),
         exposure=lighting.exposure,
-        lamps=np.zeros((0, LAMP_COLUMNS)),
+        lamps=np.zeros(0, LAMP_RECORD),
         time_s=0.0,
         room_half_size=room_m if place.is_room else NO_ROOM_M,
         ground_surface=Texture.SNOW if is_white else place.surface,
@@ -293,7 +295,7 @@ def build_environment(
     return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
 
 
-def _ground_under(description: SceneDescription, place: Place) -> Ground:
+def _ground_under(description: SceneDescription, place: PlaceModel) -> Ground:
     """The ground; none under flat patterns before a backdrop."""
     nouns = {one.noun for one in description.objects}
     is_flat = bool(nouns) and nouns <= nouns_with("flat pattern")
@@ -301,7 +303,7 @@ def _ground_under(description: SceneDescription, place: Place) -> Ground:
     return Ground.NONE if is_flat and is_bare else place.ground
 
 
-def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[Colour, Colour]:
+def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Colour, Colour]:
     """Colours of the zenith and of the horizon: of a backdrop the same all around."""
     sky = rgb_of(said.sky)
     if sky is not None:
@@ -310,7 +312,7 @@ def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[
     return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
 
 
-def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting) -> float:
+def _cloud_share(description: SceneDescription, place: PlaceModel, lighting: Lighting) -> float:
     """Share of the sky that clouds cover."""
     said = description.place
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
@@ -319,7 +321,7 @@ def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting
     return max(least)
 
 
-def _ground_colours(place: Place, said: Surroundings) -> tuple[Colour, Colour]:
+def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
     """Both colours of the ground, under snow or painted as the scene says."""
     colour, second = place.colours
     if said.has_snow and place.ground in _SNOWED_OVER:
@@ -335,7 +337,7 @@ def _ground_colours(place: Place, said: Surroundings) -> tuple[Colour, Colour]:
 
 
 def _choose_fog(
-    place: Place, weather: str | None, horizon: Colour, distance_m: float
+    place: PlaceModel, weather: str | None, horizon: Colour, distance_m: float
 ) -> tuple[float, Colour]:
     """Sight to 37 %, m, and the colour that all fades into."""
     if place.ground is Ground.UNDERWATER:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.models.effects import LAMPS, Lamp, lamp_of
-from texvent.scenes.models.places import Place
+from texvent.scenes.models.effects import LAMPS, LampKind, lamp_of
+from texvent.scenes.models.places import PlaceModel
 from texvent.scenes.models.protocol import ModelPart, fraction
 from texvent.scenes.models.shapes import rotation
-from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
-from texvent.scenes.spec.scene import Lamp as SceneLamp
+from texvent.scenes.rendered_scene import LAMP_RECORD, Float64Array, Ground
+from texvent.scenes.spec.scene import Lamp
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
@@ -36,12 +38,13 @@ casts shadows; a lamp's light ends where it is the last."""
 _LONG = 3.0
 """A part longer than this many thicknesses, such as a tube, is no spot of light."""
 _MOST_CASTERS, _FAINTEST_SHARE = 3, 0.05
-"""How many cast shadows, as each costs time: none that lights the focus less than this share of
-what the best one does."""
+"""Number of lamps that cast shadows, as each costs time, and least light on the focus of one that
+does, as a share of the brightest one's."""
 _FARTHEST_M, _SCENE_LAMP_M = 120.0, 0.03
-"""How far a lamp's light goes at most, and radius of a lamp of the scene."""
+"""Farthest reach of a lamp's light, and radius of a lamp of the scene."""
+_NO_LAMPS = np.zeros(0, LAMP_RECORD)
 _LEVELS_S = np.linspace(0.0, 6.0, 24, endpoint=False)
-"""When a part is looked at to find its brightest state."""
+"""Instants at which the brightest state of a part is sought."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +58,12 @@ class LitActor:
     """As `SceneObject.blink_hz`."""
     strength: float
     """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
-    lamps: tuple[tuple[int, float, Lamp], ...]
+    lamps: tuple[tuple[int, float, LampKind], ...]
     """Index and greatest emission of each glowing part, and what kind of lamp it is."""
     casts: bool = False
     """Whether its lamps cast shadows."""
 
-    def is_on(self, lamp: Lamp) -> bool:
+    def is_on(self, lamp: LampKind) -> bool:
         """Whether a lamp is on."""
         if self.is_lit is not None:
             return self.is_lit
@@ -81,10 +84,10 @@ class LitActor:
             rates.append(rate if self.is_on(lamp) else 0.0)
         return max(rates)
 
-    def _blink_of(self, lamp: Lamp) -> float | None:
+    def _blink_of(self, lamp: LampKind) -> float | None:
         return lamp.blink_hz if self.blink_hz is None else self.blink_hz
 
-    def level(self, lamp: Lamp, time_s: float) -> float:
+    def level(self, lamp: LampKind, time_s: float) -> float:
         """Light of a lamp of the object at that instant, as a share of its usual light."""
         if not self.is_on(lamp):
             return 0.0
@@ -106,10 +109,10 @@ class LitActor:
                 parts[index] = replace(parts[index], emission=parts[index].emission * factor)
         return replace(placed, parts=parts)
 
-    def rows(self, time_s: float) -> list[Float64Array]:
-        """Its lamps at that instant, as in `Environment.lamps`: always as many."""
-        rows: list[Float64Array] = []
-        done: set[Lamp] = set()
+    def at(self, time_s: float) -> NDArray[Any]:
+        """[m] `LAMP_RECORD` at that instant: always as many."""
+        found = [_NO_LAMPS]
+        done: set[LampKind] = set()
         placed = self.actor.place(time_s)
         for index, brightest, lamp in self.lamps:
             if lamp in done or not self.is_on(lamp):
@@ -118,20 +121,19 @@ class LitActor:
                 done.add(lamp)
             part = placed.parts[index]
             level = self.level(lamp, time_s) * part.emission / brightest
-            rows.append(lamp_row(lamp, part, placed.to_world, level, time_s))
-            rows[-1][13] = float(self.casts and lamp.intensity >= _DIMMEST_CASTER)
-        return rows
+            found.append(part_lamp(lamp, part, placed.to_world, level, time_s))
+            found[-1]["casts"] = self.casts and lamp.intensity >= _DIMMEST_CASTER
+        return np.concatenate(found)
 
-    def steady_rows(self, time_s: float) -> Float64Array:
-        """[m, 15] its lamps where they are at that instant, as if they did not blink."""
-        steady = replace(self, blink_hz=0.0)
-        return np.array(steady.rows(time_s)).reshape(-1, LAMP_COLUMNS)
+    def steady_at(self, time_s: float) -> NDArray[Any]:
+        """[m] `LAMP_RECORD` at that instant, as if no lamp blinked."""
+        return replace(self, blink_hz=0.0).at(time_s)
 
 
-def lamp_row(
-    lamp: Lamp, part: ModelPart, to_world: Float64Array, level: float, time_s: float = 0.0
-) -> Float64Array:
-    """A lamp's numbers, as in `Environment.lamps`, without a shadow.
+def part_lamp(
+    lamp: LampKind, part: ModelPart, to_world: Float64Array, level: float, time_s: float = 0.0
+) -> NDArray[Any]:
+    """[1] `LAMP_RECORD` of a glowing part, without a shadow.
 
     The glowing part is in body coordinates; `level` is light as a share of its usual light, the
     instant turns beams that turn.
@@ -141,41 +143,41 @@ def lamp_row(
     half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
     is_long = half[2] > _LONG * half[1]
     radius = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
-    row, centre = point_lamp(np.zeros(3), light, reach, radius), part.to_body[:, 3].copy()
+    found, centre = point_lamp(np.zeros(3), light, reach, radius), part.to_body[:, 3].copy()
     if lamp.direction is not None:
         beam = np.array(lamp.direction) / np.linalg.norm(lamp.direction)
         angle = 2.0 * math.pi * lamp.turns_hz * time_s
         beam = rotation("z", angle) @ beam
         centre += beam * np.abs(beam @ part.to_body[:, :3]).max()
-        row[7:10] = to_world[:, :3] @ beam
-        row[7:10] /= np.linalg.norm(row[7:10])
+        beam = to_world[:, :3] @ beam
+        found["beam"] = beam / np.linalg.norm(beam)
         dark = math.radians(lamp.half_angle)
-        row[10] = math.cos(dark * (1.0 - lamp.soft_share))
-        row[11] = math.cos(dark)
-    row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
-    row[14] = float(lamp.glows and not lamp.is_panel and not is_long)
-    return row
+        found["full"] = math.cos(dark * (1.0 - lamp.soft_share))
+        found["dark"] = math.cos(dark)
+    found["place"] = to_world[:, :3] @ centre + to_world[:, 3]
+    found["glows"] = lamp.glows and not lamp.is_panel and not is_long
+    return found
 
 
-def scene_lamp_row(lamp: SceneLamp, time_s: float) -> Float64Array:
-    """A lamp at a position that the scene gives: its period is exactly 1 / frequency_hz."""
+def scene_lamp(lamp: Lamp, time_s: float) -> NDArray[Any]:
+    """[1] `LAMP_RECORD` at a position that the scene gives; its period is 1 / frequency_hz."""
     light = lamp.strength * np.array(rgb_of(lamp.colour or "#ffffff", "light"))
     reach = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
     level = wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
-    row = point_lamp(lamp.position_m, level * light, reach, _SCENE_LAMP_M)
-    row[13] = float(lamp.has_shadows)
-    return row
+    found = point_lamp(lamp.position_m, level * light, reach, _SCENE_LAMP_M)
+    found["casts"] = lamp.has_shadows
+    return found
 
 
 @dataclass(frozen=True)
 class LampPlan:
     """All lamps of a scene as functions of time."""
 
-    scene: tuple[SceneLamp, ...]
+    scene: tuple[Lamp, ...]
     """Lamps at positions that the scene gives; first, as four at most cast shadows."""
     lit: tuple[LitActor, ...]
-    still: Float64Array
-    """[m, 15] lamps of the scenery, and light whose lamp is out of sight."""
+    still: NDArray[Any]
+    """[m] `LAMP_RECORD`: lamps of the scenery, and light whose lamp is out of sight."""
 
     def place(self, actor: Actor, time_s: float) -> PlacedModel:
         """An object in the world, with its lamps as bright as they are at that instant."""
@@ -184,11 +186,10 @@ class LampPlan:
         lit = next(own, None)
         return placed if lit is None else lit.glow(placed, time_s)
 
-    def rows(self, time_s: float) -> Float64Array:
-        """[m, 15] all lamps at that instant."""
-        rows = [scene_lamp_row(one, time_s) for one in self.scene]
-        rows += [row for one in self.lit for row in one.rows(time_s)]
-        return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
+    def at(self, time_s: float) -> NDArray[Any]:
+        """[m] `LAMP_RECORD`: all lamps at that instant."""
+        own = (scene_lamp(one, time_s) for one in self.scene)
+        return np.concatenate([*own, *(one.at(time_s) for one in self.lit), self.still])
 
     @property
     def blink_hz(self) -> float | None:
@@ -202,7 +203,7 @@ def plan_lamps(
     description: SceneDescription,
     actors: Sequence[Actor],
     *,
-    place: Place,
+    place: PlaceModel,
     strength: float,
     instant_s: float,
     framing: Framing,
@@ -217,19 +218,18 @@ def plan_lamps(
     for one in actors:
         said, lamps = description.objects[one.object_index], _list_lamps(one)
         lit += [LitActor(one, said.is_lit, said.blink_hz, strength, lamps)] if lamps else []
-    rows = _still_lamps(items, strength)
+    still = _still_lamps(items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT
-    own = np.vstack([np.zeros((0, LAMP_COLUMNS)), *(one.steady_rows(0.0) for one in lit)])
-    is_lit = (own[:, 10] < -1.0) & (own[:, 3:6].max(axis=1, initial=0.0) >= _LIGHTS_A_ROOM)
-    if is_dark and not rows and not is_lit.any():
-        rows.append(hidden_lamp(focus, framing.distance_m, strength))
-    still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
+    own = np.concatenate([_NO_LAMPS, *(one.steady_at(0.0) for one in lit)])
+    is_lit = (own["full"] < -1.0) & (own["light"].max(axis=1, initial=0.0) >= _LIGHTS_A_ROOM)
+    if is_dark and not len(still) and not is_lit.any():
+        still = hidden_lamp(focus, framing.distance_m, strength)
     _choose_casters(lit, still, instant_s, focus)
     return LampPlan(description.light.lamps, tuple(lit), still)
 
 
-def _list_lamps(actor: Actor) -> tuple[tuple[int, float, Lamp], ...]:
+def _list_lamps(actor: Actor) -> tuple[tuple[int, float, LampKind], ...]:
     """Its lamps, with the greatest emission of each over a few seconds, where that changes."""
     kinds = LAMPS.get(actor.noun.name, ())
     times = _LEVELS_S if any(lamp.own_hz > 0.0 for lamp in kinds) else _LEVELS_S[:1]
@@ -241,23 +241,23 @@ def _list_lamps(actor: Actor) -> tuple[tuple[int, float, Lamp], ...]:
     return tuple(found)
 
 
-def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64Array]:
-    """Lamps of the scenery that are on."""
-    rows = []
+def _still_lamps(items: Sequence[SceneryItem], strength: float) -> NDArray[Any]:
+    """[m] `LAMP_RECORD`: lamps of the scenery that are on."""
+    found = [_NO_LAMPS]
     for item in items if strength > 0.0 else ():
         placed = item.place()
         for part in placed.parts:
             lamp = lamp_of(item.rule.noun, part.colour) if part.emission > 0.0 else None
             if lamp is not None and not lamp.hue:
-                rows.append(lamp_row(lamp, part, placed.to_world, strength))
-    return rows
+                found.append(part_lamp(lamp, part, placed.to_world, strength))
+    return np.concatenate(found)
 
 
 def _choose_casters(
-    lit: list[LitActor], still: Float64Array, instant_s: float, focus: Float64Array
+    lit: list[LitActor], still: NDArray[Any], instant_s: float, focus: Float64Array
 ) -> None:
     """Let the lamps that light the focus [3] most cast shadows, all of one object or none."""
-    choices = [(*_light_at(focus, one.steady_rows(instant_s)), n) for n, one in enumerate(lit)]
+    choices = [(*_light_at(focus, one.steady_at(instant_s)), n) for n, one in enumerate(lit)]
     choices += [(*_light_at(focus, still[k : k + 1]), len(lit) + k) for k in range(len(still))]
     left = _MOST_CASTERS
     least = _FAINTEST_SHARE * max((light for light, _, _ in choices), default=0.0)
@@ -268,11 +268,11 @@ def _choose_casters(
         if index < len(lit):
             lit[index] = replace(lit[index], casts=True)
         else:
-            still[index - len(lit), 13] = 1.0
+            still["casts"][index - len(lit)] = 1.0
 
 
-def _light_at(focus: Float64Array, rows: Float64Array) -> tuple[float, int]:
+def _light_at(focus: Float64Array, lamps: NDArray[Any]) -> tuple[float, int]:
     """Light of lamps at a point, and how many of them are bright enough to cast shadows."""
-    bright = rows[rows[:, 3:6].max(axis=1) >= _DIMMEST_CASTER]
-    square = ((bright[:, :3] - focus) ** 2).sum(axis=1)
-    return float((bright[:, 3:6].max(axis=1) / (square + 1.0)).sum()), len(bright)
+    bright = lamps[lamps["light"].max(axis=1) >= _DIMMEST_CASTER]
+    square = ((bright["place"] - focus) ** 2).sum(axis=1)
+    return float((bright["light"].max(axis=1) / (square + 1.0)).sum()), len(bright)

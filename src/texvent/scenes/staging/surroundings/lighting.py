@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from texvent.scenes.models.places import Place
-from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
+from texvent.scenes.models.places import PlaceModel
+from texvent.scenes.rendered_scene import LAMP_RECORD, Colour, Float64Array, Ground
 from texvent.scenes.spec.scene import Light
 
 _WARM: Colour = (1.0, 0.72, 0.40)
@@ -84,7 +85,7 @@ _DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
 _DARK = ("night", "moonlight", "lamp")
 
 
-def choose_lighting(place: Place, light: Light) -> Lighting:
+def choose_lighting(place: PlaceModel, light: Light) -> Lighting:
     """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
     kind = light.kind or "day"
     if place.light == "underwater":
@@ -97,8 +98,8 @@ def choose_lighting(place: Place, light: Light) -> Lighting:
     return replace(chosen, lamps=0.3 * chosen.lamps) if place.ground is Ground.SNOW else chosen
 
 
-def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> Float64Array:
-    """[15] a lamp out of sight, as in `Environment.lamps`, that lights the ground below it.
+def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> NDArray[Any]:
+    """[1] `LAMP_RECORD`: a lamp out of sight that lights the ground below it.
 
     It stands off the target [3] by shares of `reach_m`.
     """
@@ -107,12 +108,12 @@ def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> Float6
     return point_lamp(place, 1.1 * strength * height**2 * np.array(_WARM), 5.0 * height, 0.3)
 
 
-def point_lamp(place: ArrayLike, light: ArrayLike, reach_m: float, radius_m: float) -> Float64Array:
-    """[15] a lamp that shines to all sides, as in `Environment.lamps`, without shadows or glow."""
-    row = np.zeros(LAMP_COLUMNS)
-    row[:3], row[3:6], row[6] = place, light, reach_m
-    row[10:12], row[12] = -2.0, radius_m
-    return row
+def point_lamp(place: ArrayLike, light: ArrayLike, reach_m: float, radius_m: float) -> NDArray[Any]:
+    """[1] `LAMP_RECORD`: a lamp that shines to all sides, without shadows or glow."""
+    lamp = np.zeros(1, LAMP_RECORD)
+    lamp["place"], lamp["light"], lamp["reach"] = place, light, reach_m
+    lamp["full"], lamp["dark"], lamp["radius"] = -2.0, -2.0, radius_m
+    return lamp
 
 
 ON_SHARES = {"square": 0.5, "switch": 0.5, "strobe": 0.35}

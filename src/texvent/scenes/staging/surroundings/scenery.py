@@ -16,7 +16,7 @@ import numpy as np
 from texvent.scenes.models.places import Scenery
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.tables import nouns_with, trait_value
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
 from texvent.scenes.staging.surroundings.environment import RoadLine
@@ -25,21 +25,21 @@ from texvent.scenes.staging.trajectories.trajectory import BodyState
 _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""
 _FAR_SHORE_M = 100.0
-"""What stands further away than that may stand beyond the water."""
+"""Distance from which on scenery may stand beyond the water."""
 _USUAL_DISTANCE_M = 16.0
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
 """Along a route: usually from one to the next, and least and most from the free strip."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
-"""How far before its beginning scenery starts, and how many pieces there are at most."""
+"""Start of scenery before a route's beginning, and greatest number of pieces."""
 
 
 @dataclass(frozen=True)
 class ViewClearance:
-    """What scenery must keep clear of."""
+    """Space that scenery must keep clear."""
 
-    cameras: Sequence[Camera]
+    cameras: Sequence[PosedCamera]
     """The camera at some instants."""
     points: Sequence[Float64Array]
     """[n, 3] what it must see at those instants, m."""
@@ -63,7 +63,7 @@ class SceneryItem:
     position: tuple[float, float]
     yaw: float
     height_m: float = 0.0
-    """Of its origin, m."""
+    """Height of its origin, m."""
 
     @property
     def is_flat(self) -> bool:
@@ -72,7 +72,7 @@ class SceneryItem:
 
     @property
     def radius_m(self) -> float:
-        """Of the ground it stands on."""
+        """Radius of the ground it stands on."""
         return 0.5 * max(self.model.length, self.model.width)
 
     def place(self) -> PlacedModel:
@@ -201,7 +201,7 @@ class _Scatterer:
         spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
         self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
 
-    def _stand_around(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:
+    def _stand_around(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem:
         """Somewhere in what the camera sees, as far off as the rule says."""
         share = float(self._rng.uniform(-0.62, 0.62))
         reach = self._draw_reach(rule, camera)
@@ -214,7 +214,7 @@ class _Scatterer:
             yaw = self._turn(rule, self._view.road.angle - 0.5 * math.pi)
         return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
-    def _draw_reach(self, rule: Scenery, camera: Camera) -> float:
+    def _draw_reach(self, rule: Scenery, camera: PosedCamera) -> float:
         """Metres from the camera."""
         near, far = rule.reach
         if rule.where == "far":
@@ -223,7 +223,7 @@ class _Scatterer:
         flat = self._view.distance_m * math.cos(pitch)
         return flat * (1.0 + float(self._rng.uniform(near, far)))
 
-    def _stand_at_wall(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:
+    def _stand_at_wall(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem:
         """Somewhere along a wall that the camera sees, with its back to it."""
         forward, room = camera.rotation[2, :2], self._view.room_m
         shares = np.abs(forward) / max(float(np.abs(forward).sum()), 1e-9)
@@ -257,7 +257,7 @@ class _Scatterer:
         return not _hides(spot, radius, deep, view)
 
 
-def _axes(camera: Camera) -> tuple[Float64Array, Float64Array]:
+def _axes(camera: PosedCamera) -> tuple[Float64Array, Float64Array]:
     """[2] which way a camera looks over the ground, and [2] to its right."""
     forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
     forward = forward / max(float(np.hypot(*forward)), 1e-9)

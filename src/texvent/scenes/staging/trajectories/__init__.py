@@ -1,1 +1,1 @@
-"""Where things are at each instant: trajectories as pure functions of time."""
+"""Trajectories: positions as pure functions of time."""

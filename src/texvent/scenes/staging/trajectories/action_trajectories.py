@@ -94,7 +94,7 @@ class Flight:
     """Free flight between bounces, until the energy is spent; then it lies or rolls on."""
 
     start: BodyState
-    """Where and how it is let go; it turns about its pivot."""
+    """State at release; it turns about its pivot."""
     velocity_m_s: Vector = (0.0, 0.0, 0.0)
     floor_m: float = 0.0
     """Height of its origin where it bounces."""

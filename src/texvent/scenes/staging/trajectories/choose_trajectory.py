@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS
+from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
@@ -33,14 +33,14 @@ from texvent.scenes.staging.trajectories.trajectory import (
     ahead,
 )
 
-_STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
-"""What bodies without hands do in their place."""
+_STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
+"""Activities in place of bodies without hands."""
 ORBIT_SIZES = 1.3
 """Radius of a circle around nothing, in sizes of who goes along it."""
 _BOB_HZ, _WEAVE_HZ, _WEAVE_RAD, _SWAY_RAD = 0.4, 0.68, 0.08, 0.14
 """Up and down of what flies or floats, swaying of a fish about its heading, of what leans."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
-"""Who goes up and down a street on the ground goes to and fro."""
+"""Ground motions for which "up and down" means back and forth."""
 
 
 def choose_trajectory(
@@ -123,7 +123,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
 
 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    """What goes neither far nor high."""
+    """Trajectory of a motion in place."""
     kind, pace = plan.motion.kind, plan.motion.pace
     is_clockwise = plan.motion.direction in ("right", "clockwise")
     if kind == "spin":
@@ -135,9 +135,9 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "sway":
         lean = Wave("roll", _SWAY_RAD, plan.motion.rate_hz or 0.5 * pace)
         return Oscillating(Stationary(home, plan.yaw), (lean,))
-    way = -1.0 if plan.motion.direction == "clockwise" else 1.0
+    sign = -1.0 if plan.motion.direction == "clockwise" else 1.0
     activity = kind if kind in _STAYING else "move"
-    return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))
+    return Stationary(home, plan.yaw, activity, sign * pace, sign * _gain(plan))
 
 
 def _spin(

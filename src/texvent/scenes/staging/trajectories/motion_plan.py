@@ -1,4 +1,4 @@
-"""What the motion of an object comes to: heading, speed, gesture and the room it takes."""
+"""Plan of an object's motion: heading, speed, gesture and the room it takes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ second is for what slides: a board, a mirror."""
 
 @dataclass(frozen=True)
 class MotionPlan:
-    """What an object's motion comes to: heading, speed, and how much room it takes."""
+    """Heading, speed and room of an object's motion."""
 
     motion: Motion
     yaw: float
@@ -54,9 +54,9 @@ class MotionPlan:
     path: SteeredPath | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
-    """What a person or a hand does in its place: a name of `people.activities`."""
+    """Activity of a person or a hand in place: a name of `people.activities`."""
     radius_m: float = 0.0
-    """Of what rolls over and over; 0 = it goes on wheels or feet."""
+    """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: Axis = "yaw"
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
@@ -118,7 +118,7 @@ def plan_motion(
 
 
 def _as_it_does(noun: Noun, motion: Motion) -> Motion:
-    """What rotates spins, but for a hand at its wrist; what stands on a small foot falls over."""
+    """Motion kind that suits a noun: only hands rotate, other nouns spin; narrow ones topple."""
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
     is_falling_over = motion.kind == "fall" and noun.name in nouns_with("falls over")

@@ -1,4 +1,4 @@
-"""What an object does one after the other: when, and as the pieces of one continuous path."""
+"""Phases of an object's motion: their times, and the pieces of one continuous path."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Phase:
 
 
 def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
-    """When each motion happens: where the prompt says so, else in even shares of the time.
+    """Times of motions: those that the prompt says, else even shares of the clip.
 
     Motions that would begin at the end of the clip or later are left out.
     """
@@ -138,7 +138,7 @@ def build_path(
     """
     phases = schedule(motions, duration_s)
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
-    builder = _Builder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
+    builder = _TrajectoryBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
     path = SteeredPath(
@@ -168,7 +168,7 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
     return min(needed, MOST_HASTE * usual_m_s)
 
 
-class _Builder:
+class _TrajectoryBuilder:
     """Collects pieces; knows the heading and height at the end of the last one."""
 
     def __init__(
@@ -342,7 +342,7 @@ class _Builder:
 
 
 def activity_of(kind: str) -> str:
-    """What a body does that travels so."""
+    """Activity of the body in a travelling motion."""
     if kind in TRAVELLING or kind == "fly":
         return kind
     return "stand" if kind == "slide" else "move"

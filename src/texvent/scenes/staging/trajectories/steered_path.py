@@ -36,7 +36,7 @@ class Piece:
     """Rate of the heading at its end; positive = to the left."""
     climb_m_s: float = 0.0
     ramp_s: float = 0.3
-    """How long the change to these values takes; at most the whole piece."""
+    """Duration of the change to these values; at most the whole piece."""
     activity: str = "move"
     hop_m: float = 0.0
     """Height of hops; 0 = none."""
@@ -67,7 +67,7 @@ class SteeredPath:
     """Goes along its pieces; before the first it moves straight, after the last it goes on."""
 
     start: Vector
-    """Where it is at t = 0, m."""
+    """Position at t = 0, m."""
     yaw: float
     pieces: tuple[Piece, ...]
     initial_speed_m_s: float = 0.0
@@ -128,7 +128,7 @@ class SteeredPath:
         """Values that long after the beginning of a piece."""
         ramp = min(piece.ramp_s, piece.duration_s)
         pairs = list(zip(knot.rates, piece.rates, strict=True))
-        way, turned, risen, _ = (_integral(*pair, ramp, elapsed) for pair in pairs)
+        travelled, turned, risen, _ = (_integral(*pair, ramp, elapsed) for pair in pairs)
         speed, turn, climb, pitch = (_blend(*pair, ramp, elapsed) for pair in pairs)
         x, y = _travel(knot, piece, ramp, elapsed)
         z = knot.place[2] + risen
@@ -137,7 +137,7 @@ class SteeredPath:
             z = self.floor_m + bounce_height(drop, 0.0, _RESTITUTION, max(elapsed, 0.0))
         return _Knot(
             knot.time_s + elapsed, (x, y, max(z, self.floor_m)), knot.heading + turned,
-            knot.distance_m + way, (speed, turn, climb, pitch),
+            knot.distance_m + travelled, (speed, turn, climb, pitch),
         )  # fmt: skip
 
 
@@ -170,8 +170,8 @@ def _travel(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[flo
     """X and y that long after the beginning of a piece, m."""
     (x, y, _), heading, (speed, turn, *_) = knot.place, knot.heading, knot.rates
     if elapsed < 0.0 or turn == 0.0 == piece.turn_rad_s:
-        way = _integral(speed, piece.speed_m_s, ramp, elapsed)
-        return x + way * math.cos(heading), y + way * math.sin(heading)
+        travelled = _integral(speed, piece.speed_m_s, ramp, elapsed)
+        return x + travelled * math.cos(heading), y + travelled * math.sin(heading)
     edges = [0.0, min(elapsed, ramp), elapsed]
     most = max(abs(turn), abs(piece.turn_rad_s))
     for begin, end in pairwise(edges):
@@ -192,7 +192,7 @@ HOP_PAUSE_S = 0.12
 
 
 def flight_s(height_m: float) -> float:
-    """How long a hop of that height takes, s."""
+    """Duration of a hop of that height, s."""
     return 2.0 * math.sqrt(2.0 * height_m / GRAVITY_M_S2)
 
 

@@ -1,4 +1,4 @@
-"""Where an object is at each instant: trajectories as pure functions of time.
+"""Trajectories of objects: pure functions of time.
 
 Angles are radians, positions metres in world coordinates (x right, y away, z up), times seconds.
 Every trajectory is continuous, and `distance_m` never falls, so that wheels and legs turn with
@@ -16,7 +16,7 @@ import numpy as np
 
 from texvent.scenes.models.shapes import compose, point, shift
 from texvent.scenes.models.shapes import rotation as about
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 
 Vector = tuple[float, float, float]
 TO_CAMERA = -0.5 * math.pi
@@ -47,7 +47,7 @@ class BodyState:
     grips: tuple[tuple[str, Vector], ...] = ()
     """`Pose.grips`."""
     tempo: float = 1.0
-    """How fast its gestures are, as a multiple of their usual rate."""
+    """Rate of its gestures, as a multiple of their usual rate."""
 
     def to_world(self) -> Float64Array:
         """[3, 4] map from body to world coordinates."""
@@ -138,9 +138,9 @@ class Shuttle:
         """State at that instant."""
         rate = 2.0 * math.pi / self.period_s
         offset = self.amplitude_m * math.sin(rate * time_s)
-        # The way covered is the integral of |cos|.
+        # The distance covered is the integral of |cos|.
         halves = math.floor(rate * time_s / math.pi + 0.5)
-        way = 2.0 * self.amplitude_m * halves + (offset if halves % 2 == 0 else -offset)
+        covered_m = 2.0 * self.amplitude_m * halves + (offset if halves % 2 == 0 else -offset)
         along, up = (0.0, offset) if self.vertical else (offset, 0.0)
         turned = 0.0
         if self.activity in ("walk", "run") and not self.vertical:
@@ -149,7 +149,7 @@ class Shuttle:
         return BodyState(
             ahead(self.home, self.yaw, along, self.home[2] + up),
             self.yaw + turned,
-            distance_m=way,
+            distance_m=covered_m,
             speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),
             activity=self.activity,
         )

@@ -1,4 +1,4 @@
-"""What a scene hands to the renderer: shapes, a camera and surroundings at one instant.
+"""Scene as the renderer takes it: shapes, a camera and surroundings at one instant.
 
 World: metres, right-handed, x right (east), y away from the viewer (north), z up; the ground is
 z = 0. Colours are linear-light RGB, 1.0 = a white surface in full daylight. Time is in seconds
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,7 @@ class Shape(IntEnum):
 
 
 class Texture(IntEnum):
-    """How a surface's colour varies over it, in its own coordinates (so it moves with it)."""
+    """Variation of colour over a surface, in its own coordinates (so it moves with it)."""
 
     PLAIN = 0
     MOTTLED = 1
@@ -123,7 +123,7 @@ class Primitives:
 
 
 @dataclass(frozen=True)
-class Camera:
+class PosedCamera:
     """A camera at one instant: a pinhole, or one with a calibrated lens."""
 
     position: Float64Array
@@ -137,7 +137,7 @@ class Camera:
 
 
 class Ground(IntEnum):
-    """What z = 0 is made of."""
+    """Material of the plane z = 0."""
 
     PLAIN = 0
     GRASS = 1
@@ -162,15 +162,33 @@ class Ground(IntEnum):
     """Water to the left of the road's line, grass to its right."""
 
 
-LAMP_COLUMNS = 15
-"""Numbers of a lamp: position (3, metres), linear RGB that falls on a surface facing it at 1 m (3),
-reach (metres), direction of its beam (3, unit vector), cosines of the angles from the beam's middle
-at which it begins to fade and has faded (2; -2 and -2: it shines to all sides), radius (metres),
-whether it casts shadows (0 or 1; at most four lamps do), whether it is seen as a glow (0 or 1)."""
-PUFF_COLUMNS = 19
-"""Numbers of a puff: unit sphere → world ([3, 4], row by row), linear RGB (3), optical depth
-through its middle, light that it gives off as a multiple of its colour, how much finer detail
-modulates it (0..1), and a number that tells its detail from that of others."""
+LAMP_RECORD = np.dtype(
+    [
+        ("place", "f8", 3),  # metres
+        ("light", "f8", 3),  # linear RGB on a surface that faces the lamp at 1 m
+        ("reach", "f8"),  # metres
+        ("beam", "f8", 3),  # direction of its beam, unit vector
+        # Cosines of the angles from the beam's middle at which it begins to fade and has faded; -2
+        # and -2: it shines to all sides.
+        ("full", "f8"),
+        ("dark", "f8"),
+        ("radius", "f8"),  # metres
+        ("casts", "f8"),  # 1 = it casts shadows; at most four lamps do
+        ("glows", "f8"),  # 1 = the camera sees it as a glow
+    ]
+)
+"""One lamp."""
+MEDIUM_RECORD = np.dtype(
+    [
+        ("to_world", "f8", (3, 4)),  # unit sphere → world
+        ("colour", "f8", 3),  # linear RGB
+        ("optical_depth", "f8"),  # through its middle
+        ("emission", "f8"),  # light given off, as a multiple of the colour
+        ("detail", "f8"),  # share of the density that finer structure modulates, 0..1
+        ("seed", "f8"),  # of that structure
+    ]
+)
+"""One participating medium: a translucent ellipsoid of smoke, steam, mist or flame."""
 
 
 @dataclass(frozen=True)
@@ -208,8 +226,8 @@ class Environment:
     """[3] linear RGB."""
     exposure: float
     """Multiplies linear light before gamma coding."""
-    lamps: Float64Array
-    """[m, 15] lamps; see `LAMP_COLUMNS`."""
+    lamps: NDArray[Any]
+    """[m] `LAMP_RECORD`."""
     time_s: float
     """For waves, clouds and grass."""
     room_half_size: float = 9.0
@@ -221,10 +239,10 @@ class Environment:
     """Material of the ground; None = the usual one of `ground`."""
     wall_surface: Texture = Texture.PLASTER
     """Material of a room's walls."""
-    puffs: Float64Array = field(default_factory=lambda: np.zeros((0, PUFF_COLUMNS)))
-    """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
+    media: NDArray[Any] = field(default_factory=lambda: np.zeros(0, MEDIUM_RECORD))
+    """[k] `MEDIUM_RECORD`: participating media."""
     wave_height: float = 1.0
-    """Of waves on water, as a multiple of what a light breeze makes; above 1 their crests foam."""
+    """Height of waves on water, 1 = those of a light breeze; above 1 their crests foam."""
     has_stars: bool = True
     """Whether a dark sky has stars."""
     wall_colour: Colour = (0.75, 0.69, 0.61)
@@ -233,14 +251,14 @@ class Environment:
     """Whether light above white is kept; else it is compressed, so that none is brighter."""
 
 
-class Scene(Protocol):
+class RenderedScene(Protocol):
     """A scene as a continuous function of time."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant; same length and order at every instant."""
         ...
 
-    def camera(self, time_s: float) -> Camera:
+    def camera(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
         ...
 
@@ -287,7 +305,7 @@ class Rays(NamedTuple):
     """[3] change of direction per pixel downwards."""
 
 
-def camera_rays(camera: Camera, size: SensorSize) -> Rays:
+def camera_rays(camera: PosedCamera, size: SensorSize) -> Rays:
     """The rays of a camera whose image has `size` pixels; without its distortion."""
     right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
     lens = camera.lens
@@ -301,8 +319,8 @@ def camera_rays(camera: Camera, size: SensorSize) -> Rays:
     return Rays(np.array(camera.position, dtype=np.float64), corner, right, down)
 
 
-def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
-    """Where world points appear.
+def project(camera: PosedCamera, size: SensorSize, points: Float64Array) -> Float64Array:
+    """Image points of world points.
 
     Args:
         camera: the camera.
@@ -317,7 +335,7 @@ def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Ar
     return place_in_image(camera, size, (points - camera.position) @ camera.rotation.T)
 
 
-def place_in_image(camera: Camera, size: SensorSize, seen: Float64Array) -> Float64Array:
+def place_in_image(camera: PosedCamera, size: SensorSize, seen: Float64Array) -> Float64Array:
     """As `project`, for points [..., 3] along the camera's own axes, m."""
     depth = seen[..., 2]
     lens = camera.lens

@@ -1,93 +1,41 @@
-"""A scene drawn at one instant after another: only tiles that can differ are drawn again.
+"""Tiles of the image that can differ between two instants of a scene.
 
 A shape that differs reaches the tiles that it covers, and those of the sun's shadow. Where the
-camera, lamps, smoke or surroundings differ, all tiles are drawn.
+camera, lamps, media or surroundings differ, all tiles can.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bounds
-from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.records import INSTANT_RECORD, World
-from texvent.scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
+from texvent.scenes.raycast.render import Drawn
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent.scenes.raycast.vectors import NO_DISTORTION
-from texvent.scenes.scene import Float32Array, Float64Array, Ground, Primitives, Rays, Scene
+from texvent.scenes.rendered_scene import Float64Array, Ground, Primitives, Rays
 from texvent.sensor import SensorSize
-from texvent.transfer import encode_srgb
 
 Mask = NDArray[np.bool_]
-MOST_CHANGED = 0.9
-"""Above this share of tiles all are drawn."""
 BIAS_M = 2.0 * SHADOW_BIAS_M
-"""How far beside a surface its shadow rays may begin, with room for rounding, m."""
+"""Distance from a surface at which its shadow rays may begin, with room for rounding, m."""
 LOWEST_SUN = 1e-3
 """Below this sine of the sun's height its shadows are longer than the world."""
 _FLOWING = (Ground.SEA, Ground.UNDERWATER, Ground.RIVER, Ground.LAKE)
 """Grounds that change with time."""
 _ELSEWHERE = {
-    "lamp_cells", "puff_tiles", "shapes", "lists", "nodes", "triangles", "images", "texels",
-    "lamps", "puffs", "glows", "sun_grid", "sun_cells", "time", "crossings",
+    "lamp_cells", "medium_tiles", "shapes", "lists", "nodes", "triangles", "images", "texels",
+    "lamps", "media", "glows", "sun_grid", "sun_cells", "time", "crossings",
 }  # fmt: skip
-"""Fields of the instant that are addresses, or that are looked at by themselves."""
+"""Fields of the instant that are addresses, or that are compared on their own."""
 _FIELDS = [name for name in INSTANT_RECORD.names or () if name not in _ELSEWHERE]
 
 
-class FrameMemory:
-    """Draws a scene as `render` does, to the last bit, and remembers the last frame.
-
-    Several threads may use it: each call reads the last frame once and replaces it whole.
-
-    Args:
-        scene: what is drawn.
-        size: of the frames, pixels.
-        samples: as for `render`.
-        shadows: as for `render`.
-        code: makes levels of light (1 is white).
-    """
-
-    def __init__(
-        self,
-        scene: Scene,
-        size: SensorSize,
-        *,
-        samples: int,
-        shadows: bool,
-        code: Callable[[Float64Array], Float32Array] = encode_srgb,
-    ) -> None:
-        self._scene, self._size, self._code = scene, size, code
-        self._samples, self._shadows = samples, shadows
-        self._last: tuple[Drawn, Float32Array, Codes] | None = None
-
-    def render(self, time_s: float) -> tuple[Float32Array, Codes]:
-        """The frame at an instant, [H, W, 3], coded; and its codes, as of `render_rows`."""
-        size, samples = self._size, self._samples
-        drawn = world_and_shapes(self._scene, time_s, size, shadows=self._shadows, samples=samples)
-        last = self._last
-        tiles = None if last is None else changed_tiles(last[0], drawn)
-        wanted: Mask = np.ones(size.shape, dtype=np.bool_)
-        codes, pixels = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
-        if last is not None and tiles is not None and tiles.mean() <= MOST_CHANGED:
-            wanted = tiles.repeat(TILE, axis=0).repeat(TILE, axis=1)[: size.height, : size.width]
-            codes, pixels = np.where(wanted, UNKNOWN, last[2]), last[1].copy()
-        light = light_of_rows(
-            drawn.world, (0, size.height), size, samples=samples, wanted=wanted, codes=codes
-        )
-        pixels[wanted] = self._code(light[wanted])
-        kept = pixels.copy()
-        kept.flags.writeable = False
-        self._last = drawn, kept, codes
-        return pixels, codes
-
-
 def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:
-    """Which tiles of the image may differ.
+    """Tiles of the image that can differ.
 
     Args:
         before: one instant of a scene, with the same size, samples and shadows as the other.
@@ -122,7 +70,7 @@ def _is_comparable(before: World, after: World) -> bool:
         and all(np.array_equal(first[name], second[name]) for name in _FIELDS)
         and np.array_equal(first["crossings"][:count], second["crossings"][:count])
         and np.array_equal(before.lamps, after.lamps)
-        and np.array_equal(before.puffs, after.puffs)
+        and np.array_equal(before.media, after.media)
         and np.array_equal(before.glows, after.glows)
     )
 
@@ -178,7 +126,7 @@ def _sky_tiles(instant: Any) -> Mask:
 def _shadow_windows(
     before: Drawn, after: Drawn, chosen: NDArray[np.int64]
 ) -> list[Float64Array] | None:
-    """Where in the image the sun's shadows of some shapes may be seen, [k, 4] each, pixels.
+    """Screen bounds of the sun's shadows of some shapes, [k, 4] each, pixels.
 
     None: anywhere.
     """
@@ -207,7 +155,7 @@ def _big_casters(world: World) -> NDArray[np.int32]:
 def _windows_on_ground(
     instant: Any, shapes: NDArray[Any], chosen: NDArray[np.int64]
 ) -> Float64Array | None:
-    """Where in the image the sun's shadows of some shapes may lie on the ground: [k, 4], pixels.
+    """Screen bounds of the sun's shadows of some shapes on the ground: [k, 4], pixels.
 
     None: anywhere, as the sun is low.
     """
@@ -230,7 +178,7 @@ def _windows_on_ground(
 
 
 def _sunlit_behind(shapes: NDArray[Any], primitives: Primitives, chosen: NDArray[np.int64]) -> Mask:
-    """[n] which shapes some shapes may shade from the sun.
+    """[n] whether some other shapes may shade each shape from the sun.
 
     Shadow rays of a mesh begin where it would be smooth (`trace.shadow_point`), which is at most
     its own size outside.

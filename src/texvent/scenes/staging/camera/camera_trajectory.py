@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
@@ -23,14 +23,14 @@ ORBIT_RAD = 1.0
 ZOOM, DOLLY = 1.7, 1.6
 """Focal length at the near end over the far end; distance at the far end over the near end."""
 TRUCK_WIDTHS, PEDESTAL_WIDTHS = 0.4, 0.3
-"""Ways aside and up, in widths of the picture at the subject."""
+"""Displacements aside and up, in widths of the picture at the subject."""
 SHAKE_RAD = 0.015
 ALL_AXES = "all axes"
 """Direction of a handheld camera that moves in all six degrees of freedom."""
 ROAM_SHARE, ROAM_WIDTHS = 4.0, 0.08
-"""How much further than one that is held still that one turns, and how far it goes aside."""
+"""Turns of that camera relative to those of one that is held still, and its excursion aside."""
 _ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
-"""Angular frequencies of its way aside, along and up."""
+"""Angular frequencies of its displacement aside, along and up."""
 _HIGH_WIDTHS = 1.3
 """Width of the picture of a camera that travels, in heights above the ground."""
 LOWEST_M = 0.25
@@ -67,7 +67,7 @@ class MoveChannels:
         return sum(self._reach(move, time_s) for move in self.moves if move.kind == kind)
 
     def _reach(self, move: CameraMove, time_s: float) -> float:
-        """How far one move has gone, in usual amounts."""
+        """Progress of one move, in usual amounts."""
         span = self._duration_s / self._phases
         amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace
         amount *= -1.0 if move.direction in _NEGATIVE else 1.0
@@ -86,10 +86,10 @@ class Journey:
     """A camera that travels: ego-motion along a route."""
 
     route: SteeredPath
-    """Where it is and heads, on the ground."""
+    """Position and heading on the ground."""
     height_m: float
     pitch_rad: float
-    """Below the horizon."""
+    """Pitch below the horizon."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Tie:
     """The motion that a camera which follows or orbits its subject shares with it."""
 
     trajectory: Trajectory
-    """Of the subject."""
+    """Trajectory of the subject."""
     rises: bool = True
     """Whether it also rises and falls with it."""
 
@@ -109,25 +109,25 @@ class Tie:
             return None
         return cls(subject.trajectory, subject.noun.habitat != "ground")
 
-    def way(self, time_s: float) -> Float64Array:
+    def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
         now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
         return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
         """Points [n, 3], m, as the camera sees them, at the place of the start."""
-        return np.asarray(points - self.way(time_s))
+        return np.asarray(points - self.displacement(time_s))
 
 
 @dataclass(frozen=True)
-class CameraPath:
+class CameraTrajectory:
     """Camera moves over a clip; a pure, smooth function of time."""
 
     framing: Framing
     moves: tuple[CameraMove, ...]
     duration_s: float
     tie: Tie | None = None
-    """To what a "follow" or "orbit" keeps in place in the image."""
+    """Tie to the object that a "follow" or "orbit" keeps in place in the image."""
     has_floor: bool = True
     """Whether there is ground to stay above."""
     room_m: float = math.inf
@@ -144,7 +144,7 @@ class CameraPath:
         """Pace of a camera that moves in all six degrees of freedom; 0 = it does not."""
         return sum(move.pace for move in self.moves if move.direction == ALL_AXES)
 
-    def at(self, time_s: float) -> Camera:
+    def at(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
         if self.journey is not None:
             start, target, roll = _ride(self.journey, time_s)
@@ -168,7 +168,7 @@ class CameraPath:
         distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
         target = framing.target
         if self.tie is not None:
-            target = target + self.tie.way(time_s)
+            target = target + self.tie.displacement(time_s)
         return target + distance * direction(azimuth, framing.elevation), target
 
     def _slide(self, time_s: float, width_m: float) -> Float64Array:
@@ -200,7 +200,7 @@ class CameraPath:
         slant = ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
         return slant + ROLL_RAD * self._channels.centred("roll", time_s)
 
-    def in_room(self, points: Float64Array, times: Float64Array) -> CameraPath:
+    def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrajectory:
         """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
         places = np.array([self.at(float(time)).position for time in times])
         reach = float(np.max(np.abs(places[:, :2])))
@@ -228,14 +228,14 @@ def _ride(journey: Journey, time_s: float) -> tuple[Float64Array, Float64Array, 
     return position, position - direction(state.yaw - 0.5 * math.pi, journey.pitch_rad), -state.roll
 
 
-def _rolled(camera: Camera, angle: float) -> Camera:
+def _rolled(camera: PosedCamera, angle: float) -> PosedCamera:
     """The camera turned about its optical axis; positive = clockwise seen from behind it."""
     if angle == 0.0:
         return camera
     cosine, sine = math.cos(angle), math.sin(angle)
     right, down, forward = camera.rotation
     axes = np.stack([cosine * right + sine * down, cosine * down - sine * right, forward])
-    return Camera(camera.position, axes, camera.focal)
+    return PosedCamera(camera.position, axes, camera.focal)
 
 
 def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:

@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.models.shapes import bounds, moved, point, shift
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.holding import (
+from texvent.scenes.staging.interactions.holding import (
     held_at,
     is_person,
     moving,
@@ -39,7 +39,7 @@ _FLIGHT_M = 2.4
 _LOFT = {"kick": 0.45, "throw": 0.35}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _TURN_ROUND_S = 0.08
-"""How long the speed takes to change at the contact."""
+"""Duration of the change of speed at the contact."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _LENGTHS = (1.0, 2.0)
@@ -50,7 +50,7 @@ rad."""
 
 
 def contact_time(duration_s: float, share: float = 0.45) -> float:
-    """When the bodies meet, s."""
+    """Time of the contact of the bodies, s."""
     return min(max(share * duration_s, 0.3), 1.1)
 
 
@@ -141,7 +141,7 @@ def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple
 
 
 def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vector:
-    """Where a body's origin is when it meets another's middle along a heading at a height, m."""
+    """Origin of a body at its contact with another's middle, along a heading at a height, m."""
     frame = rotation(-yaw, 0.0, 0.0)
     parts = still.own_parts(still.pose(0.0))
     parts = moved(parts, frame @ still.trajectory.at(0.0).to_world())

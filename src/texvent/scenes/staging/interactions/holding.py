@@ -15,7 +15,7 @@ from texvent.scenes.models.people.outfit import CLOTHES, list_props
 from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.tables import nouns_with, trait_value
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.trajectories.trajectory import (
     Attached,
@@ -30,7 +30,7 @@ Grips = tuple[tuple[str, Vector], ...]
 _STYLES = ("held as a tool", "held upright", "held up high", "held hanging")
 """Traits that say how a noun is held."""
 _LARGE_M = 0.36
-"""What is larger is held in both arms."""
+"""Size above which a thing is held in both arms."""
 _RAISED: Vector = (0.30, -0.24, 1.16)
 """Right hand of who holds something up, adult's body coordinates, m."""
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
@@ -39,14 +39,14 @@ _GRIPS = {"held as a tool": _RAISED, "held upright": _RAISED, "held up high": _U
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run"})
 """Activities that leave the hands to what they hold."""
 _STRETCH = 0.60
-"""From the shoulder to the palm of an arm that is nearly straight, m."""
+"""Distance from shoulder to palm of an arm that is nearly straight, m."""
 
 _SEAT_M = 0.42
 """Height of the hips over the origin of who sits, for an adult, m."""
 
 
 class Hold(NamedTuple):
-    """How a thing is fixed to a body."""
+    """Attachment of a thing to a body."""
 
     anchor: str
     """Place of the holder."""
@@ -55,7 +55,7 @@ class Hold(NamedTuple):
     is_upright: bool = True
     """Whether the thing stays upright."""
     grips: Grips = ()
-    """Where hands are, in the holder's body coordinates, m."""
+    """Places of hands, in the holder's body coordinates, m."""
 
 
 def hides_riders(noun: Noun) -> bool:
@@ -99,10 +99,10 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     doing = subject.trajectory.at(0.0).activity
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
-    way = place_in_hold(next(named, by_size), subject, target)
+    hold = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
-        subject = replace(subject, trajectory=Performed(subject.trajectory, None, way.grips))
-    held = held_at(subject, way.anchor, way.offset, is_upright=way.is_upright)
+        subject = replace(subject, trajectory=Performed(subject.trajectory, None, hold.grips))
+    held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
 
 
@@ -123,7 +123,7 @@ def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
 
 
 def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
-    """Where a thing is that is held in one way or the other, and where the hands are."""
+    """Place of a thing that is held in a style, and places of the hands."""
     model, size = thing.model, size_of(holder.model)
     if style == "in both arms" and holder.trajectory.at(0.0).activity in _HANDS_FREE:
         return _in_both_arms(thing, size)
@@ -201,7 +201,7 @@ def board(subject: Actor, ridden: Actor) -> tuple[Actor | None, Actor]:
 
 
 def style_of(ridden: Actor) -> str:
-    """How something is ridden; most is sat on."""
+    """Style in which something is ridden; most is sat on."""
     return trait_value("ridden", ridden.noun.name) or "sat on"
 
 

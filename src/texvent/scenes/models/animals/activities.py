@@ -1,4 +1,4 @@
-"""What animals do in their place: mouths at the ground, wagging tails, sitting and lying."""
+"""Activities of animals in place: mouths at the ground, wagging tails, sitting and lying."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-ANIMAL_ACTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+ANIMAL_ACTIVITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "graze": ("graze", "forage"),
         "eat": ("eat", "nibble", "chew", "feed"),
@@ -18,33 +18,33 @@ ANIMAL_ACTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 """Act → its verbs."""
-MOUTH_ACTS = frozenset({"graze", "eat", "drink", "sniff", "peck"})
+MOUTH_ACTIVITIES = frozenset({"graze", "eat", "drink", "sniff", "peck"})
 """Acts in which the mouth is at the ground, or at what is eaten."""
 
 
 @dataclass(frozen=True)
 class Stance:
-    """How an act changes a standing animal."""
+    """Change that an activity makes to a standing animal."""
 
     head_down: float = 0.0
     """1 = the mouth is at the ground."""
     gape: float = 0.0
-    """How far the mouth is open, 0 to 1."""
+    """Opening of the mouth, 0 to 1."""
     wag: float = 0.0
-    """How far the tail is to its left, 1 = as far as it goes."""
+    """Deflection of the tail to its left, 1 = as far as it goes."""
 
 
 STANDING = Stance()
 
 
-def act_stance(act: str, time_s: float) -> Stance:
-    """An act at an instant; what is no act of `ANIMAL_ACTS` is standing."""
+def activity_stance(act: str, time_s: float) -> Stance:
+    """An act at an instant; what is no act of `ANIMAL_ACTIVITIES` is standing."""
     make = _STANCES.get(act)
     return STANDING if make is None else make(time_s)
 
 
 def lowered(activity: str, time_s: float) -> tuple[float, float]:
-    """How far a body sits and how far it lies, 0 to 1, at an instant."""
+    """Degrees of sitting and of lying, 0 to 1, at an instant."""
     changed = 0.5 - 0.5 * math.cos(math.pi * min(max((time_s - 0.35) / 0.7, 0.0), 1.0))
     return {
         "sit": (1.0, 0.0), "lie": (0.0, 1.0), "sit down": (changed, 0.0),

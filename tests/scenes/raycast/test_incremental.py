@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN
-from texvent.scenes.raycast.between import (
+from texvent.scenes.raycast.incremental import (
     BLOCK,
     SURE_PX,
     block_speeds,
-    foretell_codes,
+    predict_surface_ids,
     spread_speeds,
-    widen_ways,
+    widen_speeds,
 )
 from texvent.sensor import SensorSize
 
@@ -31,14 +31,14 @@ def drawn_speeds(rng, most_px, shape=BLOCKS):
 
 @seeds
 @settings(max_examples=30)
-def test_speeds_reach_half_a_way_around(seed):
+def test_speeds_reach_half_a_displacement_around(seed):
     speeds = drawn_speeds(np.random.default_rng(seed), 40.0)
     expected = speeds.copy()
     for at, to in itertools.product(np.ndindex(BLOCKS), repeat=2):
         away = max(abs(a - b) for a, b in zip(at, to, strict=True))
         if speeds[at] < math.inf and away <= int(speeds[at] / 2 / BLOCK):
             expected[to] = max(expected[to], speeds[at])
-    np.testing.assert_array_equal(widen_ways(speeds), expected)
+    np.testing.assert_array_equal(widen_speeds(speeds), expected)
 
 
 @seeds
@@ -80,10 +80,10 @@ def test_what_nothing_reaches_stays_what_it_is(seed):
     after[rng.random(SIZE.shape) < 0.01] = 7
     moved, wanted = drawn_speeds(rng, 2.0 * SURE_PX), rng.random(SIZE.shape) < 0.8
     codes = np.full(SIZE.shape, UNKNOWN)
-    foretell_codes(before, after, wanted, moved, codes)
+    predict_surface_ids(before, after, wanted, moved, codes)
     for row, column in np.ndindex(SIZE.shape):
-        way, code = moved[row // BLOCK, column // BLOCK], before[row, column]
-        reach = 1 + int(way / 2) if way <= SURE_PX else None
+        displacement, code = moved[row // BLOCK, column // BLOCK], before[row, column]
+        reach = 1 + int(displacement / 2) if displacement <= SURE_PX else None
         near = slice(max(row - (reach or 0), 0), row + (reach or 0) + 1)
         beside = slice(max(column - (reach or 0), 0), column + (reach or 0) + 1)
         around = np.append(before[near, beside], after[near, beside])

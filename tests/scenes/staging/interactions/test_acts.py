@@ -11,7 +11,7 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.spec.scene import Motion, SceneObject
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.striking import contact_time
+from texvent.scenes.staging.interactions.striking import contact_time
 
 CONTACT_M = 0.02
 

@@ -6,15 +6,15 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.spec.scene import Direction, Motion, SceneObject
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.acts import holding, striking
-from texvent.scenes.staging.acts.holding import hides_riders
+from texvent.scenes.staging.interactions import holding, striking
+from texvent.scenes.staging.interactions.holding import hides_riders
 
 SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
@@ -53,17 +53,17 @@ def settle_motions(
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
-            way = _choose_way(objects, pair, seed)
-            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, way)
+            direction = _choose_direction(objects, pair, seed)
+            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
 def _settle(
-    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: Direction
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], to: Direction
 ) -> tuple[SceneObject, SceneObject]:
-    """Who acts and on what, with the motions that the act leaves them."""
+    """Subject and target of an act, with the motions that the act leaves them."""
     motion, still = subject.motion or STANDING, replace(target, motions=())
     if kind == "ride":
         sitting = replace(subject, motions=(Motion("sit"),))
@@ -71,7 +71,7 @@ def _settle(
     if kind == "collide":
         return replace(subject, motions=()), still
     if kind in SINGLE:
-        return replace(subject, motions=(Motion(kind, way),)), still
+        return replace(subject, motions=(Motion(kind, to),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):
             walk = Motion("walk", motion.direction)
@@ -84,8 +84,8 @@ def _settle(
 
 
 def _mounted(
-    relation: Relation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
-) -> Relation:
+    relation: IndexedRelation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
+) -> IndexedRelation:
     """A person on a horse or a skateboard rides it; so do idle people in a boat or a vehicle."""
     person, target = objects[relation.subject], objects[relation.targets[0]].noun
     if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
@@ -99,23 +99,25 @@ def _mounted(
     return relation
 
 
-def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
-    """Who plays a guitar that the scene names holds that one."""
+def _implied_acts(
+    objects: Sequence[SceneObject], relations: Sequence[IndexedRelation]
+) -> list[IndexedRelation]:
+    """Relations that bind named instruments and tools to their players."""
     bound = {target for one in relations if one.kind in ACTS for target in one.targets}
-    found: list[Relation] = []
+    found: list[IndexedRelation] = []
     for index, person in enumerate(objects):
         motions = person.motions if person.noun in PERSON_NOUNS else ()
         props = [prop for motion in motions for prop in list_props(motion.kind)]
         for prop in props:
             free = [n for n, one in enumerate(objects) if one.noun in prop.nouns and n not in bound]
             if free and prop.anchor != "ground" and not prop.is_own:
-                found.append(Relation("hold", index, (free[0],)))
+                found.append(IndexedRelation("hold", index, (free[0],)))
                 bound.add(free[0])
     return found
 
 
 def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
-    """What is ridden, with the motion that the prompt gives to it or to its rider."""
+    """Ridden object with the motion that the prompt gives to it or to its rider."""
     said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
     usual = nouns[ridden.noun].motion
     if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
@@ -129,8 +131,10 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     return replace(ridden, motions=(replace(said, kind=kind), *later))
 
 
-def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> Direction:
-    """Where a single act goes in the picture."""
+def _choose_direction(
+    objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
+) -> Direction:
+    """Direction of a single act in the picture."""
     for motion in (objects[index].motion for index in pair):
         if motion is not None and motion.direction in ("left", "right", "towards", "away"):
             return motion.direction
@@ -164,7 +168,7 @@ def perform_acts(
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _perform(cast: dict[int, Actor], relation: Relation, duration_s: float) -> None:
+def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: float) -> None:
     """An act of each subject on a target of its own."""
     subjects, targets = (
         [number for number, actor in cast.items() if actor.object_index == index]

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.raycast import reuse
+from texvent.scenes.raycast import changed_tiles as changed
+from texvent.scenes.raycast.changed_tiles import Drawn, changed_tiles
+from texvent.scenes.raycast.incremental import IncrementalRenderer
 from texvent.scenes.raycast.render import render, world_and_shapes
-from texvent.scenes.raycast.reuse import Drawn, FrameMemory, changed_tiles
-from texvent.scenes.scene import Shape
+from texvent.scenes.rendered_scene import Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, still
@@ -23,10 +24,10 @@ def drawn(scene, time_s: float) -> Drawn:
 
 def share_changed(scene, *times: float) -> float:
     """Share of tiles drawn at the last of two instants; all of them are as when all are drawn."""
-    memory = FrameMemory(scene, SIZE, samples=2, shadows=True)
+    renderer = IncrementalRenderer(scene, SIZE, samples=2, shadows=True)
     for time_s in times:
         whole = render(scene, time_s, SIZE)
-        np.testing.assert_array_equal(memory.render(time_s)[0], whole)
+        np.testing.assert_array_equal(renderer.render(time_s)[0], whole)
     tiles = changed_tiles(drawn(scene, times[-2]), drawn(scene, times[-1]))
     return 1.0 if tiles is None else float(tiles.mean())
 
@@ -60,7 +61,7 @@ def test_what_changes_is_drawn_anew_and_little_else(kind):
 
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_change_that_is_missed_is_found(kind, monkeypatch):
-    monkeypatch.setattr(reuse, *MISSES[kind])
+    monkeypatch.setattr(changed, *MISSES[kind])
     with pytest.raises(AssertionError, match="not equal"):
         share_changed(SCENES[kind], 0.0, 0.5)
 
