@@ -95,7 +95,7 @@ class Basis:
     def resolve(
         self, options: Mapping[str, Any], *, motion_beside: Path | bool | None = None
     ) -> Settings:
-        """Settings with single options; arguments and errors as of `texvent.settings.resolve`."""
+        """Settings with single options; arguments and errors as of the function `resolve`."""
         if isinstance(motion_beside, Path) and self.chosen.get("motion") is None:
             options = {"motion": motion_beside, **options}
         where = f"config file {self.config}" if self.config is not None else "options"
