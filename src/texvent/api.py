@@ -285,13 +285,8 @@ def _simulation(
         if not isinstance(given.get(name), str | Path | None)
     }
     is_moving = bool({"motion", "motion_back"} & arrays.keys())
-    has_motion = is_moving or getattr(source, "has_motion", False)
-    settings = resolve("simulate", given, config=config, has_motion=has_motion)
-    if not has_motion and settings.source.motion is None:
-        found = find_motion_sidecar(source)
-        if found is not None:
-            settings = resolve("simulate", {**given, "motion": found}, config=config)
-    return settings, arrays
+    beside = is_moving or getattr(source, "has_motion", False) or find_motion_sidecar(source)
+    return resolve("simulate", given, config=config, motion_beside=beside), arrays
 
 
 def _collected(run: Simulation, progress: ProgressOption) -> EventStream:

@@ -50,7 +50,7 @@ def values_of(config: Any, option: Option) -> list[Any]:
     kinds = {bool: (False, True), str: ("a", "b"), Path: ("a", "b")}
     tried = (
         option.default,
-        *(option.choices or TRIED.get(option.name) or kinds.get(option.hint, NUMBERS)),
+        *(option.choices.values() or TRIED.get(option.name) or kinds.get(option.hint, NUMBERS)),
     )
     found: list[Any] = []
     for value in tried:

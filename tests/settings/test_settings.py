@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, TexventWarning
 from texvent.rig.config import RigConfig
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
-from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
+from texvent.settings.resolution import resolve, unmeasured_sensor
 from texvent.view.render import RenderConfig
 
 
@@ -96,7 +96,7 @@ def test_settings_written_and_read_back_are_the_same(tmp_path):
 
 def test_a_generator_is_refused_where_frames_are_given():
     with pytest.raises(ConfigError, match="generator is set"):
-        base_settings("simulate", generator="procedural")
+        resolve("simulate", {"generator": "procedural"})
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from texvent._registry import INTERPOLATORS
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -106,7 +106,7 @@ class _Part(FrameSource):
     """The frames around a span, as a stream."""
 
     def __init__(self, whole: FrameStream, span: TimeSpan) -> None:
-        self._facts = SourceFacts(whole.size, whole.fps, None, whole.metadata)
+        super().__init__(whole.size, whole.fps, None, whole.metadata)
         self._whole = whole
         self._span = span
 

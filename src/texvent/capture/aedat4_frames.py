@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import FRAMES, MAGIC, Container, open_container, stored_size
@@ -72,7 +72,7 @@ class Aedat4Frames(FrameSource):
             "times": "given" if times else "middle of the exposure",
         }
         fps = None if times is None else times.fps
-        self._facts = SourceFacts(self._find_size(), fps, frame_count, metadata)
+        super().__init__(self._find_size(), fps, frame_count, metadata)
 
     @property
     def times_us(self) -> Sequence[int] | None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.capture.intensity_scale import caller_pixels, shape_hint
 from texvent.errors import InputError, shown, warn
@@ -59,7 +59,7 @@ class ArrayFrames(FrameSource):
         origin = metadata or {"source": "array", "kind": "array"}
         facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
-        self._facts = SourceFacts(size, times.fps, count, facts, is_live)
+        super().__init__(size, times.fps, count, facts, is_live=is_live)
 
     @property
     def times_us(self) -> Sequence[int] | None:

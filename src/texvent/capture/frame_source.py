@@ -1,10 +1,9 @@
-"""The facts that a source of frames states about itself."""
+"""Sources of frames, with facts known when they are opened, and changes of their frames."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -12,58 +11,38 @@ from texvent.sensor import SensorSize
 from texvent.video import Frame, FrameStream, NotebookFrames, Video, describe_stream
 
 
-@dataclass(frozen=True)
-class SourceFacts:
-    """Known when the source is opened."""
-
-    size: SensorSize
-    """Width and height of the frames, pixels."""
-    fps: Fraction | None
-    """Frames per second; None where each frame has its own time."""
-    frame_count: int | None
-    """Number of frames; None where it is not known."""
-    metadata: Mapping[str, Any]
-    """Where the frames come from; JSON-serialisable."""
-    is_live: bool = False
-    """True if the frames can be read only once."""
-
-
 class FrameSource(NotebookFrames, ABC):
-    """A `FrameStream` that states `SourceFacts`; subclasses set them and iterate."""
+    """A `FrameStream` whose facts are known when it is opened; subclasses iterate.
 
-    _facts: SourceFacts
-    _source: FrameStream
-    """Of some: the stream whose frames they change one by one."""
+    Args:
+        size: width and height of the frames, pixels.
+        fps: frames per second; None where each frame has its own time.
+        frame_count: number of frames as far as the source states it, or None.
+        metadata: where the frames come from; JSON-serialisable.
+        is_live: True if the frames can be read only once.
+    """
 
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        return self._facts.size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """Nominal frame rate, or None where each frame has its own time."""
-        return self._facts.fps
-
-    @property
-    def frame_count(self) -> int | None:
-        """Number of frames as far as the source states it, or None."""
-        return self._facts.frame_count
-
-    @property
-    def is_live(self) -> bool:
-        """True if the frames can be read only once."""
-        return self._facts.is_live
+    def __init__(
+        self,
+        size: SensorSize,
+        fps: Fraction | None,
+        frame_count: int | None,
+        metadata: Mapping[str, Any],
+        *,
+        is_live: bool = False,
+    ) -> None:
+        self.size, self.fps, self.frame_count = size, fps, frame_count
+        self._metadata, self.is_live = dict(metadata), is_live
 
     @property
     def metadata(self) -> Mapping[str, Any]:
         """Where the frames come from."""
-        return self._facts.metadata
+        return self._metadata
 
     @property
     def times_us(self) -> Sequence[int] | None:
         """Times of all frames where they are known without reading them, µs."""
-        return known_times_us(getattr(self, "_source", None))
+        return None
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -73,6 +52,25 @@ class FrameSource(NotebookFrames, ABC):
         """Frames in time order."""
 
 
-def known_times_us(stream: FrameStream | None) -> Sequence[int] | None:
+class ChangedFrames(FrameSource):
+    """The frames of another stream, each at its time; facts are the source's unless replaced."""
+
+    def __init__(self, source: FrameStream) -> None:
+        self.source = source
+        count, is_live = source.frame_count, source.is_live
+        super().__init__(source.size, source.fps, count, source.metadata, is_live=is_live)
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The source's."""
+        return self.source.metadata
+
+    @property
+    def times_us(self) -> Sequence[int] | None:
+        """The source's, µs."""
+        return known_times_us(self.source)
+
+
+def known_times_us(stream: FrameStream) -> Sequence[int] | None:
     """Times of all frames of a stream that knows them without reading its frames, µs."""
     return stream.times_us if isinstance(stream, FrameSource | Video) else None

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
@@ -123,7 +123,7 @@ class ImageFolder(FrameSource):
             **({} if gap is None else {"images_missing": f"between {gap}"}),
         }
         size = checked_size(first.shape[1], first.shape[0])
-        self._facts = SourceFacts(size, self._times.fps, total, metadata)
+        super().__init__(size, self._times.fps, total, metadata)
 
     @property
     def times_us(self) -> Sequence[int] | None:

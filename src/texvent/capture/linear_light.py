@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import ChangedFrames
 from texvent.config import CaptureConfig
 from texvent.transfer import DECODERS, WHITE, Transfer
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
@@ -63,7 +63,7 @@ def linear_facts(coding: str) -> dict[str, str]:
     return {CODING: coding, "transfer": Transfer.LINEAR.value}
 
 
-class LinearFrames(FrameSource):
+class LinearFrames(ChangedFrames):
     """The frames of a source as linear light, 255 where it is white.
 
     Args:
@@ -73,20 +73,18 @@ class LinearFrames(FrameSource):
     """
 
     def __init__(self, source: FrameStream, coding: str, white_level: float | None) -> None:
-        self._source, self._coding, self._white_level = source, coding, white_level
-        self._facts = SourceFacts(
-            source.size, source.fps, source.frame_count, source.metadata, source.is_live
-        )
+        super().__init__(source)
+        self._coding, self._white_level = coding, white_level
 
     @property
     def metadata(self) -> Mapping[str, Any]:
         """The source's, and that the frames are linear."""
-        return {**self._source.metadata, **linear_facts(self._coding)}
+        return {**self.source.metadata, **linear_facts(self._coding)}
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, float32."""
-        full_scale = self._source.metadata.get(FULL_SCALE)
-        for frame in self._source:
+        full_scale = self.source.metadata.get(FULL_SCALE)
+        for frame in self.source:
             pixels = to_light(frame.pixels, self._coding, full_scale, self._white_level)
             yield replace(frame, pixels=pixels, transfer=Transfer.LINEAR)
 

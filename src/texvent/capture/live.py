@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator
-from typing import Any
 
 from av.container import InputContainer
 from av.error import FFmpegError
@@ -13,7 +12,7 @@ from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
 from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
@@ -73,7 +72,7 @@ class LiveFrames(FrameSource):
             )
         self._reader = PixelReader(self._name)
         pixels = self._reader.read(first)
-        self._metadata: dict[str, Any] = {
+        metadata = {
             "source": self._name,
             "kind": "live",
             "pixel_format": first.format.name,
@@ -83,8 +82,7 @@ class LiveFrames(FrameSource):
         }
         size = checked_size(pixels.shape[1], pixels.shape[0])
         warn_of_pixels(stream, first, pixels, self._name)
-        fps = times.fps if times else None
-        self._facts = SourceFacts(size, fps, None, self._metadata, is_live=True)
+        super().__init__(size, times.fps if times else None, None, metadata, is_live=True)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames until the stream ends or Ctrl-C.

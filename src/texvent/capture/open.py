@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import stat
 from collections.abc import Callable, Iterable, Mapping, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -62,36 +63,17 @@ def open_frames(
         ConfigError: frame times are given in two ways at once, or the motion's convention is
             unknown.
     """
-    check_camera_options(config)
-    if config.camera is not None:
-        arrays = {"t_us": t_us, **(motion or {})}
-        given_one = next((name for name, one in arrays.items() if one is not None), None)
-        if given_one is not None:
-            raise ConfigError(
-                f"{given_one} is for videos, and `camera` makes one of an image; leave it out"
-            )
-        return open_photo(source, config, size=size, seed=seed)
-    given = _given_times(config, t_us)
-    stream: FrameStream
-    if isinstance(source, (str, Path)):
-        stream = _open_address(str(source), config, given)
-    elif isinstance(source, FrameStream):
-        stream = attach_motion(_adopt_stream(source, config, given), config, motion)
-        is_whole = config.start == 0 and config.stop is None and config.white_level is None
-        if is_whole and stream is source and size in (None, stream.size):
-            return stream
-        return PreparedFrames(stream, config, size=size)
-    elif is_array_like(source) or (
-        isinstance(source, Iterable) and not isinstance(source, bytes | bytearray | Mapping | Set)
-    ):
-        stream = _open_array(source, config, given)
-    else:
-        raise InputError(
-            f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
-            "[N, H, W] or [N, H, W, 3], or a FrameStream"
-        )
-    stream, config = decode_light(check_frames(stream, config), config)
+    check_camera_options(config, {"t_us": t_us, **(motion or {})})
+    asked = _Asked(source, config, _given_times(config, t_us), size, seed)
+    stream = next(one for one in SOURCES if one.matches(asked)).open(asked)
+    if config.camera is not None:  # in its light, and fitted
+        return stream
+    if not isinstance(source, FrameStream):  # which says itself what light it is
+        stream, config = decode_light(check_frames(stream, config), config)
     stream = attach_motion(stream, config, motion)
+    is_as_given = stream is source and config.white_level is None
+    if is_as_given and (config.start, config.stop) == (0, None) and size in (None, stream.size):
+        return stream
     return PreparedFrames(stream, config, size=size)
 
 
@@ -106,36 +88,46 @@ def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
     return FrameTimes(fps=Fraction(config.fps)) if config.fps is not None else None
 
 
-def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes | None:
-    if config.timestamps is None:
-        return given
-    return read_timestamps(config.timestamps, config.timestamps_unit).times
-
-
 @dataclass(frozen=True)
-class _Address:
-    """A path or address with the options that decide how it is read."""
+class _Asked:
+    """A source with the options that decide how it is read."""
 
-    text: str
-    path: Path
+    source: Any
     config: CaptureConfig
     given: FrameTimes | None
+    size: SensorSize | None
+    seed: int
 
     @property
     def times(self) -> FrameTimes | None:
         """Frame times of the options or of their timestamp file."""
-        return _file_times(self.config, self.given)
+        if self.config.timestamps is None:
+            return self.given
+        return read_timestamps(self.config.timestamps, self.config.timestamps_unit).times
 
     @property
     def has_own_times(self) -> bool:
         """Whether no option replaces the times of the source."""
         return self.given is None and self.config.timestamps is None
 
+    @cached_property
+    def path(self) -> Path:
+        """The source as a path; an address, which may be longer than any, has none."""
+        name = "-" if is_address(str(self.source)) else str(self.source).removeprefix("file://")
+        return usable_path(usable_path(name).expanduser())
+
+    @property
+    def is_in_memory(self) -> bool:
+        """Whether it is an array or an iterable of images."""
+        no_images = (str, Path, bytes, bytearray, Mapping, Set)
+        is_iterable = isinstance(self.source, Iterable) and not isinstance(self.source, no_images)
+        return is_iterable or is_array_like(self.source)
+
     @property
     def is_live(self) -> bool:
         """Whether it is standard input, a network address, a pipe or a device."""
         mode = self.path.stat().st_mode if self.path.exists() else 0
-        is_stream = self.text == "-" or is_address(self.text)
+        is_stream = str(self.source) == "-" or is_address(str(self.source))
         return is_stream or stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
@@ -143,67 +135,109 @@ class _Source(NamedTuple):
     """One kind of source."""
 
     name: str
-    matches: Callable[[_Address], bool]
-    open: Callable[[_Address], FrameStream]
+    """In errors on files; empty where it is none."""
+    matches: Callable[[_Asked], bool]
+    open: Callable[[_Asked], FrameStream]
 
 
-def _open_live(address: _Address) -> FrameStream:
+def _open_array(asked: _Asked) -> FrameStream:
+    times = asked.times
+    if times is None:
+        raise InputError(
+            "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
+        )
+    return ArrayFrames(asked.source, times)
+
+
+def _adopt_stream(asked: _Asked) -> FrameStream:
+    """A stream of the caller, checked unless it is texvent's own; one that renders stays so."""
+    stream, config = asked.source, asked.config
+    if not asked.has_own_times:
+        raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
+    if config.transfer != AUTO:
+        raise InputError(
+            "a FrameStream says itself whether it is linear, by Frame.transfer and its metadata; "
+            "leave out transfer"
+        )
+    is_own = isinstance(stream, NotebookFrames) and not isinstance(stream, Video)
+    checked = stream if is_own else check_frames(stream, config)
+    # Frames in memory are checked by now.
+    is_done = isinstance(stream, RenderableStream | Video) and config.white_level is None
+    return stream if is_done else checked
+
+
+def _refuse_other(asked: _Asked) -> FrameStream:
+    raise InputError(
+        f"cannot read frames from {type(asked.source).__name__}; give a path, an address, an array "
+        "[N, H, W] or [N, H, W, 3], or a FrameStream"
+    )
+
+
+def _open_live(asked: _Asked) -> FrameStream:
     from texvent.capture.live import LiveFrames  # brings PyAV
 
-    return LiveFrames(address.text, address.times)
+    return LiveFrames(str(asked.source), asked.times)
 
 
-def _open_images(address: _Address) -> FrameStream:
-    config = address.config
+def _open_images(asked: _Asked) -> FrameStream:
+    config = asked.config
     return ImageFolder(
-        address.path,
-        address.given,
+        asked.path,
+        asked.given,
         timestamps=config.timestamps,
         unit=config.timestamps_unit,
         white_level=config.white_level,
     )
 
 
-def _refuse_still(address: _Address) -> FrameStream:
+def _refuse_still(asked: _Asked) -> FrameStream:
     raise InputError(
-        f"{address.path} is one image, so nothing changes; move a camera over it with `camera` "
+        f"{asked.path} is one image, so nothing changes; move a camera over it with `camera` "
         "saccade, shake or pan, or name a folder of images"
     )
 
 
-def _is_animated(address: _Address) -> bool:
-    if not is_still(address.path):
+def _is_animated(asked: _Asked) -> bool:
+    if not is_still(asked.path):
         return False
-    with address.path.open("rb") as file:
+    with asked.path.open("rb") as file:
         return is_animation(file.read(HEAD_BYTES))
 
 
-def _open_animation(address: _Address) -> FrameStream:
-    if address.path.suffix.lower() == ".webp":
+def _open_animation(asked: _Asked) -> FrameStream:
+    if asked.path.suffix.lower() == ".webp":
         raise InputError(
-            f"{address.path} is an animated WebP, which is not read; make an animated PNG of it: "
+            f"{asked.path} is an animated WebP, which is not read; make an animated PNG of it: "
             "PIL.Image.open('a.webp').save('a.png', save_all=True)"
         )
-    return _open_video(address)
+    return _open_video(asked)
 
 
-def _open_video(address: _Address) -> FrameStream:
+def _open_video(asked: _Asked) -> FrameStream:
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
     try:
-        return VideoFile(address.path, address.times)
+        return VideoFile(asked.path, asked.times)
     except FileFormatError as error:
         # Some events and some videos share an extension, such as .dat: only now it is clear.
-        if address.path.suffix.lower() in event_extensions():
+        if asked.path.suffix.lower() in event_extensions():
             raise FileFormatError(
-                f"{address.path} is not a video but, by its name, an event file; texvent render, "
+                f"{asked.path} is not a video but, by its name, an event file; texvent render, "
                 "view, convert and info take those"
             ) from error
-        names = ", ".join(source.name for source in SOURCES)
+        names = ", ".join(source.name for source in SOURCES if source.name)
         raise FileFormatError(f"{error}; frames are read from: {names}") from error
 
 
 SOURCES = (
+    _Source(
+        "",
+        lambda a: a.config.camera is not None,
+        lambda a: open_photo(a.source, a.config, size=a.size, seed=a.seed),
+    ),
+    _Source("", lambda a: isinstance(a.source, FrameStream), _adopt_stream),
+    _Source("", lambda a: a.is_in_memory, _open_array),
+    _Source("", lambda a: not isinstance(a.source, (str, Path)), _refuse_other),
     _Source("live video", lambda a: a.is_live, _open_live),
     _Source(
         "EVREAL folder",
@@ -219,7 +253,7 @@ SOURCES = (
     _Source(
         ".npy",
         lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(),
-        lambda a: _open_array(StoredArray(a.path), a.config, a.given),
+        lambda a: _open_array(replace(a, source=StoredArray(a.path))),
     ),
     _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
     _Source("animated PNG", _is_animated, _open_animation),
@@ -227,39 +261,4 @@ SOURCES = (
     _Source("still image", lambda a: is_still(a.path), _refuse_still),
     _Source("video file", lambda a: True, _open_video),
 )
-"""Sources in the order in which they are tried: by address, content, extension."""
-
-
-def _open_address(text: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    # An address may be longer than any path.
-    name = "-" if is_address(text) else text.removeprefix("file://")
-    path = usable_path(usable_path(name).expanduser())
-    address = _Address(text, path, config, given)
-    return next(source for source in SOURCES if source.matches(address)).open(address)
-
-
-def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    times = _file_times(config, given)
-    if times is None:
-        raise InputError(
-            "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
-        )
-    return ArrayFrames(frames, times)
-
-
-def _adopt_stream(
-    stream: FrameStream, config: CaptureConfig, given: FrameTimes | None
-) -> FrameStream:
-    """A stream of the caller, checked unless it is texvent's own; one that renders stays so."""
-    if given is not None or config.timestamps is not None:
-        raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
-    if config.transfer != AUTO:
-        raise InputError(
-            "a FrameStream says itself whether it is linear, by Frame.transfer and its metadata; "
-            "leave out transfer"
-        )
-    is_own = isinstance(stream, NotebookFrames) and not isinstance(stream, Video)
-    checked = stream if is_own else check_frames(stream, config)
-    # Frames in memory are checked by now.
-    is_done = isinstance(stream, RenderableStream | Video) and config.white_level is None
-    return stream if is_done else checked
+"""Sources in the order in which they are tried: by type, address, content, extension."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from texvent.capture.frame_source import FrameSource, SourceFacts, known_times_us
+from texvent.capture.frame_source import ChangedFrames, known_times_us
 from texvent.capture.intensity_scale import scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
@@ -26,7 +26,7 @@ FEWEST_FRAMES = 2
 """Events are changes between frames, so one frame has none."""
 
 
-class PreparedFrames(FrameSource):
+class PreparedFrames(ChangedFrames):
     """A source's frames between start and stop, at the wanted size, checked one by one.
 
     `start` and `stop` count from the first frame; the frames keep their times, so events share a
@@ -49,30 +49,23 @@ class PreparedFrames(FrameSource):
         *,
         size: SensorSize | None = None,
     ) -> None:
-        self._source = source
+        super().__init__(source)
         self._config = config
-        count = _count_frames(source, config)
-        self._facts = SourceFacts(
-            size or source.size, source.fps, count, source.metadata, source.is_live
-        )
+        self.frame_count = _count_frames(source, config)
+        self.size = size or source.size
         self._is_fitted = size is not None
-
-    @property
-    def source(self) -> FrameStream:
-        """The frames as they come."""
-        return self._source
 
     @property
     def metadata(self) -> Mapping[str, Any]:
         """The source's, and the size it had if frames were fitted to another."""
-        if self.size == self._source.size:
-            return self._source.metadata
-        return {**self._source.metadata, "size_before_fit": str(self._source.size)}
+        if self.size == self.source.size:
+            return self.source.metadata
+        return {**self.source.metadata, "size_before_fit": str(self.source.size)}
 
     @property
     def times_us(self) -> Sequence[int] | None:
         """Times of the source's frames from start to stop, where it knows them, µs."""
-        times_us = known_times_us(self._source)
+        times_us = known_times_us(self.source)
         if not times_us:
             return None
         start_us, stop_us = _ends_us(self._config)
@@ -85,7 +78,7 @@ class PreparedFrames(FrameSource):
         checker = StreamChecker()
         first_us: int | None = None
         offset_us = count = 0
-        for frame in self._source:
+        for frame in self.source:
             first_us = frame.t_us if first_us is None else first_us
             offset_us = frame.t_us - first_us
             if offset_us >= stop_us:
@@ -99,10 +92,10 @@ class PreparedFrames(FrameSource):
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
-        if frame.size != self._source.size:
+        if frame.size != self.source.size:
             raise InputError(
                 f"the frame at {frame.t_us} µs is {frame.size}, those before it are "
-                f"{self._source.size}; cut the video there, or bring all frames to one size"
+                f"{self.source.size}; cut the video there, or bring all frames to one size"
             )
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)

@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.array_frames import ArrayFrames
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.given_times import FrameTimes, check_seconds, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
@@ -54,7 +54,7 @@ def is_dsec(folder: Path) -> bool:
     return (folder / DSEC_IMAGES).is_dir() and (folder / DSEC_EVENTS).is_file()
 
 
-class DsecFrames(FrameSource):
+class DsecFrames(ChangedFrames):
     """The left frame camera's images in the pixels of the left event camera.
 
     The calibration is read when the sequence is opened, the images one by one.
@@ -65,7 +65,8 @@ class DsecFrames(FrameSource):
     """
 
     def __init__(self, folder: Path) -> None:
-        self._source = ImageFolder(folder / DSEC_IMAGES, timestamps=folder / DSEC_TIMES, unit="us")
+        times = folder / DSEC_TIMES
+        super().__init__(ImageFolder(folder / DSEC_IMAGES, timestamps=times, unit="us"))
         rectified = _read_places(folder / RECTIFY_MAP)
         homography = _read_homography(folder / CALIBRATION)
         height, width = rectified.shape[:2]
@@ -74,18 +75,18 @@ class DsecFrames(FrameSource):
         self._column, self._row = (
             (seen[..., axis] / seen[..., 2]).astype(np.float32) for axis in (0, 1)
         )
-        self._facts = SourceFacts(
-            SensorSize(width, height),
-            self._source.fps,
-            self._source.frame_count,
-            {"source": str(folder), "kind": "DSEC sequence"},
-        )
+        self.size, self._folder = SensorSize(width, height), folder
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The sequence, instead of its folder of images."""
+        return {"source": str(self._folder), "kind": "DSEC sequence"}
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one; places that no frame shows are black."""
         import cv2  # only frames of DSEC need it here
 
-        for frame in self._source:
+        for frame in self.source:
             pixels = cv2.remap(
                 np.asarray(frame.pixels), self._column, self._row, interpolation=cv2.INTER_LINEAR
             )

@@ -7,13 +7,13 @@ far above 255, or pixels above a given `white_level`, would be nearly white.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from texvent.capture.array_frames import ArrayFrames
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.given_times import warn_of_unit
 from texvent.capture.intensity_scale import FULL_SCALE
 from texvent.capture.linear_light import FULL_SCALE as FULL_SCALE_FACT
@@ -241,7 +241,7 @@ class ScaleCheck:
             warn(f"{where} holds {doubt}")
 
 
-class CheckedFrames(FrameSource):
+class CheckedFrames(ChangedFrames):
     """The frames of a source as they come, with a word on what is probably not meant.
 
     Args:
@@ -251,22 +251,9 @@ class CheckedFrames(FrameSource):
     """
 
     def __init__(self, source: FrameStream, scale: ScaleCheck, *, judges_times: bool) -> None:
-        self._source, self._scale = source, scale
+        super().__init__(source)
+        self._scale, self._judges_times = scale, judges_times
         self._times_us: list[int] = []
-        self._judges_times = judges_times
-        self._facts = SourceFacts(
-            source.size, source.fps, source.frame_count, source.metadata, source.is_live
-        )
-
-    @property
-    def source(self) -> FrameStream:
-        """The frames as they come."""
-        return self._source
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """The source's."""
-        return self._source.metadata
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order.
@@ -274,7 +261,7 @@ class CheckedFrames(FrameSource):
         Raises:
             InputError: the source's, or all are most likely 0..1.
         """
-        for frame in self._source:
+        for frame in self.source:
             self._scale.look_at_stream(frame.pixels, f"the frame at {frame.t_us} µs")
             if self._judges_times:
                 self._times_us.append(frame.t_us)
@@ -293,7 +280,7 @@ class CheckedFrames(FrameSource):
         if not self._judges_times or len(times_us) < 2:
             return
         self._judges_times = False
-        step_us, rate = float(np.median(np.diff(times_us))), self._source.fps
+        step_us, rate = float(np.median(np.diff(times_us))), self.source.fps
         if rate is None or not 0.5 < step_us * rate / MICROSECONDS < 2:
             warn_of_unit(times_us, "t_us")
 

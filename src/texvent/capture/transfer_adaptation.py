@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from texvent._registry import SIMULATORS
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.intensity_scale import float_levels
 from texvent.options.values import option_names
 from texvent.transfer import WHITE, Transfer, encode_srgb
@@ -41,24 +41,17 @@ def gamma_coded(video: FrameStream) -> FrameStream:
     return GammaCodedFrames(video) if code_itself is None else code_itself()
 
 
-class GammaCodedFrames(FrameSource):
+class GammaCodedFrames(ChangedFrames):
     """The frames of a linear stream, gamma-coded."""
-
-    def __init__(self, source: FrameStream) -> None:
-        self._source = source
-        self._facts = SourceFacts(
-            source.size, source.fps, source.frame_count, source.metadata, source.is_live
-        )
 
     @property
     def metadata(self) -> Mapping[str, Any]:
         """The source's, without what says that it is linear."""
-        return {name: one for name, one in self._source.metadata.items() if name != "transfer"}
+        return {name: one for name, one in self.source.metadata.items() if name != "transfer"}
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, float32."""
-        for frame in self._source:
-            yield gamma_coded_frame(frame)
+        return map(gamma_coded_frame, self.source)
 
 
 def gamma_coded_frame(frame: Frame) -> Frame:

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import av
 from av.container import InputContainer
@@ -23,7 +22,7 @@ from texvent.capture.decoding.packet_times import (
     read_packet_times,
 )
 from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
 from texvent.io.input_checks import begins_with, refuse_missing
@@ -86,7 +85,7 @@ class VideoFile(FrameSource):
             self._warn_of_times(container, stream)
             reader = PixelReader(path)
             pixels = reader.read(first)
-            self._metadata: dict[str, Any] = {
+            metadata = {
                 "source": str(path),
                 "kind": "video file",
                 "codec": stream.codec_context.name,
@@ -97,10 +96,9 @@ class VideoFile(FrameSource):
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
             warn_of_pixels(stream, first, pixels, str(path))
-        if is_doubtful:
-            count = self._count_packets()
-        fps = times.fps if times else self._rate
-        self._facts = SourceFacts(size, fps, count or None, self._metadata)
+        super().__init__(size, None, None, metadata)
+        self.frame_count = (self._count_packets() if is_doubtful else count) or None
+        self.fps = times.fps if times else self._rate
 
     def _warn_of_others(self, container: InputContainer, stream: VideoStream) -> None:
         """Say that there is another video in the file."""

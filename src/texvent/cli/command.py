@@ -10,7 +10,6 @@ from typing import Any
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
-from texvent.config import warn_of_idle
 from texvent.errors import ConfigError
 from texvent.generate.scene_input import Subject, check_words
 from texvent.io.atomic import protect_inputs
@@ -18,7 +17,7 @@ from texvent.options.values import option_names
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
-from texvent.settings.resolution import DECIDING, Settings, base_settings, resolve
+from texvent.settings.resolution import DECIDING, Settings, read_basis
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +37,7 @@ def resolve_command(
     prog: str | None = None,
     output: Any = None,
     find_motion: Callable[[Any], Path | None] = lambda own: None,
+    check: Callable[[Settings], None] = lambda defaults: None,
 ) -> tuple[Settings, Any, Any]:
     """Settings, the command's own options and the output options from a command line.
 
@@ -53,20 +53,21 @@ def resolve_command(
         output: the output options, where they are not `OutputOptions`.
         find_motion: gives the motion vectors beside the frames that the command's own config
             names, where no option names any.
+        check: refuses what the deciding options make of the settings.
 
     Raises:
         ConfigError: an unknown flag or name, or a value that does not fit.
         SystemExit: `--help` was asked for and shown.
     """
     called = prog or f"texvent {command}"
-    output = output or OutputOptions()
     names = [name for name in DECIDING if (command, name) != ("simulate", "generator")]
     deciding, rest = take_options(arguments, (*names, "config"), called)
     protect_inputs(text for name, text in deciding.items() if name not in ("simulator", "preset"))
-    config = deciding.get("config")
-    named: dict[str, Any] = {name: text for name, text in deciding.items() if name != "config"}
-    defaults = base_settings(command, config=config, **named)
-    groups = {"input": subject, "output": output, **defaults.groups()}
+    config = deciding.pop("config", None)
+    basis = read_basis(command, deciding, config)
+    defaults = basis.defaults
+    check(defaults)
+    groups = {"input": subject, "output": output or OutputOptions(), **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):
         groups["threshold"] = OneThreshold()
     given = parse_given(
@@ -77,19 +78,11 @@ def resolve_command(
         presets=dict if prog else preset_help,
         explain=lambda flag: _option_of_others(flag, defaults),
     )
-    given.update(deciding)
-    if config is not None:
-        given["config"] = Path(config)
-    subject, output = with_given(subject, given), with_given(output, given)
-    warn_of_idle([subject, output], given)
-    own = {*option_names(type(subject)), *option_names(type(output)), *DECIDING}
-    options = {name: value for name, value in given.items() if name not in own} | named
-    settings = resolve(command, options, config=config)
-    if command == "simulate" and settings.source.motion is None:
-        found = find_motion(subject)
-        if found is not None:  # it decides the defaults of other options
-            settings = resolve(command, {**options, "motion": found}, config=config)
-    return settings, subject, output
+    of_config = {} if config is None else {"config": Path(config)}
+    own, output = with_given((subject, groups["output"]), {**deciding, **given, **of_config})
+    of_own = {*option_names(type(own)), *option_names(type(output))}
+    options = {name: value for name, value in given.items() if name not in of_own}
+    return basis.resolve(options, motion_beside=find_motion(own)), own, output
 
 
 def _option_of_others(flag: str, settings: Settings) -> str | None:

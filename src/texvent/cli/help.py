@@ -14,6 +14,7 @@ from typing import Any
 
 from texvent.cli.option_types import REQUIRED, Option, declared_options
 from texvent.errors import ConfigError
+from texvent.options.values import SCALARS
 
 HELP_FLAGS = ("-h", "--help")
 MAIN, ALL = "main", "all"
@@ -52,7 +53,6 @@ def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
 def help_page(
     asked: str,
     groups: Mapping[str, Any],
-    *,
     prog: str,
     description: str,
     presets: Mapping[str, Sequence[str]],
@@ -106,19 +106,16 @@ def help_page(
 
 def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
     """A row of help; if brief, only the first sentence of its text."""
-    text = first_sentence(option.text) if is_brief else option.text
-    text = (text + _default(option)).replace("%", "%%")
-    if option.is_operand:
-        section.add_argument(option.flags[0], help=text)
-        return
+    text = (option.brief if is_brief else option.text) + _default(option)
     flags, more = option.flags, dict[str, Any]()
     if option.hint is bool:
         more["action"] = "store_true"
         flags = (*flags, f"--no-{option.flags[-1][2:]}") if option.default is True else flags
-    else:
-        more["metavar"] = "NAME" if is_brief and option.choices else option.metavar
+    elif not option.is_operand:
+        listed = "NAME" if is_brief else f"{{{','.join(option.choices)}}}"
+        more["metavar"] = listed if option.choices else SCALARS[option.hint].placeholder
         more["nargs"] = "+" if option.is_list else None
-    section.add_argument(*flags, help=text, **more)
+    section.add_argument(*flags, help=text.replace("%", "%%"), **more)
 
 
 def _default(option: Option) -> str:
@@ -139,13 +136,3 @@ def _filled(description: str, width: int) -> str:
         text if text.startswith(" ") else textwrap.fill(" ".join(text.split()), width)
         for text in paragraphs
     )
-
-
-def first_sentence(text: str) -> str:
-    """The text up to the first full stop before a capital.
-
-    Example:
-        >>> first_sentence("Balance α (Eq. 1), in levels. Dark pixels fire less.")
-        'Balance α (Eq. 1), in levels.'
-    """
-    return re.split(r"(?<=[.!?])\s+(?=[A-Z])", text, maxsplit=1)[0]

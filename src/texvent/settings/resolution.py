@@ -35,7 +35,8 @@ RENDERED = "exact"
 """The interpolator of what is known at any instant."""
 SENSOR_FILES = (".toml", ".yaml", ".yml")
 """Ends of the names of sensor files."""
-DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
+OF_MOTION = ("motion", "motion_back")
+DECIDING = ("generator", "simulator", "preset", "sensor", "camera", *OF_MOTION)
 """Options that decide which other options there are, or their defaults."""
 
 
@@ -75,60 +76,80 @@ class Settings:
         return tables
 
 
-def base_settings(
-    command: Command,
-    *,
-    config: str | Path | None = None,
-    has_motion: bool = False,
-    has_noise: bool = False,
-    **deciding: Any,
-) -> Settings:
-    """Settings before single options: defaults, preset, sensor file, config file.
+@dataclass(frozen=True)
+class Basis:
+    """Layers below single options: the parts with their preset, and options of files."""
+
+    command: Command
+    config: str | Path | None
+    parts: Mapping[str, Any]
+    """Names of the generator, the simulator and the preset; None: the default one."""
+    chosen: Mapping[str, Any]
+    """Options of files, and those of `DECIDING` that were given."""
+
+    @property
+    def defaults(self) -> Settings:
+        """The settings without single options."""
+        return self.resolve({})
+
+    def resolve(
+        self, options: Mapping[str, Any], *, motion_beside: Path | bool | None = None
+    ) -> Settings:
+        """Settings with single options; arguments and errors as of the function `resolve`."""
+        if isinstance(motion_beside, Path) and self.chosen.get("motion") is None:
+            options = {"motion": motion_beside, **options}
+        where = f"config file {self.config}" if self.config is not None else "options"
+        every = {**self.chosen, **options}
+        usual = None
+        if self.command == "simulate" and every.get("camera") is not None:
+            usual = RENDERED
+        elif motion_beside or any(every.get(name) is not None for name in OF_MOTION):
+            usual = ALONG_MOTION
+        settings = _default_settings(self.command, **self.parts, interpolate=usual)
+        if every.get("noise_rate_hz") is None:
+            settings = _with_noise_of(every.get("sensor"), settings)
+        try:
+            settings = apply_options(settings, self.chosen, where=where)
+        except ConfigError as error:
+            message = str(error.args[0])
+            if self.config is None or message.startswith(where):
+                raise
+            raise ConfigError(f"{where}: {message}") from None
+        settings = apply_options(settings, options, where="options")
+        warn_of_idle(settings.groups().values(), options)
+        return settings
+
+
+def read_basis(
+    command: Command, deciding: Mapping[str, Any], config: str | Path | None = None
+) -> Basis:
+    """Read the files of options, and find the parts that they and the deciding options name.
 
     Args:
         command: "generate" (from a prompt) or "simulate" (from frames).
-        config: a TOML or YAML file with options, or an event file with those of its run.
-        has_motion: whether the frames come with motion vectors that no option names.
-        has_noise: whether a single option gives the rate of the noise, which holds for the sensor.
-        **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
+        deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
             `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
             preset of that name, unless a preset is given.
+        config: a TOML or YAML file with options, or an event file with those of its run.
 
     Raises:
-        ConfigError: an unknown name, a wrong type, a value out of range.
+        ConfigError: a wrong file, or a generator where frames are given.
         InputError: a file cannot be read.
     """
-    file_options = read_config(config, command) if config is not None else {}
-    given = {name: value for name, value in deciding.items() if value is not None}
-    chosen = {**file_options, **given}
+    in_file = read_config(config, command) if config is not None else {}
+    chosen = {**in_file, **deciding}
     sensor = chosen.get("sensor")
     if isinstance(sensor, str) and sensor.lower().endswith(SENSOR_FILES):
         chosen = {**read_config(chosen.pop("sensor")), **chosen}
     parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
     if command == "simulate" and parts["generator"] is not None:
         where = "generator is set"
-        if file_options.get("generator") is not None:
+        if in_file.get("generator") is not None:
             where = f"config file {config} is for texvent generate: it sets generator"
         raise ConfigError(f"{where}, but frames are simulated, not generated; leave it out")
     if parts["preset"] is None:
         parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
-    where = f"config file {config}" if config is not None else "options"
-    named = chosen.get("motion"), chosen.get("motion_back")
-    usual = None
-    if command == "simulate" and chosen.get("camera") is not None:
-        usual = RENDERED
-    elif has_motion or any(one is not None for one in named):
-        usual = ALONG_MOTION
-    defaults = _default_settings(command, **parts, interpolate=usual)
-    if not has_noise and chosen.get("noise_rate_hz") is None:
-        defaults = _with_noise_of(chosen.get("sensor"), defaults)
-    try:
-        return apply_options(defaults, chosen, where=where)
-    except ConfigError as error:
-        message = str(error.args[0])
-        if config is None or message.startswith(where):
-            raise
-        raise ConfigError(f"{where}: {message}") from None
+    return Basis(command, config, parts, chosen)
 
 
 def _default_settings(
@@ -226,7 +247,7 @@ def resolve(
     options: Mapping[str, Any],
     *,
     config: str | Path | None = None,
-    has_motion: bool = False,
+    motion_beside: Path | bool | None = None,
 ) -> Settings:
     """Settings of a run from a config file and single options.
 
@@ -236,7 +257,8 @@ def resolve(
             underscores.
         config: a TOML or YAML file with options, flat or in the tables `run`, `generate`,
             `capture`, `interpolate`, `simulate`; or an event file, whose run is repeated.
-        has_motion: whether the frames come with motion vectors that no option names.
+        motion_beside: motion vectors that come with the frames, for where no option names any: a
+            path, or True where they are in memory.
 
     Raises:
         ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
@@ -245,13 +267,7 @@ def resolve(
     if "sensor" in single:
         single["sensor"] = _sensor_text(single["sensor"])
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
-    has_noise = single.get("noise_rate_hz") is not None
-    base = base_settings(
-        command, config=config, has_motion=has_motion, has_noise=has_noise, **deciding
-    )
-    settings = apply_options(base, single, where="options")
-    warn_of_idle(settings.groups().values(), single)
-    return settings
+    return read_basis(command, deciding, config).resolve(single, motion_beside=motion_beside)
 
 
 def _sensor_text(sensor: Any) -> Any:

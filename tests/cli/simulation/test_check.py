@@ -11,7 +11,7 @@ from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
 from texvent.options.values import option_names
-from texvent.settings.resolution import base_settings
+from texvent.settings.resolution import resolve
 from texvent.video_check.checks import CHECKS
 
 OF_GENERATE = {"seed", "on_failure"}
@@ -45,7 +45,7 @@ def test_json_has_all_measurements(clip, capsys):
 
 
 def test_advice_names_options_that_exist():
-    settings = base_settings("simulate")
+    settings = resolve("simulate", {})
     known = {name for group in settings.groups().values() for name in option_names(type(group))}
     named = r"(?:`|\b)([a-z_]+)(?:`|=')"
     advised = {name for check in CHECKS for name in re.findall(named, check.help)}

@@ -8,7 +8,7 @@ import pytest
 from texvent._registry import GENERATORS
 from texvent.errors import ConfigError, TexventWarning
 from texvent.generate.video_models import known_models
-from texvent.settings.resolution import base_settings, resolve
+from texvent.settings.resolution import resolve
 
 
 def test_few_frames_per_second_are_warned_about_and_24_are_not():
@@ -21,7 +21,7 @@ def test_few_frames_per_second_are_warned_about_and_24_are_not():
 
 
 def test_a_row_gives_its_own_defaults_to_the_options():
-    settings = base_settings("generate", generator="wan-1.3b")
+    settings = resolve("generate", {"generator": "wan-1.3b"})
     assert settings.source.fps == 16
     assert (settings.source.frames, settings.source.height, settings.source.width) == (81, 480, 832)
     assert settings.source.steps == 50
@@ -29,8 +29,8 @@ def test_a_row_gives_its_own_defaults_to_the_options():
 
 
 def test_events_of_a_learned_model_have_the_size_of_its_video_unless_a_sensor_is_named():
-    assert base_settings("generate", generator="wan-1.3b").size is None
-    assert base_settings("generate").size == (346, 260)
+    assert resolve("generate", {"generator": "wan-1.3b"}).size is None
+    assert resolve("generate", {}).size == (346, 260)
     named = resolve("generate", {"generator": "wan-1.3b", "sensor": "davis240c"})
     assert named.size == (240, 180)
 

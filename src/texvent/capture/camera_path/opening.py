@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -75,8 +76,12 @@ def open_photo(
     return PhotoFrames(levels, path, fps, intervals, size, facts)
 
 
-def check_camera_options(config: CaptureConfig) -> None:
+def check_camera_options(config: CaptureConfig, arrays: Mapping[str, Any]) -> None:
     """Refuse options of videos beside `camera`, and those of a camera path without it.
+
+    Args:
+        config: options.
+        arrays: times and motion in memory, by name.
 
     Raises:
         ConfigError: there is such an option.
@@ -92,6 +97,11 @@ def check_camera_options(config: CaptureConfig) -> None:
             hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
             reason = f"is for videos, and `camera` makes one of an image{hint}"
         raise ConfigError(f"{name} {reason}; leave {name} out")
+    given = next((name for name, one in arrays.items() if one is not None), None)
+    if config.camera is not None and given is not None:
+        raise ConfigError(
+            f"{given} is for videos, and `camera` makes one of an image; leave it out"
+        )
 
 
 def _path(config: CaptureConfig, seed: int) -> CameraPath:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
 from texvent.capture.camera_path.view import View, fitted_view
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import FrameSource
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
 from texvent.video import Frame, Motion, frame_time_us, transfer_of
@@ -57,7 +57,7 @@ class PhotoFrames(FrameSource):
         self._image, self.view, block = _averaged(levels, view, wanted)
         scale = round(block * self.view.scale, 6)
         metadata = {**facts, **path.facts, "image_px_per_px": scale}
-        self._facts = SourceFacts(self.view.sensor, fps, intervals + 1, metadata)
+        super().__init__(self.view.sensor, fps, intervals + 1, metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, with motion to their neighbours."""

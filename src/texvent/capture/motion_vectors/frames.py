@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.image_folder import INNER_FOLDERS
 from texvent.capture.intensity_scale import scale_to_levels
 from texvent.capture.motion_vectors.check import Neighbours, Verdict, judge
@@ -57,7 +57,7 @@ class _Field:
     direction: Direction
 
 
-class MotionFrames(FrameSource):
+class MotionFrames(ChangedFrames):
     """The frames of a stream with motion, read beside them one by one.
 
     There is one field per frame, or, of vectors, one per pair of frames: then the backward ones
@@ -70,18 +70,22 @@ class MotionFrames(FrameSource):
     def __init__(
         self, stream: FrameStream, stacks: Mapping[Role, FieldStack], config: CaptureConfig
     ) -> None:
-        self._source, self._stacks, self._config = stream, stacks, config
+        super().__init__(stream)
+        self._stacks, self._config = stacks, config
         self._convention, self._text = _convention(stacks, config)
         self._vectors = _vector_fields(stacks, self._convention)
         self._is_counted = stream.metadata.get("kind") != "video file"
         for role, stack in stacks.items():
             self._check_count(stack, role)
-        metadata = {
-            **stream.metadata,
-            "motion": {role: stack.name for role, stack in stacks.items()},
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The source's, the files of motion and their convention."""
+        return {
+            **self.source.metadata,
+            "motion": {role: stack.name for role, stack in self._stacks.items()},
             "motion_convention": self._text,
         }
-        self._facts = SourceFacts(stream.size, stream.fps, stream.frame_count, metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order.
@@ -90,7 +94,7 @@ class MotionFrames(FrameSource):
             InputError: a field of another size, of wrong values, or missing.
         """
         previous: Frame | None = None
-        for index, (frame, following) in enumerate(_with_next(self._source)):
+        for index, (frame, following) in enumerate(_with_next(self.source)):
             yield replace(frame, motion=self._motion(index, previous, frame, following))
             previous = frame
 
@@ -103,7 +107,7 @@ class MotionFrames(FrameSource):
         Warns:
             TexventWarning: the vectors hardly explain what changes.
         """
-        frames = list(islice(self._source, FRAMES_LOOKED_AT))
+        frames = list(islice(self.source, FRAMES_LOOKED_AT))
         for field in self._vectors:
             verdict = judge(self._neighbours(frames, field), self._convention, field.direction)
             if verdict is not None:
@@ -194,10 +198,10 @@ class MotionFrames(FrameSource):
     def _check_field(self, stored: NDArray[Any], field: _Field, index: int) -> None:
         where = f"{self._stacks[field.role].name}, frame {index}: the {field.direction} field"
         check_vectors(stored, where)
-        width, height = self._source.size
+        width, height = self.source.size
         factor = width // stored.shape[1]
         if factor < 1 or (stored.shape[1] * factor, stored.shape[0] * factor) != (width, height):
-            raise InputError(wrong_size(where, stored.shape, self._source.size))
+            raise InputError(wrong_size(where, stored.shape, self.source.size))
 
     def _depth(self, index: int, frame: Frame) -> NDArray[np.float32] | None:
         stored, where = self._plane("depth", index)
@@ -219,13 +223,13 @@ class MotionFrames(FrameSource):
 
     def _place(self, field: _Field, direction: Direction, index: int) -> int | None:
         """Where the field of a frame is in its stack; None if it has none."""
-        count, frames = self._stacks[field.role].count, self._source.frame_count
+        count, frames = self._stacks[field.role].count, self.source.frame_count
         is_per_pair = frames is not None and count == frames - 1
         place = index - (direction == "backward" and is_per_pair)
         return place if 0 <= place < count else None
 
     def _check_count(self, stack: FieldStack, role: Role) -> None:
-        frames = self._source.frame_count
+        frames = self.source.frame_count
         has_vectors = role in ("motion", "motion_back")
         if frames is None or not self._is_counted:
             return

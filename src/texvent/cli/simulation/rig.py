@@ -10,14 +10,13 @@ from typing import Any, ClassVar
 from texvent.cli.command import read_subject, resolve_command, subject_name
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import take_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.errors import ConfigError
 from texvent.options.values import option_names, plain
 from texvent.rig.config import RigConfig, check_generator
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.settings.resolution import Settings, base_settings
+from texvent.settings.resolution import Settings
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
 events, an IMU; one clock, true poses, calibration as Kalibr writes it.
@@ -66,10 +65,6 @@ class RigOutputOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    # Before other options are parsed: generators of videos have some of the same name.
-    deciding, _ = take_options(arguments, ("generator", "config"), "texvent rig")
-    named: dict[str, Any] = {**deciding}
-    check_generator(base_settings("generate", **named).generator)
     settings, own, output = resolve_command(
         "generate",
         arguments,
@@ -77,6 +72,8 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
         prog="texvent rig",
         output=RigOutputOptions(),
+        # Before other options are parsed: generators of videos have some of the same name.
+        check=lambda defaults: check_generator(defaults.generator),
     )
     if output.print_config:
         return print_settings(settings)
