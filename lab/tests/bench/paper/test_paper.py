@@ -318,6 +318,8 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monke
 
 def test_all_tables_become_one_document_and_one_page(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))  # no weights
+    monkeypatch.setattr(paper, "STAND_IN", "firenet")
+    monkeypatch.setitem(paper.NETWORKS, 8, "firenet")
     keep_few(monkeypatch)
     monkeypatch.setattr(paper, "measure_times", lambda *_: Measured({"time, s": {"VID2E": "0.1"}}))
     configs, result = tmp_path / "configs", tmp_path / "paper.json.gz"
@@ -332,7 +334,9 @@ def test_all_tables_become_one_document_and_one_page(tmp_path, monkeypatch, caps
     page = (tmp_path / "paper.md").read_text()
     for number in TABLES:
         assert printed.count(f"## Table {number}: ") == page.count(f"## Table {number}: ") == 1
-    assert page.count("- Measured in ") == len(TABLES) - 2
+    assert page.count("- Measured in ") == len((1, 2, 4, 5))
+    assert page.count("images by e2vid; ") == 2
+    assert page.count("images by firenet; ") == 3
     assert not (tmp_path / "paper.svg").exists()
     with pytest.raises(ConfigError, match="all takes every table; leave out"):
         PaperConfig(all=True, table=1)
