@@ -105,7 +105,7 @@ class Aedat4Frames(FrameSource):
                 raise FileFormatError(f"{path}, before byte {end}: {error}") from error
 
     def _find_size(self) -> SensorSize:
-        """What the header states, else the size of the first frame."""
+        """Size that the header states, else that of the first frame."""
         stored = stored_size(self._container.path, self._stream)
         if stored is not None:
             return checked_size(*stored)

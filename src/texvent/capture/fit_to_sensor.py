@@ -67,7 +67,7 @@ def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
 def fit_place(
     old: SensorSize, size: SensorSize, fit: str
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where points of a frame are in the fitted one: `point · scale + shift`, (x, y) px each.
+    """Map from points of a frame to the fitted one: `point · scale + shift`, (x, y) px each.
 
     Example:
         >>> [part.tolist() for part in fit_place(SensorSize(8, 4), SensorSize(2, 2), "cover")]

@@ -36,7 +36,7 @@ class FrameSource(NotebookFrames, ABC):
 
     @property
     def metadata(self) -> Mapping[str, Any]:
-        """Where the frames come from."""
+        """Origin of the frames."""
         return self._metadata
 
     @property

@@ -23,7 +23,7 @@ from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.video import MICROSECONDS, frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
-"""How many of a unit are a second."""
+"""Units in a second."""
 TO_US = {
     "s": "multiply them by 1,000,000",
     "ms": "multiply them by 1000",
@@ -48,7 +48,7 @@ class FrameTimes:
     listed_us: Sequence[int] | None = None
     """One time per frame, µs, strictly increasing."""
     origin: str = "fps"
-    """What to call the times in messages, such as `images.txt`."""
+    """Name of the times in messages, such as `images.txt`."""
 
     def __call__(self, index: int) -> int:
         """Time of frame `index`, µs.
@@ -90,7 +90,7 @@ class FrameTimes:
 
 @dataclass(frozen=True)
 class Timestamps:
-    """What a timestamp file says."""
+    """Content of a timestamp file."""
 
     times: FrameTimes
     names: tuple[str, ...] | None

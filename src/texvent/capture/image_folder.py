@@ -33,16 +33,16 @@ from texvent.video import Frame, PixelArray
 TIMESTAMP_NAMES = ("timestamps.txt", "images.txt", "info.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
-"""Where a recording's folder keeps its images."""
+"""Places of images in a recording's folder."""
 TIFF = (".tif", ".tiff")
 NETPBM = (".pgm", ".ppm", ".pnm")
 DEPTH_AND_COLOUR, TIFF_FLAGS = 6, -1
 """OpenCV's: grey stays grey, 16-bit and float stay, alpha goes, JPEG orientation is applied; and as
 it is stored, since alpha would go silently, though OpenCV has multiplied a TIFF's colours by it."""
 WHITE_IS_ZERO, CIELAB = 0, 8
-"""Of PhotometricInterpretation."""
+"""Values of PhotometricInterpretation."""
 STACK_BYTES = 32 * 2**20
-"""Of a TIFF stack, images of this size are read at a time."""
+"""Size of the images of a TIFF stack that are read at a time."""
 MAX_BYTE = 255
 LIGHT_EXTENSIONS = (EXR, ".hdr")
 """Images of linear light: OpenEXR, Radiance."""
@@ -273,7 +273,7 @@ def _netpbm_white(path: Path, full: int) -> int:
 
 
 def coding_facts(paths: Sequence[Path]) -> dict[str, Any]:
-    """How images are coded, for a source's metadata: nothing where they are gamma-coded.
+    """Coding of images, for a source's metadata: nothing where they are gamma-coded.
 
     Raises:
         InputError: some are linear light and some are not.

@@ -46,7 +46,7 @@ def decode_light(stream: FrameStream, config: CaptureConfig) -> tuple[FrameStrea
 
 
 def find_coding(facts: Mapping[str, Any], config: CaptureConfig) -> tuple[str, float | None]:
-    """How pixels are coded, and the level that is white, if any is stated.
+    """Coding of pixels, and the level that is white, if any is stated.
 
     Args:
         facts: metadata of the source.
@@ -59,7 +59,7 @@ def find_coding(facts: Mapping[str, Any], config: CaptureConfig) -> tuple[str, f
 
 
 def linear_facts(coding: str) -> dict[str, str]:
-    """What the metadata of frames say that were made linear."""
+    """Metadata of frames that were made linear."""
     return {CODING: coding, "transfer": Transfer.LINEAR.value}
 
 

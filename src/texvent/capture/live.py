@@ -29,7 +29,7 @@ from texvent.video import MICROSECONDS, Frame
 STANDARD_INPUT = "-"
 ARRIVAL = "arrival"
 TIMEOUT_S = 15.0
-"""How long a silent network stream is waited for."""
+"""Time for which a silent network stream is waited for."""
 OPTIONS = {"fpsprobesize": "0"}
 """Do not collect frames to guess a rate: they would then all arrive at once."""
 

@@ -1,4 +1,4 @@
-"""What every source goes through: cut to start and stop, scale, fit to the sensor, check."""
+"""Steps of every source: cut to start and stop, scale, fit to the sensor, check."""
 
 from __future__ import annotations
 

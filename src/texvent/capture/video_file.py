@@ -38,7 +38,7 @@ TEXT_ART = "tty"
 """libav "plays" any .txt file as terminal art, which is never meant."""
 
 PLAYLIST_MARKS = (b"#EXTM3U", b"ffconcat version", b"v=0", b"<?xml", b"<MPD")
-"""How files begin that name other files."""
+"""First bytes of files that name other files."""
 SEQUENCE_BRAND = "msf1"
 """Brand of files of HEIF that hold animations."""
 ATTACHED_PICTURE = 1 << 10
@@ -345,7 +345,7 @@ def _check_claim(path: Path, stream: VideoStream) -> None:
 
 
 def _flushed(stream: VideoStream) -> list[VideoFrame]:
-    """What the decoder still holds when no more data can come."""
+    """Frames that the decoder still holds when no more data can come."""
     frames: list[VideoFrame] = []
     with contextlib.suppress(FFmpegError, EOFError):
         frames.extend(frame for frame in stream.decode(None) if not frame.is_corrupt)

@@ -187,7 +187,7 @@ def _run_in_process(task: Task) -> Outcome:
 
 ORPHAN_EXIT, INTERRUPTED_EXIT = 3, 130
 PATIENCE_S = 10.0
-"""How long processes that are ended may take to clean up."""
+"""Time that processes have to clean up when they are ended."""
 
 
 def start_pool(processes: int, *, of: int | None = None) -> ProcessPoolExecutor:

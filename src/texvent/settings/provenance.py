@@ -20,7 +20,7 @@ from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
 
 END_BYTES = 8 * 2**20
-"""Of a larger file, this much of its beginning and of its end is read."""
+"""Bytes that are read of the beginning and of the end of a larger file."""
 
 
 def describe_run(
@@ -45,7 +45,7 @@ def describe_run(
 
 
 def describe_weights(settings: Settings) -> dict[str, Any]:
-    """Which files the models of a run read, such as network weights, under "weights".
+    """Files that the models of a run read, such as network weights, under "weights".
 
     Nothing where they read none.
 

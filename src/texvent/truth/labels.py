@@ -126,9 +126,9 @@ class Labels:
     """Labels of a video."""
 
     path: Path
-    """Where they are from."""
+    """Their origin."""
     size: SensorSize
-    """Of the pictures."""
+    """Size of the pictures."""
     boxes: NDArray[np.void]
     """[k] records of `BOX_RECORD`, inside the picture; `t` is the number of the frame, as in
     `frames`, and `class_id` the place in `names`."""

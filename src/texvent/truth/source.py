@@ -77,7 +77,7 @@ class Snapshot:
     motion: Motion
     """As far as it is known; vectors to frames that are not there are None."""
     rows: Rows
-    """Of the parts that are wanted and known."""
+    """Values of the parts that are wanted and known."""
 
 
 _Known = tuple[Motion, dict[str, dict[str, Any]], tuple[Box, ...]]

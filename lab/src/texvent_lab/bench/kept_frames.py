@@ -46,7 +46,7 @@ def _count_bytes(frames: Iterable[Frame]) -> int:
 
 
 STORE = FrameStore(usable_bytes() // (2 * (os.cpu_count() or 1)))
-"""Of this process; all cores together take half of the memory that may be used."""
+"""Share of this process; all cores together take half of the memory that may be used."""
 
 
 class KeepingSimulation(Simulation):

@@ -21,12 +21,12 @@ Float64Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CameraPose2D:
-    """Where the camera is, in px of the sensor, as seen from where the image was taken."""
+    """Place of the camera, in px of the sensor, from where the image was taken."""
 
     x: float = 0.0
-    """How far it looks to the right of the image's centre, px: the image moves to the left."""
+    """Shift of its view to the right of the image's centre, px: the image moves to the left."""
     y: float = 0.0
-    """How far it looks below the centre, px."""
+    """Shift of its view below the centre, px."""
 
 
 class CameraPath(Protocol):
@@ -34,16 +34,16 @@ class CameraPath(Protocol):
 
     @property
     def seconds(self) -> float:
-        """How long it lasts, unless another time is asked for, s."""
+        """Its duration, unless another one is asked for, s."""
         ...
 
     @property
     def facts(self) -> Mapping[str, Any]:
-        """What it is, JSON-serialisable, for provenance."""
+        """Its description, JSON-serialisable, for provenance."""
         ...
 
     def __call__(self, t_us: float) -> CameraPose2D:
-        """Where the camera is at `t_us`, µs."""
+        """Place of the camera at `t_us`, µs."""
         ...
 
 
@@ -69,7 +69,7 @@ DURATION_US = 315_000
 
 
 def digit_corner(t_us: float, speed: Float64Array, amplitude: Float64Array) -> Float64Array:
-    """Where the corner of digits is.
+    """Place of the corner of digits.
 
     Args:
         t_us: since the recording began, µs.

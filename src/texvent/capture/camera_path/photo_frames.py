@@ -1,4 +1,4 @@
-"""What a moving camera sees of a still image: frames, and any instant between them."""
+"""View of a moving camera on a still image: frames, and any instant between them."""
 
 from __future__ import annotations
 

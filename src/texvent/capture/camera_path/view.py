@@ -26,9 +26,9 @@ class View:
     """A sensor over an image; both have their centres in common when the camera has not moved."""
 
     image: SensorSize
-    """Of the image, px."""
+    """Size of the image, px."""
     sensor: SensorSize
-    """Of the sensor, px."""
+    """Size of the sensor, px."""
     scale: float = 1.0
     """Px of the image per px of the sensor, when the camera has not moved."""
 

@@ -151,7 +151,7 @@ def _upright(pixels: NDArray[Any], matrix: tuple[int, int, int, int]) -> PixelAr
 
 
 def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
-    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded.
+    """Coding of a decoded frame, for a source's metadata: nothing where it is gamma-coded.
 
     Args:
         frame: it says its transfer characteristic.

@@ -36,7 +36,7 @@ KEPT = 0.8
 CLEARLY_BETTER, LEAST_GAIN = 0.6, 1.0
 """Another meaning fits clearly better with an error below this share, and so many levels less."""
 AS_GOOD = 1.1
-"""Of meanings with an error within this factor of the best one, the most likely is named."""
+"""Factor of the smallest error up to which the most likely meaning is named."""
 HIGH, LITTLE_BETTER = 4.0, 0.8
 """Grey levels, and share of the error without vectors, from which on a warning is due."""
 
@@ -53,12 +53,12 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class Verdict:
-    """How well vectors fit, in mean grey levels (0..255) over the pixels that move."""
+    """Misfit of vectors, in mean grey levels (0..255) over the pixels that move."""
 
     error: float
-    """Of the frames along the vectors."""
+    """Misfit of the frames along the vectors."""
     still_error: float
-    """Of the frames as they are, without any vectors."""
+    """Misfit of the frames as they are, without any vectors."""
     better: Convention | None = None
     """The meaning that fits clearly better, if there is one."""
     better_error: float = 0.0
@@ -72,7 +72,7 @@ class Verdict:
 def judge(
     frames: Sequence[Neighbours], convention: Convention, direction: Direction
 ) -> Verdict | None:
-    """How well vectors fit frames, and which other meaning would fit clearly better.
+    """Fit of vectors to frames, and another meaning that would fit clearly better.
 
     Returns:
         The verdict; None where too little moves to tell.
@@ -114,7 +114,7 @@ def judge(
 def _best(
     candidates: list[tuple[Convention, float]], given: Convention, direction: Direction
 ) -> tuple[Convention, float] | None:
-    """Of the candidates that fit about as well as the best, the one with the fewest changes."""
+    """Candidate with the fewest changes, of those that fit about as well as the best."""
     if not candidates:
         return None
     limit = AS_GOOD * min(error for _, error in candidates) + 0.05
@@ -171,7 +171,7 @@ class _Samples:
         return scaled(here, convention, direction, (width, height), factor)
 
     def difference(self, direction: str, along: FloatArray | None) -> FloatArray:
-        """How much the neighbour differs there from this frame, [n], grey levels.
+        """Difference of the neighbour from this frame there, [n], grey levels.
 
         Places between pixels are interpolated, places outside take the nearest edge.
         """
@@ -191,7 +191,7 @@ _Followed = tuple[FloatArray, FloatArray]
 
 
 def _follow(samples: _Samples, meaning: Convention) -> _Followed:
-    """Where a meaning takes the samples, [n, 2] px, and how much the neighbour differs there."""
+    """Places where a meaning takes the samples, [n, 2] px, and the difference there."""
     along = samples.along(meaning)
     return along, samples.difference(meaning.direction, np.nan_to_num(along))
 

@@ -23,9 +23,9 @@ EXR = ".exr"
 REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
 """x and y of red, green, blue and white in OpenEXR's attribute chromaticities."""
 CODED = ("pq", "hlg", "srgb", "g22", "g24", "g18")
-"""How the attribute colorInteropID begins where pixels are no linear light."""
+"""Beginnings of the attribute colorInteropID where pixels are no linear light."""
 HALF_BYTES = 2
-"""Of a value in most files; floats have 4."""
+"""Bytes of a value in most files; floats have 4."""
 COLOURS = (("R", "G", "B"), ("Y",))
 
 

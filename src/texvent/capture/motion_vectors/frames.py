@@ -222,7 +222,7 @@ class MotionFrames(ChangedFrames):
         return None, ""
 
     def _place(self, field: _Field, direction: Direction, index: int) -> int | None:
-        """Where the field of a frame is in its stack; None if it has none."""
+        """Index of the field of a frame in its stack; None if it has none."""
         count, frames = self._stacks[field.role].count, self.source.frame_count
         is_per_pair = frames is not None and count == frames - 1
         place = index - (direction == "backward" and is_per_pair)
@@ -254,7 +254,7 @@ class MotionFrames(ChangedFrames):
 
 
 def _convention(stacks: Mapping[Role, FieldStack], config: CaptureConfig) -> tuple[Convention, str]:
-    """What the vectors mean, and the same as the option says it."""
+    """Meaning of the vectors, and the same as the option says it."""
     said = next((stack.convention for stack in stacks.values() if stack.convention), None)
     text = config.motion_convention
     if text is None:

@@ -113,7 +113,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> BatchPlan:
-    """Where and how samples are written.
+    """Place and kind of the files of samples.
 
     Raises:
         ConfigError: an option that batches do not have, or an unknown format.

@@ -34,7 +34,7 @@ VERSION = "texvent_version"
 WARNINGS = "warnings"
 """Name, in what a task returns of a sample, of doubts such as words that are not understood."""
 REMEDY = "name another folder with -o"
-"""What to do about a damaged file."""
+"""Advice about a damaged file."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class BatchPlan:
 
     settings: Settings
     extension: str
-    """Of event files, with the dot."""
+    """Ending of event files, with the dot."""
     files: RunFiles
     """Formats and previews; in place of an event file, the folder."""
 

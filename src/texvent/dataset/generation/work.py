@@ -27,7 +27,7 @@ class Work:
     failures: dict[Any, str] = field(default_factory=dict)
     """Results that could not be made."""
     summary: Callable[[Any], Any] = lambda record: None
-    """What `complete` keeps of a record."""
+    """Part of a record that `complete` keeps."""
 
     @property
     def to_make(self) -> int:

@@ -116,7 +116,7 @@ class ClipSettings:
     options: Mapping[str, Any]
     """Some may be ranges."""
     seed: int
-    """Of the data set."""
+    """Seed of the data set."""
 
     @cached_property
     def extremes(self) -> tuple[Settings, ...]:

@@ -33,7 +33,7 @@ class Sample(ListEntry):
     """An entry as one run of a batch."""
 
     key: str
-    """What makes it this sample, whatever stands beside it in the list: a digest of its prompt or
+    """Identity of the sample, whatever stands beside it in the list: a digest of its prompt or
     video, its name and seed, and how many equal ones come before it."""
     name: str
     seed: int
@@ -80,7 +80,7 @@ def are_videos(sources: Sequence[str | Path]) -> bool:
 
 
 def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
-    """What a list, video, folder or pattern holds; arguments and errors as `read_samples`."""
+    """Samples of a list, video, folder or pattern; arguments and errors as `read_samples`."""
     path = Path(source)
     if path.is_dir():
         yield from _folder_stills(path) if of_stills else _folder_entries(path)

@@ -19,7 +19,7 @@ MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls"
            *TRUTH_MEMBERS)  # fmt: skip
 ABSENT = (-1, 0)
 FACTS = ("seed", "events", "duration_us", "start_us")
-"""Of a `SampleRecord`, which are columns."""
+"""Fields of a `SampleRecord`, which are columns."""
 Choice = str | Sequence[str] | None
 """A name, several, or None for all."""
 
@@ -31,9 +31,9 @@ class Index:
     shards: tuple[str, ...]
     """Paths relative to the folder."""
     variants: tuple[str, ...]
-    """Of each shard."""
+    """One for each shard."""
     splits: tuple[str, ...]
-    """Of each shard."""
+    """One for each shard."""
     digests: tuple[str, ...]
     """SHA-256 of each shard, as its record says."""
     captions: tuple[str | None, ...]

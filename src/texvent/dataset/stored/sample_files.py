@@ -85,11 +85,11 @@ class SampleFiles:
     shard: Path
     """The tar."""
     key: str
-    """Of the sample."""
+    """Key of the sample."""
     places: Mapping[str, tuple[int, int]]
     """Name, such as "json" → position of its content in the shard, and bytes."""
     size: SensorSize
-    """Of the sensor."""
+    """Size of the sensor."""
 
     def read(self, only: Sequence[str]) -> dict[str, bytes]:
         """Those of some files that there are: name → content."""

@@ -1,4 +1,4 @@
-"""Which models a folder holds, and what they are called: by file names, or by an index.
+"""Models of a folder and their names: by file names, or by an index.
 
 Any other `.toml` file has nouns as lists of parts; see docs/nouns.md.
 An index is `assets.toml` in the folder, a table for each file.

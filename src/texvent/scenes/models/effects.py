@@ -142,8 +142,7 @@ class LampKind:
     wave: Wave = "square"
     """Waveform with which it blinks."""
     hue: str = ""
-    """Which of a model's glowing parts it is: "white", "red", "blue", "amber", "green"; empty =
-    any."""
+    """Glowing part of a model: "white", "red", "blue", "amber", "green"; empty = any."""
     boost: float = 1.0
     """The glowing part is drawn this much brighter when the lamp is on."""
     is_single: bool = False

@@ -57,7 +57,7 @@ CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], 
 
 
 class Bins(NamedTuple):
-    """Which shapes may lie in each cell of a grid: `items[start[cell] : start[cell + 1]]`."""
+    """Shapes that may lie in each cell of a grid: `items[start[cell] : start[cell + 1]]`."""
 
     start: IntArray
     """[cells + 1], row-major cells."""
@@ -369,7 +369,7 @@ def _sun_lists(windows: Float64Array, numbers: IntArray) -> tuple[Bins, Float64A
 
 
 def _small_casters(low: Float64Array, high: Float64Array) -> NDArray[np.bool_]:
-    """Which shapes are small beside the extent of the others: [k] from [k, 2] bounds."""
+    """Shapes that are small beside the extent of the others: [k] from [k, 2] bounds."""
     width = (high - low).max(axis=1)
     extent = np.quantile(high, 0.9, axis=0) - np.quantile(low, 0.1, axis=0)
     small = width <= max(BIG_SHARE * float(extent.max()), float(np.median(width)))

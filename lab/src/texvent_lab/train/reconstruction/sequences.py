@@ -31,7 +31,7 @@ class SequenceData:
     """Clips of a data set specification, simulated when they are first needed."""
 
     names_or_paths: ClassVar[tuple[str, ...]] = ("recordings",)
-    """Of these, what is no name of a data set is a path from the training file's folder."""
+    """Names of data sets, or paths from the training file's folder."""
 
     specification: Path = Path()
     """Specification of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made

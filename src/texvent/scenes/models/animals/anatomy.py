@@ -244,7 +244,7 @@ def draw_leg(
 
 
 NOSE = 2
-"""Which of the parts of a head the nose is."""
+"""Index of the nose among the parts of a head."""
 
 
 def draw_head(

@@ -155,7 +155,7 @@ def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bin
 
 
 def in_beam(lamp: Any, boxes: Float64Array) -> NDArray[np.bool_]:
-    """Which boxes, as for `find_cells`, the beam touches: tested by the balls around them."""
+    """Boxes, as for `find_cells`, that the beam touches: tested by the balls around them."""
     radius = np.sqrt((boxes[:, :, :3] ** 2).sum(axis=(1, 2)) * 3.0)
     distance = np.linalg.norm(boxes[:, :, 3], axis=1)
     cosine = boxes[:, :, 3] @ lamp["beam"] / np.maximum(distance, 1e-9)
@@ -279,7 +279,7 @@ def _blocked(
 
 @jit(error_model="numpy")
 def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
-    """Which of the lamps that cast shadows a surface sees, and whether a thin shadow is near.
+    """Lamps that cast shadows and that a surface sees, and whether a thin shadow is near.
 
     Only the lamps whose bit is set in `wanted` are looked for. Bit k belongs to lamp k. A lamp
     that the surface faces but whose light ends before it counts as seen.

@@ -1,4 +1,4 @@
-"""Which pattern each material has, how large it is, and the tiles the kernels read."""
+"""Patterns of materials, their sizes, and the tiles that the kernels read."""
 
 from __future__ import annotations
 

@@ -209,7 +209,7 @@ def plan_lamps(
     framing: Framing,
     items: Sequence[SceneryItem],
 ) -> LampPlan:
-    """Which lamps are on, and which of them cast shadows at that instant.
+    """Lamps that are on, and those that cast shadows at that instant.
 
     `strength` is that of artificial light, 0..1: above 0 it is dark. Lamps that light most what the
     camera looks at cast shadows; where none lights it, one does that is out of sight.
