@@ -121,7 +121,7 @@ CHILDREN = {
         for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
     # Pages of results are made by docs/site/making.py.
-    "benchmark": ["results/fidelity"],
+    "benchmark": ["results/fidelity", "results/paper"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all"],
     "metrics": ["results/selftest"],

@@ -18,6 +18,7 @@ RESULTS = ROOT / "docs/results"
 PROMPT = "a red car drives left past two trees at dusk"
 BENCHMARKS = {
     "fidelity": (),
+    "paper": (),
     "real-slider_depth": ("--baseline", "texvent accurate, flow"),
     "real-davis346": ("--baseline", "texvent accurate, flow"),
     "digits": (),

@@ -12,6 +12,7 @@ from texvent.errors import FileFormatError
 from texvent_lab.bench.document import read_document
 from texvent_lab.bench.oracle.run import FidelityPlan
 from texvent_lab.bench.page import page_files
+from texvent_lab.bench.paper.published_tables import TABLES
 from texvent_lab.commands.bench import fidelity
 
 from .synthetic_report import synthetic_report
@@ -27,6 +28,14 @@ def test_every_stored_result_has_a_page_with_its_chart(name):
     assert f"({name}.svg)" in page
     assert "commit: " in page
     ElementTree.fromstring(files[f"{name}.svg"])
+
+
+def test_the_papers_page_has_every_table_and_the_time_of_each_that_was_measured():
+    document = read_document(RESULTS / "paper.json.gz")
+    page = page_files(document, "paper.json.gz")["paper.md"].decode()
+    measured = [number for number in TABLES if document[f"table {number}"]["rows"]]
+    assert all(f"## Table {number}: " in page for number in TABLES)
+    assert page.count("- Measured in ") == len(measured) > 0
 
 
 def test_text_of_a_result_is_no_html_in_page_or_chart():
