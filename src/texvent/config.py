@@ -3,7 +3,7 @@
 A field is one option. Its name is the flag (`max_intermediate` → `--max-intermediate`), the key
 in a TOML or YAML file and the keyword in Python; its default is written once, here or in the
 part's own file (every generator and simulator declares its `config_type` beside its code); the
-text under it is its help. Field names are therefore unique across stages. `options/fields.py` reads
+text under it is its help. Field names are therefore unique across stages. `options/values.py` reads
 the fields, `options/values.py` converts their values.
 """
 

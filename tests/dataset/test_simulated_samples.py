@@ -93,6 +93,5 @@ def test_ground_truth_of_a_recorded_video_is_refused():
     samples = SimulatedSamples(videos=[CLIP], targets=["depth"], simulation={"fps": 50})
     with pytest.raises(ConfigError, match="target 'depth' needs a source that knows its scene"):
         samples.make(0)
-    frames = samples.represented(slice_events=20).with_targets("frame")
     with pytest.raises(ConfigError, match="'frame' of slices of events needs a source that is"):
-        frames.make(0)
+        samples.represented(slice_events=20).with_targets("frame")

@@ -159,3 +159,13 @@ def test_every_place_beats_the_preset_and_leaves_its_other_options(tmp_path, sim
             found = settle(tmp_path, simulator, preset, **{place: {option.name: value}}).simulate
             expected = with_options(chosen, {option.name: value}, where="")
             assert found == expected, (option.name, place)
+
+
+def test_none_as_a_word_beats_the_config_file_and_none_in_python_is_not_given(tmp_path):
+    path = tmp_path / "c.toml"
+    path.write_text("stop = 0.5", encoding="utf-8")
+    words = ["--config", str(path), "--stop", "none", "--", "clip.mp4"]
+    subject = VideoOptions(source="clip.mp4")
+    said = resolve_command("simulate", words, subject, description="")[0]
+    assert values_in(said, ["stop"]) == {"stop": None}
+    assert values_in(resolve("simulate", {"stop": None}, config=path), ["stop"]) == {"stop": 0.5}

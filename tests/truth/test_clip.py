@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import itertools
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from tests.truth.hand_video import DEPTH_M, SIZE, SPEED_PX_PER_FRAME, board_vide
 
 import texvent
 from texvent.errors import FileFormatError, InputError
+from texvent.generate.procedural import ProceduralVideo
 from texvent.truth.boxes import BOX_RECORD, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
 from texvent.truth.layout import CLIP_FILES, parse_parts
@@ -153,6 +155,28 @@ def test_truth_that_cannot_be_is_found(stored: Files) -> None:
             read({**stored, **files}, **facts).check(SIZE)
     with pytest.raises(FileFormatError, match=r"depth has the shape .*, and 5 frames have it"):
         read(stored, times_us=[*TIMES, 160_000]).depth(4)
+
+
+@pytest.mark.parametrize(
+    ("name", "part"), [("boxes/bbox.npy", "boxes"), ("poses.txt", "poses"), ("depth", "depth")]
+)
+def test_a_file_that_is_gone_is_damage(folder: Path, tmp_path: Path, name: str, part: str) -> None:
+    shutil.copytree(folder, tmp_path / "b.truth")
+    (tmp_path / "b.truth" / name).rename(tmp_path / "elsewhere")
+    truth = texvent.load_truth(tmp_path / "b.truth")
+    with pytest.raises(FileFormatError):
+        truth.depth(0) if part == "depth" else getattr(truth, part)
+
+
+def test_a_camera_is_asked_for_where_poses_are_wanted(tmp_path: Path) -> None:
+    class OtherCamera(ProceduralVideo):
+        def camera_at(self, t_us: int) -> Any:
+            return object()
+
+    known = board_video(duration=0.12)
+    video = OtherCamera(known.scene, known.size, known.config)
+    texvent.save_truth(video, tmp_path / "c.truth", "depth")
+    assert texvent.load_truth(tmp_path / "c.truth").parts == ("depth",)
 
 
 def test_targets_and_size_classes_by_hand() -> None:

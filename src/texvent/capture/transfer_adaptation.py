@@ -51,7 +51,7 @@ class GammaCodedFrames(ChangedFrames):
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, float32."""
-        return map(gamma_coded_frame, self.source)
+        yield from map(gamma_coded_frame, self.source)
 
 
 def gamma_coded_frame(frame: Frame) -> Frame:

@@ -95,10 +95,7 @@ def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
         video = clip.video
         frame = video.at(stop) if isinstance(video, RenderableStream) else clip.frames.get(stop)
         if frame is None:
-            raise ConfigError(
-                "target 'frame' of slices of events needs a source that is rendered at any "
-                "instant, such as prompts with the generator 'procedural'; give slice_us"
-            )
+            raise ConfigError(NO_FRAME)
         return frame.luma.astype(np.float32)
     describe = getattr(clip.video, "ground_truth", None)
     if describe is None:
@@ -117,6 +114,10 @@ def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
 
 
 MAX_SEED = 2**63 - 1
+NO_FRAME = (
+    "target 'frame' of slices of events needs a source that is rendered at any instant, such as "
+    "prompts with the generator 'procedural'; give slice_us"
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -177,6 +178,8 @@ class SimulatedSamples(SampleTable):
         if "seed" in self.simulation:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")
         super().__post_init__()
+        if self.videos and self.slice_events is not None and "frame" in self.targets:
+            raise ConfigError(NO_FRAME)
 
     @property
     def count(self) -> int:

@@ -174,7 +174,7 @@ def read_size(entry: Mapping[str, Any], where: str) -> SensorSize | None:
     Raises:
         ConfigError: it is no size of a sensor.
     """
-    if "resolution" not in entry:
+    if entry.get("resolution") is None:
         return None
     width, height = read_numbers(entry["resolution"], 2, f"{where}: resolution")
     if width != int(width) or height != int(height):

@@ -1,7 +1,8 @@
 """From names and single options to the resolved settings of a run.
 
 Precedence, weakest first: the parts' defaults, the preset, a sensor file, the config file, single
-options. The command line and the Python API both come through here, so they cannot disagree.
+options. The command line and the Python API both come through here, so they cannot disagree; a None
+of Python is no option, the word `none` of a command line is one.
 """
 
 from __future__ import annotations

@@ -96,7 +96,7 @@ class ClipTruth:
         run: Mapping[str, Any] = self.facts["run"]
         return run
 
-    @property
+    @cached_property
     def times_us(self) -> NDArray[np.int64]:
         """[N] times of the frames, µs, on the clock of the events."""
         return np.array(self.facts.get("times_us", ()), np.int64)
@@ -298,15 +298,15 @@ class ClipTruth:
         """An array of a file; `name` in an archive."""
         try:
             loaded = self._open(file)
-            if name in SOME_KNOW and name not in loaded:
-                raise InputError(f"{self.where} does not say {SOME_KNOW[name]}: its source did not")
-            return np.asarray(loaded[name] if name else loaded)
-        except InputError:
+            if name not in SOME_KNOW or name in loaded:
+                return np.asarray(loaded[name] if name else loaded)
+        except FileFormatError:
             raise
-        except NPZ_DAMAGE as error:
+        except (InputError, *NPZ_DAMAGE) as error:
             raise FileFormatError(
                 f"{self.where}: {file} holds no {name or 'array'} ({one_line(error)})"
             ) from error
+        raise InputError(f"{self.where} does not say {SOME_KNOW[name]}: its source did not")
 
     def _open(self, file: str) -> Any:
         return np.load(io.BytesIO(self.read_file(file)), allow_pickle=False)

@@ -176,8 +176,7 @@ class FolderSink:
         self._append_boxes(boxes)
 
     def _add_pose(self, t_us: int, pose: Any, intrinsics: Any) -> None:
-        camera = self.source.camera_at(t_us)
-        if self._count == 0 and camera is not None:
+        if self._count == 0 and (camera := self.source.camera_at(t_us)) is not None:
             self._write_json("camera.json", camera_facts(camera, self.source.size))
         self._tables["poses.txt"].write(pose_row(t_us, pose[:3, 3], pose[:3, :3]))
         self._tables["intrinsics.txt"].write(intrinsics_row(t_us, intrinsics))

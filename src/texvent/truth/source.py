@@ -179,8 +179,7 @@ class TruthSource:
             found["ids"] = {"instance": as_ids(motion.instance)}
         if "boxes" in self.parts and motion.instance is not None:
             found["boxes"] = self._box_row(frame.t_us, boxes, motion.instance)
-        camera = self.camera_at(frame.t_us)
-        if camera is not None:
+        if "poses" in self.parts and (camera := self.camera_at(frame.t_us)) is not None:
             lens = np.array(intrinsics(camera, self.size))
             found["poses"] = {"pose": pose_matrix(camera), "intrinsics": lens}
         rows = {part: found[part] for part in self.parts if part in found}

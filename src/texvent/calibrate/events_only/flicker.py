@@ -67,8 +67,8 @@ NAMES = (
 )
 UNITS = ("ln", "", "ln", "Hz", "µs")
 SYSTEMATIC = np.array([0.02, 0.03, 0.05, 0.01, 0.01])
-"""Relative error of each that more data do not remove, from simulated sensors
-(`lab/src/texvent_lab/measure/calibration.py`): intervals are that much wider on both sides."""
+"""Relative error of each that more data do not remove, from simulated sensors: intervals are that
+much wider on both sides."""
 
 
 EXCESS_ERROR = 0.05

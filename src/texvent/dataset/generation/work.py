@@ -68,7 +68,7 @@ class Work:
             units, ready = outcome.task.units, list[Any]()
             if outcome.failure is not None:
                 self.failures.update(dict.fromkeys(units, outcome.failure))
-            for unit, record in zip(units, outcome.result or (), strict=False):
+            for unit, record in zip(units, outcome.result or (), strict=outcome.failure is None):
                 self.complete[unit] = self.summary(record)
                 ready += waiting.pop(unit, ())
             yield outcome

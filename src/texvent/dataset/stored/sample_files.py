@@ -119,7 +119,7 @@ class SampleFiles:
     def facts(self) -> dict[str, Any]:
         """All that is known of it: its .json."""
         try:
-            facts = read_json(self.read(("json",)).get("json", b"{}"))
+            facts = read_json(self.read(("json",)).get("json", b""))
         except (ValueError, RecursionError) as error:
             raise FileFormatError(f"{self._where} is damaged ({one_line(error)})") from error
         if not isinstance(facts, dict):

@@ -29,7 +29,7 @@ def dissimilarity(images: Tensor, true: Tensor) -> Tensor:
 
 
 def ssim(a: Tensor, b: Tensor) -> Tensor:
-    """See `texvent.metrics.structural_similarity.structural_similarity`.
+    """See `texvent.metrics.image_measures.structural_similarity`.
 
     Args:
         a: [n, 1, H, W], 0..1, sides of 11 px or more.

@@ -72,8 +72,8 @@ def scan_ramp(
 ) -> None:
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
-    Arguments as for `texvent.gpu.scan_triton.scan_levels`, but `rules` are `EsimRules`, and
-    `reference` is a log intensity, float64.
+    Arguments as for `texvent.simulate.texvent.gpu.scan_triton.scan_levels`, but `rules` are
+    `EsimRules`, and `reference` is a log intensity, float64.
 
     Source: as `crossing.ramp`, whose events these are.
     """
