@@ -17,9 +17,10 @@ TWO_PAIRS = (True, False, False, True, False)
 
 
 def random_clips(dtype: Any, *, seed: int = 0) -> np.ndarray[Any, Any]:
-    """[B, T, H, W] brightness that wanders, 0..255 scale."""
+    """[B, T, H, W] brightness that wanders, 0..255 scale; the first columns are nearly black."""
     steps = np.random.default_rng(seed).normal(0, 25, (CLIPS, FRAMES, HEIGHT, WIDTH))
-    return np.clip(100 + steps.cumsum(axis=1), 0, 255).astype(dtype)
+    first = np.where(np.arange(WIDTH) < WIDTH // 4, 4, 100)
+    return np.clip(first + steps.cumsum(axis=1), 0, 255).astype(dtype)
 
 
 def random_times(*, seed: int = 0) -> np.ndarray[Any, Any]:
