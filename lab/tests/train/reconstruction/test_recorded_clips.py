@@ -10,10 +10,8 @@ import pytest
 
 from texvent.errors import InputError
 from texvent_lab.frame_recordings import open_recording
-from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.reconstruction.recorded_clips import ExtendedClips, RecordedClips
 from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
-from texvent_lab.train.run import read_training
 
 from ...bench.reconstruction.synthetic_network import moving_bar, write_recording
 from ..windowed_specification import write_sequence_data
@@ -29,15 +27,6 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def data(recording: Path, tmp_path: Path) -> SequenceData:
     return SequenceData(recordings=(str(recording),), length=LENGTH, cache=tmp_path / "cache")
-
-
-@pytest.mark.parametrize("given", ['"bar"', '["bar", "slider_depth"]'])
-def test_recordings_count_from_the_training_file(recording: Path, given: str) -> None:
-    file = recording.parent / "training.toml"
-    file.write_text(f"data = {{recordings = {given}, length = {LENGTH}}}\n")
-    data = read_training(file, ReconstructionConfig()).data
-    assert data.recordings[0] == str(recording.parent / "bar")
-    assert data.recordings[1:] in [(), ("slider_depth",)]
 
 
 def test_a_window_holds_the_events_between_two_frames_and_the_second_one(

@@ -18,7 +18,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
-from texvent.io.hdf5 import native
+from texvent.io.hdf5 import dsec
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
@@ -74,9 +74,9 @@ def test_ms_to_idx_follows_its_definition(
 def test_ms_to_idx_spans_silence_and_batches(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(native, "CHUNK_EVENTS", 4)
+    monkeypatch.setattr(dsec, "CHUNK_EVENTS", 4)
     monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 8)
-    monkeypatch.setattr(native, "INDEX_BATCH", 3)
+    monkeypatch.setattr(dsec, "INDEX_BATCH", 3)
     times = [0, 1, 999, 1000, 1000, 1001, 30_000, 30_000, 30_500, 31_000, 90_001]
     parts = [at_times(time) for time in times]
     path = save(tmp_path / "events.h5", EventPackets(parts, SIZE))
@@ -159,14 +159,14 @@ def test_order_is_checked_between_packets_too(
     path = save(tmp_path / "events.h5", at_times(10, 11, 12, 13))
     with h5py.File(path, "r+") as file:
         file["events/t"][:] = [10, 11, 5, 6]
-    monkeypatch.setattr(native, "PACKET_EVENTS", 2)
+    monkeypatch.setattr(dsec, "PACKET_EVENTS", 2)
     with pytest.raises(FileFormatError, match="time decreases from 11 to 5 µs"):
         load(path)
 
 
 def test_reading_packets_holds_one_packet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = save(tmp_path / "events.h5", at_times(*range(10)))
-    monkeypatch.setattr(native, "PACKET_EVENTS", 4)
+    monkeypatch.setattr(dsec, "PACKET_EVENTS", 4)
     assert [len(packet) for packet in open_events(path)] == [4, 4, 2]
 
 
