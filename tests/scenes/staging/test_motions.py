@@ -1,6 +1,7 @@
 """Motions: continuous, physical, of the stated speed, and what sequences of them come to."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,24 +11,9 @@ from tests.scenes.staged import stage, thing
 
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.spec.scene import Motion
-from texvent.scenes.staging.trajectories.action_trajectories import (
-    GRAVITY_M_S2,
-    Flight,
-    Oscillating,
-    Spin,
-    Wave,
-    bounce_height,
-    hover,
-)
+from texvent.scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, bounce_height
 from texvent.scenes.staging.trajectories.phases import build_path, schedule
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, steady
-from texvent.scenes.staging.trajectories.trajectory import (
-    Attached,
-    BodyState,
-    Rolling,
-    Shuttle,
-    Stationary,
-)
+from texvent.scenes.staging.trajectories.track import Term, Track, seated, steady
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
          "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
@@ -36,14 +22,16 @@ motions = st.builds(
     Motion, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
     st.sampled_from([0.5, 1.0, 2.0]), end_pace=st.sampled_from([None, None, 0.0, 2.0]),
 )  # fmt: skip
-pieces = st.builds(
-    Piece, st.floats(0.2, 2.0), st.floats(-4.0, 9.0), st.floats(-3.0, 3.0), st.floats(-1.0, 1.0),
-    st.floats(0.05, 1.0), hop_m=st.sampled_from([0.0, 0.0, 0.3]), is_dropped=st.booleans(),
-    pitch_rad=st.sampled_from([0.0, 0.0, 1.5]),
+keys = st.builds(
+    Key, st.floats(0.2, 2.0), st.floats(-4.0, 9.0), st.floats(-3.0, 3.0), st.floats(-1.0, 1.0),
+    st.floats(0.05, 1.0), hop_m=st.sampled_from([0.0, 0.0, 0.3]),
+    restitution=st.sampled_from([None, None, 0.3]), pitch_rad=st.sampled_from([0.0, 0.0, 1.5]),
 )  # fmt: skip
-paths = st.builds(
-    SteeredPath, st.just((1.0, 2.0, 0.5)), st.floats(-3.0, 3.0),
-    st.lists(pieces, min_size=1, max_size=4).map(tuple), st.floats(-3.0, 9.0),
+tracks = st.builds(
+    lambda yaw, speed, following: Track(
+        (1.0, 2.0, 0.5), yaw, (Key(0.0, speed), *following), usual_speed_m_s=1.0, floor_m=0.0
+    ),
+    st.floats(-3.0, 3.0), st.floats(-3.0, 9.0), st.lists(keys, min_size=1, max_size=4),
 )  # fmt: skip
 
 
@@ -68,7 +56,7 @@ def test_motions_share_the_clip_evenly_and_stated_times_are_kept():
 def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
     path = path_of(*sequence, noun=noun, duration_s=duration_s)
     assert path.duration_s == pytest.approx(duration_s)
-    edges = np.cumsum([piece.duration_s for piece in path.pieces])
+    edges = np.cumsum([key.duration_s for key in path.keys])
     for instant in (time_s, *(edges - 5e-4)):
         before, after = path.at(float(instant)), path.at(float(instant) + 1e-3)
         assert np.abs(np.subtract(after.position, before.position)).max() < 0.05
@@ -98,7 +86,7 @@ def test_an_airplane_takes_off_along_a_runway_and_lands_on_it():
     assert down.at(4.0).position[2] == pytest.approx(0.0, abs=0.1)
 
 
-@given(paths, st.floats(-0.5, 9.0))
+@given(tracks, st.floats(-0.5, 9.0))
 def test_position_heading_and_speed_are_continuous(path, time_s):
     for instant in [time_s, *(knot.time_s - 5e-4 for knot in path._knots)]:
         before, after = path.at(instant), path.at(instant + 1e-3)
@@ -108,7 +96,7 @@ def test_position_heading_and_speed_are_continuous(path, time_s):
         assert abs(after.distance_m - before.distance_m) < 0.02
 
 
-@given(paths, st.floats(0.0, 5.0))
+@given(tracks, st.floats(0.0, 5.0))
 def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
     before, middle, after = (path.at(time_s + step) for step in (-1e-5, 0.0, 1e-5))
     velocity = np.subtract(after.position, before.position)[:2] / 2e-5
@@ -119,30 +107,36 @@ def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
 
 
 STRAIGHT = steady((5.0, 2.0, 0.0), math.pi, 4.0)
-TRAJECTORIES = {
-    "rest": Stationary((1.0, 2.0, 0.0)),
+HOME = (0.0, 0.0, 0.0)
+TRACKS = {
+    "rest": steady((1.0, 2.0, 0.0), 0.0),
     "straight": STRAIGHT,
-    "weaving": Oscillating(
-        steady((0.0, 0.0, 2.0), 0.3, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
+    "weaving": replace(
+        steady((0.0, 0.0, 2.0), 0.3, 1.0, climb=0.4), terms=(Term("yaw", 0.1, 0.7, 0.3),)
     ),
-    "rolling": Rolling(steady((0.0, 0.0, 0.0), 0.0, 2.0), 0.25),
-    "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
+    "rolling": replace(steady(HOME, 0.0, 2.0), radius_m=0.25),
+    "to and fro": Track(HOME, 0.5, (Key(1.0, 2.8, activity="run", swing_hz=0.3),)),
     "circle": steady((2.0, 0.0, 1.0), -0.5 * math.pi, 3.0, turn_rad_s=-1.5),
-    "spin": Spin((0.0, 0.0, 0.0), 3.0),
-    "axle": Spin((0.0, 0.0, 0.0), 3.0, axis="pitch", pivot_m=0.5),
-    "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),
-    "throw": Flight(BodyState((0.0, 0.0, 1.0), pivot_m=0.2), (2.0, 1.0, 4.0), 0.0, 0.6, 0.3, 3.0),
-    "hover": hover(Stationary((0.0, 0.0, 2.0)), 0.2, 0.4),
-    "sway": Oscillating(Stationary((0.0, 0.0, 0.0)), (Wave("roll", 0.2, 0.5),)),
-    "riding": Attached.seated(STRAIGHT, (0.0, 0.0, 1.0), "sit"),
-}
-ON_GROUND = ("straight", "rolling", "shuttle", "circle", "bounce", "throw")
+    "spin": Track(HOME, terms=(Term("yaw", drift=3.0, gain=0.2),)),
+    "axle": Track(HOME, terms=(Term("pitch", drift=3.0),), pivot_m=0.5),
+    "bounce": Track(
+        (0.0, 0.0, 1.5), keys=(Key(0.0, 0.5), Key(1.0, 0.5, restitution=0.8)), floor_m=0.0
+    ),
+    "throw": Track(
+        (0.0, 0.0, 1.0), 0.4,
+        (Key(0.3), Key(1.0, 2.2, climb_m_s=4.0, ramp_s=0.0, restitution=0.6)),
+        (Term("pitch", drift=3.0, offset=-0.9, begin_s=0.3),), floor_m=0.0, pivot_m=0.2,
+    ),
+    "hover": Track((0.0, 0.0, 2.0), terms=(Term("x", 0.12, 0.23), Term("z", 0.2, 0.4, 0.1))),
+    "riding": seated(STRAIGHT, (0.0, 0.0, 1.0), "sit"),
+}  # fmt: skip
+ON_GROUND = ("straight", "rolling", "to and fro", "circle", "bounce", "throw")
 
 
-@pytest.mark.parametrize("name", TRAJECTORIES)
+@pytest.mark.parametrize("name", TRACKS)
 def test_a_body_never_jumps_and_its_distance_is_that_of_its_path(name):
     times = np.linspace(0.0, 6.0, 1201)
-    states = [TRAJECTORIES[name].at(float(t)) for t in times]
+    states = [TRACKS[name].at(float(t)) for t in times]
     maps = np.array([state.to_world() for state in states])
     assert np.abs(np.diff(maps, axis=0)).max() / times[1] < 14.0
     distance = np.array([state.distance_m for state in states])
@@ -154,7 +148,7 @@ def test_a_body_never_jumps_and_its_distance_is_that_of_its_path(name):
 
 def test_a_rolling_ball_does_not_slide():
     """The point that touches the ground stands still: v = ω r."""
-    ball = TRAJECTORIES["rolling"]
+    ball = TRACKS["rolling"]
     before, after = ball.at(1.0).to_world(), ball.at(1.0 + 1e-6).to_world()
     foot = np.array([ball.at(1.0).position[0], 0.0, 0.0])
     lowest = np.linalg.inv(before[:, :3]) @ (foot - before[:, 3])

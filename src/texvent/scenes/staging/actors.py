@@ -17,7 +17,7 @@ from texvent.scenes.models.people.outfit import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, compose, moved
 from texvent.scenes.rendered_scene import Float64Array, Primitives
-from texvent.scenes.staging.trajectories.trajectory import Trajectory
+from texvent.scenes.staging.trajectories.track import Track
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 """Corners of a box two units wide."""
@@ -69,7 +69,7 @@ class Actor:
     """Index into `SceneDescription.objects`."""
     noun: Noun
     model: Model
-    trajectory: Trajectory
+    trajectory: Track
     is_mover: bool
     instance: int
     """Ground-truth id, from 1."""

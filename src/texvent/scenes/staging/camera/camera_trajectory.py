@@ -13,8 +13,7 @@ from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
-from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import Trajectory
+from texvent.scenes.staging.trajectories.track import Track
 
 PAN_RAD, TILT_RAD, ROLL_RAD = 0.36, 0.24, 0.7
 """Turns over the clip."""
@@ -85,7 +84,7 @@ class MoveChannels:
 class Journey:
     """A camera that travels: ego-motion along a route."""
 
-    route: SteeredPath
+    route: Track
     """Position and heading on the ground."""
     height_m: float
     pitch_rad: float
@@ -96,7 +95,7 @@ class Journey:
 class Tie:
     """The motion that a camera which follows or orbits its subject shares with it."""
 
-    trajectory: Trajectory
+    trajectory: Track
     """Trajectory of the subject."""
     rises: bool = True
     """Whether it also rises and falls with it."""

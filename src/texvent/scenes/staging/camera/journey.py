@@ -15,7 +15,8 @@ from texvent.scenes.rendered_scene import Ground
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.camera.camera_trajectory import Journey
 from texvent.scenes.staging.surroundings.environment import RoadLine
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+from texvent.scenes.staging.trajectories.keys import Key
+from texvent.scenes.staging.trajectories.track import Track
 
 NORTH = 0.5 * math.pi
 """Heading of a route."""
@@ -73,7 +74,7 @@ class TravelPlan:
     @property
     def speed_m_s(self) -> float:
         """At its beginning; negative = backwards."""
-        return self.journey.route.initial_speed_m_s
+        return self.journey.route.keys[0].speed_m_s
 
     def point(self, along_m: float, right_m: float) -> tuple[float, float]:
         """X and y of a place that far ahead of the rearmost point and to the right."""
@@ -110,7 +111,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
 
 def _lay_route(
     phases: Sequence[Sequence[CameraMove]], speed: float, duration_s: float
-) -> tuple[SteeredPath, float]:
+) -> tuple[Track, float]:
     """The route, and its length from end to end, m; the camera rests in phases without a move."""
     span = duration_s / len(phases)
     ramp = min(0.5, 0.4 * span)
@@ -118,8 +119,8 @@ def _lay_route(
     for moves in phases:
         is_back = any(move.direction == "backward" for move in moves)
         speed_m_s = -speed if is_back else speed if moves else 0.0
-        pieces.append(Piece(span, speed_m_s, ramp_s=ramp))
-    route = SteeredPath((0.0, 0.0, 0.0), NORTH, tuple(pieces), pieces[0].speed_m_s)
+        pieces.append(Key(span, speed_m_s, ramp_s=ramp))
+    route = Track((0.0, 0.0, 0.0), NORTH, (Key(0.0, pieces[0].speed_m_s), *pieces))
     distances_m = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
     start = (0.0, -0.5 * (min(distances_m) + max(distances_m)), 0.0)
     return replace(route, start=start), max(distances_m) - min(distances_m)

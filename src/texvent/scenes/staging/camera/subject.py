@@ -15,7 +15,6 @@ from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over, seeded
 from texvent.scenes.staging.camera.camera_trajectory import Tie
-from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
@@ -61,7 +60,7 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     """Whether it is a hand that stays, or a person who acts with arms and head all along."""
     if actor.noun.name in HAND_NOUNS:
-        return isinstance(actor.trajectory, Stationary)
+        return actor.trajectory.is_resting
     activities = {actor.pose(float(time)).activity for time in times}
     return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
 

@@ -17,15 +17,8 @@ from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import Actor, size_of
-from texvent.scenes.staging.trajectories.trajectory import (
-    Attached,
-    Performed,
-    Trajectory,
-    Vector,
-    rotation,
-)
-
-Grips = tuple[tuple[str, Vector], ...]
+from texvent.scenes.staging.trajectories.keys import Vector
+from texvent.scenes.staging.trajectories.track import Grips, Track, attached, rotation, seated
 
 _STYLES = ("held as a tool", "held upright", "held up high", "held hanging")
 """Traits that say how a noun is held."""
@@ -73,20 +66,24 @@ def scaled(point: Vector, size: float) -> Vector:
     return (size * point[0], size * point[1], size * point[2])
 
 
-def moving(actor: Actor, path: Trajectory) -> Actor:
+def _gripping(path: Track, grips: Grips) -> Track:
+    return replace(path, grips=grips + path.grips)
+
+
+def moving(actor: Actor, path: Track) -> Actor:
     """The actor on another trajectory, with nothing in its hands."""
     return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())
 
 
 def held_at(
     holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False, activity: str = "stand"
-) -> Attached:
+) -> Track:
     """A trajectory fixed to a named place of a body: `offset` [3, 4] are axes at that place.
 
     What is upright faces as its holder does.
     """
     axes = partial(_upright, holder, anchor) if is_upright else partial(holder.anchor, anchor)
-    return Attached(holder.trajectory, axes, offset, activity)
+    return attached(holder.trajectory, offset, activity, axes)
 
 
 def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
@@ -101,7 +98,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
     hold = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
-        subject = replace(subject, trajectory=Performed(subject.trajectory, None, hold.grips))
+        subject = replace(subject, trajectory=_gripping(subject.trajectory, hold.grips))
     held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
 
@@ -117,7 +114,7 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     return subject, carried(target, held_at(subject, worn["place"], offset), subject)
 
 
-def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
+def carried(target: Actor, held: Track, holder: Actor) -> Actor:
     """The thing on a trajectory that its holder gives it."""
     return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
 
@@ -183,7 +180,9 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         drop = 1.34 - height / size
         reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
         grips = _both_hands(reach, min(0.16 * size, 0.45 * model.width), height)
-        subject = replace(subject, trajectory=Performed(subject.trajectory, "push along", grips))
+        subject = replace(
+            subject, trajectory=replace(_gripping(subject.trajectory, grips), activity="push along")
+        )
     offset = shift(reach + 0.02 + 0.5 * model.length, 0.0, target.foot_m)
     path = held_at(subject, "ground", offset, is_upright=True, activity="move")
     return subject, replace(
@@ -222,10 +221,10 @@ def mount(rider: Actor, ridden: Actor) -> Actor:
         support = find_support(ridden.model)
         seat = (*support.middle, support.height + up * size)
         props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
-    path: Trajectory = Attached.seated(ridden.trajectory, seat, doing)
-    if grips:
-        path = Performed(path, None, grips)
-    return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0, props=props)
+    path = seated(ridden.trajectory, seat, doing)
+    return replace(
+        rider, trajectory=_gripping(path, grips), is_mover=ridden.is_mover, lead_m=0.0, props=props
+    )
 
 
 def _astride_back(ridden: Actor, size: float) -> tuple[Vector, Grips]:

@@ -8,36 +8,42 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from texvent.scenes.models.shapes import bounds, moved, point, shift
-from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.interactions.holding import (
     held_at,
     is_person,
     moving,
 )
-from texvent.scenes.staging.trajectories.action_trajectories import (
-    Flight,
-    about_pivot,
-)
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import (
+from texvent.scenes.staging.trajectories.keys import Key, Vector, ahead
+from texvent.scenes.staging.trajectories.track import (
     BodyState,
-    Performed,
-    Stationary,
-    Switched,
-    Vector,
-    ahead,
+    Term,
+    Track,
     rotation,
+    state_of,
+    steady,
 )
 
+
+class Strike(NamedTuple):
+    """An act that lets a thing fly off."""
+
+    share: float
+    """Instant of contact as a share of the clip."""
+    loft: float
+    """Upward speed of the thing, as a share of its speed along the ground."""
+    tumble_rad_s: float
+
+
+KICK, THROW = Strike(0.45, 0.45, math.nan), Strike(0.35, 0.35, 6.0)
+"""What is kicked rolls."""
 _FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
-_LOFT = {"kick": 0.45, "throw": 0.35}
-"""Upward speed of what flies off, as a share of its speed along the ground."""
 _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
@@ -49,61 +55,62 @@ _THIN, _ASLANT = 0.6, 0.55
 rad."""
 
 
-def contact_time(duration_s: float, share: float = 0.45) -> float:
+def contact_time(duration_s: float, share: float = KICK.share) -> float:
     """Time of the contact of the bodies, s."""
     return min(max(share * duration_s, 0.3), 1.1)
 
 
-def heading_of(yaw: float) -> Float64Array:
-    """The unit vector on the ground towards `yaw` (rad)."""
-    return np.array([math.cos(yaw), math.sin(yaw), 0.0])
-
-
 def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """The foot meets the thing, the thing flies."""
-    contact_s, home = contact_time(duration_s), subject.trajectory.at(0.0)
-    activity = "kick" if is_person(subject) else "stand"
-    path = Performed(Stationary(home.position, home.yaw), activity, contact_s=contact_s)
-    subject = moving(subject, path)
-    tip, heading = subject.anchor("right foot", contact_s)[:, 3], heading_of(home.yaw)
-    radius, low = 0.5 * thing.model.length, home.position[2]
-    inset = 0.0
-    if abs(thing.model.length - thing.model.height) < 0.1 * radius:
+    subject, contact_s = _strike(
+        subject, "kick" if is_person(subject) else "stand", KICK, duration_s
+    )
+    home, tip = subject.trajectory.at(0.0), subject.anchor("right foot", contact_s)[:, 3]
+    model, inset = thing.model, 0.0
+    radius = 0.5 * model.length
+    if abs(model.length - model.height) < 0.1 * radius:
         inset = radius - math.sqrt(max(radius**2 - (radius - min(tip[2], radius)) ** 2, 0.0))
-    spot = np.array([tip[0], tip[1], low + 0.5 * thing.model.height]) + (radius - inset) * heading
-    flight = _fly_off("kick", thing, _at(thing, spot, home.yaw), home, (contact_s, duration_s))
-    rolling = math.hypot(*flight.velocity_m_s[:2]) / max(0.5 * thing.model.height, 0.05)
-    return subject, moving(thing, replace(flight, tumble_rad_s=rolling))
+    middle_m = home.position[2] + 0.5 * model.height - thing.lift_m
+    spot = ahead(point(tip), home.yaw, radius - inset, middle_m)
+    start = BodyState(spot, home.yaw, pivot_m=thing.lift_m)
+    return subject, moving(thing, _fly_off(KICK, thing, start, home, (contact_s, duration_s)))
 
 
 def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """Let go in the middle of the swing; it flies off."""
-    release_s, home = contact_time(duration_s, 0.35), subject.trajectory.at(0.0)
-    path = Performed(Stationary(home.position, home.yaw), "throw", contact_s=release_s)
-    subject = moving(subject, path)
+    subject, release_s = _strike(subject, "throw", THROW, duration_s)
     reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
     anchor = "right hand" if is_person(subject) else "mouth"
     held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
-    start = about_pivot(held.at(release_s), thing.lift_m)
-    flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
-    return subject, moving(thing, Switched(held, replace(flight, tumble_rad_s=6.0), release_s))
+    start = state_of(held.at(release_s).to_world(), thing.lift_m)
+    flight = _fly_off(THROW, thing, start, subject.trajectory.at(0.0), (release_s, duration_s))
+    return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=release_s))
 
 
-def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
-    """The thing with its middle there."""
-    place = point(middle - [0.0, 0.0, thing.lift_m])
-    return BodyState(place, yaw, pivot_m=thing.lift_m)
+def _strike(subject: Actor, activity: str, act: Strike, duration_s: float) -> tuple[Actor, float]:
+    """The subject in its place, doing that, and the instant of contact, s."""
+    contact_s, home = contact_time(duration_s, act.share), subject.trajectory.at(0.0)
+    rest = steady(home.position, home.yaw, activity=activity)
+    return moving(subject, replace(rest, contact_s=contact_s)), contact_s
 
 
 def _fly_off(
-    act: str, thing: Actor, start: BodyState, home: BodyState, times_s: tuple[float, float]
-) -> Flight:
+    act: Strike, thing: Actor, start: BodyState, home: BodyState, times_s: tuple[float, float]
+) -> Track:
     """From a start to where the subject faces at home, between the contact and the clip's end."""
-    speed = min(max(_FLIGHT_M / max(times_s[1] - times_s[0], 0.1), 1.5), 7.0)
-    along = speed * heading_of(home.yaw)
-    floor = home.position[2] + 0.5 * thing.model.height - start.pivot_m
-    velocity = (float(along[0]), float(along[1]), _LOFT[act] * speed)
-    return Flight(start, velocity, floor, 0.55, times_s[0])
+    contact_s, end_s = times_s
+    speed = min(max(_FLIGHT_M / max(end_s - contact_s, 0.1), 1.5), 7.0)
+    half = 0.5 * thing.model.height
+    tumble = speed / max(half, 0.05) if math.isnan(act.tumble_rad_s) else act.tumble_rad_s
+    flight = Key(1.0, speed, climb_m_s=act.loft * speed, ramp_s=0.0, restitution=0.55)
+    turned = start.pitch - tumble * contact_s
+    terms = (
+        Term("yaw", offset=start.yaw - home.yaw), Term("roll", offset=start.roll),
+        Term("pitch", offset=turned, drift=tumble, begin_s=contact_s),
+    )  # fmt: skip
+    floor = home.position[2] + half - start.pivot_m
+    keys = (Key(contact_s), flight)
+    return Track(start.position, home.yaw, keys, terms, floor_m=floor, pivot_m=start.pivot_m)
 
 
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -135,7 +142,7 @@ def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple
     if still.model.length < _THIN * still.model.width:
         yaw += _ASLANT if yaw == 0.0 else -_ASLANT
         place = still.trajectory.at(0.0).position
-        still = replace(still, trajectory=Stationary(place, yaw + math.pi))
+        still = replace(still, trajectory=steady(place, yaw + math.pi, activity="stand"))
     touching = _find_contact(mover, still, yaw, mover.trajectory.at(0.0).position[2])
     return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
 
@@ -156,20 +163,17 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
     return point(frame.T @ np.array([x, y, level_m]))
 
 
-def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> SteeredPath:
+def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Track:
     """Along the ground to where it touches, and a little back."""
     length = actor.model.length
     usual = actor.noun.speed_m_s or length / contact_s
     speed = min(max(usual * contact_s, _LENGTHS[0] * length), _LENGTHS[1] * length) / contact_s
     back = speed * _REBOUND.get(actor.noun.motion, 0.0)
-    return SteeredPath(
-        ahead(touching, yaw, -speed * contact_s, touching[2]),
-        yaw,
-        (
-            Piece(contact_s, speed),
-            Piece(0.25, -back, ramp_s=_TURN_ROUND_S),
-            Piece(0.6, 0.0, ramp_s=0.6),
-            Piece(0.1, activity="stand"),
-        ),
-        initial_speed_m_s=speed,
+    keys = (
+        Key(0.0, speed),
+        Key(contact_s, speed),
+        Key(0.25, -back, ramp_s=_TURN_ROUND_S),
+        Key(0.6, 0.0, ramp_s=0.6),
+        Key(0.1, activity="stand"),
     )
+    return Track(ahead(touching, yaw, -speed * contact_s, touching[2]), yaw, keys)

@@ -23,9 +23,9 @@ from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import SceneObject
 from texvent.scenes.staging.actors import is_centred, lowest_point, size_of
 from texvent.scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
+from texvent.scenes.staging.trajectories.keys import Vector
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
-from texvent.scenes.staging.trajectories.steered_path import sample_places
-from texvent.scenes.staging.trajectories.trajectory import Vector
+from texvent.scenes.staging.trajectories.track import sample_places
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""

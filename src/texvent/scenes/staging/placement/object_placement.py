@@ -42,8 +42,9 @@ from texvent.scenes.staging.trajectories.choose_trajectory import (
     choose_trajectory,
     orbit,
 )
+from texvent.scenes.staging.trajectories.keys import Vector
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
-from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector
+from texvent.scenes.staging.trajectories.track import Track, seated
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -276,7 +277,7 @@ class ObjectPlacer:
 
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
-    ) -> Trajectory:
+    ) -> Track:
         """The trajectory of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             x, y, _ = group.orbits.centre
@@ -290,11 +291,11 @@ class ObjectPlacer:
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
         return choose_trajectory(plan, model, home, rng)
 
-    def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
+    def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Track:
         """On what carries it, which moves as a whole."""
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
         carrier = self._choose(below, below.models[0], point(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
         cosine, sine = math.cos(yaw), math.sin(yaw)
         place = (x * cosine + y * sine, y * cosine - x * sine, z)
-        return Attached.seated(carrier, place, group.plan.gesture or "sit")
+        return seated(carrier, place, group.plan.gesture or "sit")

@@ -32,8 +32,7 @@ from texvent.scenes.staging.surroundings.lighting import (
     choose_lighting,
     wave_level,
 )
-from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import Attached, Stationary
+from texvent.scenes.staging.trajectories.track import steady
 
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
@@ -134,7 +133,7 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
 
     x, y, yaw = centre_line(0.0)
     crossings: list[tuple[float, float, float]] = []
-    if isinstance(first.trajectory, SteeredPath):
+    if not first.trajectory.terms:
         ends = (0.5 * first.trajectory.duration_s, first.trajectory.duration_s)
         crossings = [
             line
@@ -148,7 +147,7 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     """The actors, with what is painted across a road turned to it."""
     painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
     return [
-        replace(one, trajectory=Stationary(one.trajectory.at(0.0).position, yaw))
+        replace(one, trajectory=steady(one.trajectory.at(0.0).position, yaw))
         if one.noun.name in painted else one
         for one in actors
     ]  # fmt: skip
@@ -165,7 +164,7 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrajector
     half = place.road_m if place.ground is Ground.RIVER else 0.0
     swimmers = [
         one for one in actors if one.trajectory.at(0.0).activity in _AFLOAT
-        or (one.noun.habitat == "water" and not isinstance(one.trajectory, Attached))
+        or (one.noun.habitat == "water" and one.trajectory.anchor is None)
     ]  # fmt: skip
     gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
     if not actors:

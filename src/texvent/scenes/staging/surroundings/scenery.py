@@ -20,7 +20,7 @@ from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
 from texvent.scenes.staging.surroundings.environment import RoadLine
-from texvent.scenes.staging.trajectories.trajectory import BodyState
+from texvent.scenes.staging.trajectories.track import BodyState
 
 _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""

@@ -18,7 +18,6 @@ from texvent.scenes.models.people.activities import (
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.spec.scene import Motion
-from texvent.scenes.staging.trajectories.action_trajectories import Axis
 from texvent.scenes.staging.trajectories.phases import (
     GOING,
     PATH_KINDS,
@@ -26,7 +25,7 @@ from texvent.scenes.staging.trajectories.phases import (
     build_path,
     needs_steering,
 )
-from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+from texvent.scenes.staging.trajectories.track import Track
 
 MAX_LENGTHS_PER_S = 0.95
 """A usual speed is kept below this many of the object's own lengths per second, so that it stays
@@ -51,13 +50,14 @@ class MotionPlan:
     yaw: float
     speed_m_s: float
     duration_s: float
-    path: SteeredPath | None = None
+    path: Track | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """Activity of a person or a hand in place: a name of `people.activities`."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
-    spin_axis: Axis = "yaw"
+    spin_axis: str = "yaw"
+    """Channel of a spin: the vertical, the body's width, or its length."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
 
@@ -104,7 +104,7 @@ def plan_motion(
     yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(noun, model, motion)
-    axle: Axis = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
+    axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing,
         radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,

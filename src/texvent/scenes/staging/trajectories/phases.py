@@ -13,14 +13,8 @@ from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRA
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.spec.scene import Motion
-from texvent.scenes.staging.trajectories.steered_path import (
-    HOP_PAUSE_S,
-    Piece,
-    SteeredPath,
-    arc,
-    centred,
-    flight_s,
-)
+from texvent.scenes.staging.trajectories.keys import HOP_PAUSE_S, Key, flight_s
+from texvent.scenes.staging.trajectories.track import Track, centred
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
@@ -48,7 +42,7 @@ that the turn to another direction takes."""
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _RAMP_S = 0.3
-_BRAKING_M_S2 = 6.0
+_BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
@@ -125,7 +119,7 @@ def build_path(
     yaw: float,
     usual_m_s: float,
     duration_s: float,
-) -> SteeredPath:
+) -> Track:
     """The path of several motions, its box centred over (0, 0).
 
     Args:
@@ -141,12 +135,13 @@ def build_path(
     builder = _TrajectoryBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
-    path = SteeredPath(
+    first = Key(
+        0.0, builder.initial_speed, builder.initial_turn, activity=builder.pieces[0].activity
+    )
+    path = Track(
         (0.0, 0.0, builder.initial_height),
         yaw,
-        tuple(builder.pieces),
-        builder.initial_speed,
-        builder.initial_turn,
+        (first, *builder.pieces),
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
     )
@@ -168,6 +163,25 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
     return min(needed, MOST_HASTE * usual_m_s)
 
 
+def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
+    """Turn by an angle, the rate rising and falling smoothly.
+
+    Args:
+        span: how long it takes, s.
+        speed: along the heading, m/s.
+        angle: positive = to the left, radians.
+        least_m: least radius, m; a tighter turn is turned less far.
+    """
+    ramp = min(_RAMP_S, 0.3 * span)
+    turn = angle / (span - ramp)
+    if least_m > 0.0 and speed != 0.0:
+        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
+    return [
+        Key(span - ramp, speed, turn, ramp_s=ramp),
+        Key(ramp, speed, 0.0, ramp_s=ramp),
+    ]
+
+
 class _TrajectoryBuilder:
     """Collects pieces; knows the heading and height at the end of the last one."""
 
@@ -180,7 +194,7 @@ class _TrajectoryBuilder:
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = 0.0
         self._heading = yaw
-        self.pieces: list[Piece] = []
+        self.pieces: list[Key] = []
         self.initial_speed = self.initial_turn = self.initial_height = 0.0
 
     def add(self, phase: Phase) -> None:
@@ -194,7 +208,7 @@ class _TrajectoryBuilder:
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
             turn = -turn if motion.direction in _CLOCKWISE else turn
             self._start(0.0, turn)
-            self._append(Piece(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
+            self._append(Key(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
         elif motion.kind in ("jump", "bounce"):
             self._hop(motion, span)
         elif motion.kind in ("fall", "topple"):
@@ -203,15 +217,15 @@ class _TrajectoryBuilder:
             self._rest(motion, span)
 
     @property
-    def _last(self) -> Piece:
-        return self.pieces[-1] if self.pieces else Piece(0.0)
+    def _last(self) -> Key:
+        return self.pieces[-1] if self.pieces else Key(0.0)
 
     def _start(self, speed: float, turn: float = 0.0) -> None:
         """Let the clip begin in full motion."""
         if not self.pieces:
             self.initial_speed, self.initial_turn = speed, turn
 
-    def _append(self, piece: Piece) -> None:
+    def _append(self, piece: Key) -> None:
         before = self._last.turn_rad_s if self.pieces else self.initial_turn
         span, turn, ramp = piece.duration_s, piece.turn_rad_s, piece.ramp_s
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
@@ -250,14 +264,14 @@ class _TrajectoryBuilder:
                     self._append(replace(one, activity=activity))
             else:
                 ramp = min(_RAMP_S, 0.35 * share * span)
-                self._append(Piece(share * span, speed, 0.0, climb, ramp, activity))
+                self._append(Key(share * span, speed, 0.0, climb, ramp, activity))
         if end is not None:
             # What brakes is seen going, and at rest or slow for a while.
             lead, ramp = (0.3, 0.4) if abs(end) < abs(speed) else (0.12, 0.88)
             first_ramp = min(_RAMP_S, 0.35 * lead * last_s)
-            self._append(Piece(lead * last_s, speed, 0.0, climb, first_ramp, activity))
+            self._append(Key(lead * last_s, speed, 0.0, climb, first_ramp, activity))
             rest_s = (1.0 - lead) * last_s
-            self._append(Piece(rest_s, end, 0.0, climb, ramp * last_s, activity))
+            self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
 
     def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
@@ -283,8 +297,8 @@ class _TrajectoryBuilder:
             climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
             first_s = span * (_LIFT_SHARE if is_up else _LANDING_SHARE)
             self._start(speed)
-            self._append(Piece(first_s, speed, 0.0, 0.0 if is_up else climb, 0.0))
-            self._append(Piece(span - first_s, speed, 0.0, climb if is_up else 0.0, 0.6))
+            self._append(Key(first_s, speed, 0.0, 0.0 if is_up else climb, 0.0))
+            self._append(Key(span - first_s, speed, 0.0, climb if is_up else 0.0, 0.6))
             self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
             return
         size = max(self._model.length, self._model.height)
@@ -297,7 +311,7 @@ class _TrajectoryBuilder:
         # What rises alone starts slowly and gets faster all along.
         is_slow = is_up and self._is_single
         ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
-        self._append(Piece(span, climb_m_s=factor * climb, ramp_s=ramp))
+        self._append(Key(span, climb_m_s=factor * climb, ramp_s=ramp))
 
     def _hop(self, motion: Motion, span: float) -> None:
         """Jump or bounce."""
@@ -312,17 +326,17 @@ class _TrajectoryBuilder:
                 self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
         ramp = min(_RAMP_S, 0.35 * span)
-        self._append(Piece(span, speed, 0.0, 0.0, ramp, activity, height))
+        self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
 
     def _fall(self, kind: str, span: float) -> None:
         """Drop to the floor; or what stands there falls over."""
         is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
         if kind == "topple" and not self.pieces:
-            self._append(Piece(0.15 * span, ramp_s=0.05 * span, activity="stand"))
+            self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
-        piece = Piece(span, activity="stand", is_dropped=True)
+        piece = Key(span, activity="stand", restitution=_RESTITUTION)
         if kind == "topple" or is_standing:
-            piece = Piece(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
+            piece = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
         self._append(piece)
         self._height = 0.0
 
@@ -338,7 +352,7 @@ class _TrajectoryBuilder:
             activity = last.activity  # wheels and legs go on until it stands
         braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
         ramp = min(braking, 0.9 * span)
-        self._append(Piece(span, ramp_s=ramp, activity=activity, pitch_rad=last.pitch_rad))
+        self._append(Key(span, ramp_s=ramp, activity=activity, pitch_rad=last.pitch_rad))
 
 
 def activity_of(kind: str) -> str:
