@@ -32,6 +32,7 @@ from texvent.scenes.models.people.activities import (
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.spec import scene as spec
+from texvent.scenes.spec.data import scene_to_data
 from texvent.scenes.spec.scene import (
     Camera,
     CameraMove,
@@ -43,6 +44,7 @@ from texvent.scenes.spec.scene import (
     Scene,
     SceneObject,
 )
+from texvent.scenes.staging.camera.camera_trajectory import time_moves
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.sensor import SensorSize
@@ -128,7 +130,7 @@ def mark_moves() -> Marks:
     moves = [CameraMove(kind, to) for kind in get_args(spec.MoveKind) for to in MOVE_DIRECTIONS]
     return {
         f"{one.kind} {one.direction}": mark(
-            *(replace(path, moves=(one,)).at(t) for t in INSTANTS_S)
+            *(replace(path, moves=tuple(time_moves([one], DURATION_S))).at(t) for t in INSTANTS_S)
         )
         for one in moves
         if one.kind != "travel"
@@ -189,7 +191,8 @@ def _of_surroundings() -> Iterator[tuple[str, Scene]]:
     cameras += [Camera(view=one) for one in get_args(spec.View)]
     cameras += [Camera(framing=one) for one in _choices(Camera, "framing")]
     for camera in cameras:
-        yield str(camera), Scene(objects=man, camera=camera, place=EMPTY)
+        scene = Scene(objects=man, camera=camera, place=EMPTY)
+        yield f"camera {scene_to_data(scene)['camera']}", scene
 
 
 def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:

@@ -1,6 +1,7 @@
 """The camera: how near it goes, its moves, and the route that it travels."""
 
 import math
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.scenes.rendered_scene import project
-from texvent.scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
+from texvent.scenes.spec.scene import Camera, CameraMove, Motion, MoveKind, SceneObject
 from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent.scenes.staging.camera.framing import (
     come_near,
@@ -106,6 +107,22 @@ def test_phases_follow_each_other():
     assert bearings[0] + 0.05 < bearings[1] == pytest.approx(bearings[2])
     assert axes[0][2] == pytest.approx(axes[1][2])
     assert axes[2][2] > axes[1][2] + 0.05
+
+
+@pytest.mark.parametrize("kind", [one for one in get_args(MoveKind) if one != "static"])
+def test_the_camera_moves_between_the_start_and_the_end_of_its_move_only(kind):
+    """A camera that travels brakes a little longer."""
+    scene = film(CameraMove(kind, "right", start_s=0.6, duration_s=0.7), motion=("walk",))
+    first, start, end, last = (scene.camera(time) for time in (0.0, 0.6, 1.7, 2.0))
+    for one, other, is_same in ((first, start, True), (start, end, False), (end, last, True)):
+        values = [np.concatenate([c.position, c.rotation.ravel(), [c.focal]]) for c in (one, other)]
+        assert np.allclose(*values, atol=1e-6) == is_same
+
+
+def test_a_move_after_the_end_of_the_clip_is_reported_and_moves_nothing():
+    late = film(CameraMove("pan", start_s=2.0))
+    assert late.not_shown == ("the camera's pan after 2 s (the clip ends at 2 s)",)
+    np.testing.assert_array_equal(late.camera(0.0).rotation, late.camera(2.0).rotation)
 
 
 def travel(place, direction, *objects):

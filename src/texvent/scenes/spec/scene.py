@@ -183,6 +183,10 @@ class CameraMove:
     """Speed as a multiple of the usual speed."""
     phase: Annotated[int, Between(0, 100)] = 0
     """Number of the phase: moves of one phase happen together, phases share the clip evenly."""
+    start_s: Seconds | None = None
+    """Start time, s; left out: that of its phase."""
+    duration_s: Seconds | None = None
+    """Duration, s; left out: to the end of its phase, or of the clip if it has a start time."""
     means: Literal["drive", "cycle", "walk", "run", "fly", "sail", "swim"] | None = None
     """Vehicle or gait of travel."""
     speed_m_s: MetresPerSecond | None = None

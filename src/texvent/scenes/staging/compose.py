@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,7 +39,6 @@ from texvent.scenes.staging.surroundings.environment import (
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
-from texvent.scenes.staging.trajectories.phases import left_out
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -118,12 +117,6 @@ def compose_scene(
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
     """
-    missing = [
-        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
-        f"(the clip ends at {duration_s:g} s)"
-        for one in description.objects
-        for motion in left_out(one.motions, duration_s)
-    ]
     place = description.place.name or "grass"
     levels = _choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -156,8 +149,18 @@ def compose_scene(
     still = assemble([item.place() for item in items])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)),
+        tuple(dict.fromkeys(_list_late(description, duration_s))),
     )  # fmt: skip
+
+
+def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str]:
+    """Motions and camera moves that would begin when the clip is over."""
+    end = f"(the clip ends at {duration_s:g} s)"
+    movers = [(f"the {one.noun}", one.motions) for one in description.objects]
+    for who, moves in [*movers, ("the camera", description.camera.moves)]:
+        for one in moves:
+            if one.start_s is not None and one.start_s >= duration_s:
+                yield f"{who}'s {one.kind} after {one.start_s:g} s {end}"
 
 
 def _describe_view(

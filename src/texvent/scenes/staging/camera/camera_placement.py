@@ -13,7 +13,12 @@ from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.rendered_scene import Float64Array, Ground
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory, Tie
+from texvent.scenes.staging.camera.camera_trajectory import (
+    CameraTrajectory,
+    Tie,
+    TimedMove,
+    time_moves,
+)
 from texvent.scenes.staging.camera.framing import (
     Framing,
     come_near,
@@ -135,8 +140,10 @@ def _keep_in_view(path: CameraTrajectory, main: Actor, shooting: _Shooting) -> C
         if _is_visible(path, main, shooting.aspect):
             break
         damped = tuple(
-            replace(move, pace=0.75 * move.pace) if move.kind in _LEAVING else move
-            for move in path.moves
+            one._replace(move=replace(one.move, pace=0.75 * one.move.pace))
+            if one.move.kind in _LEAVING
+            else one
+            for one in path.moves
         )
         path = replace(path, moves=damped)
     return path
@@ -188,9 +195,10 @@ def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraTrajectory:
 
 def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
-) -> tuple[CameraMove, ...]:
+) -> tuple[TimedMove, ...]:
     """The moves that are said, each kind once at a time; else the subject is followed if fast."""
-    said = {(one.kind, one.phase): one for one in description.camera.moves}
+    timed = time_moves(description.camera.moves, duration_s)
+    said = {(one.move.kind, one.begin_s): one for one in timed}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
     has_landmark = any(
@@ -204,4 +212,6 @@ def _plan_moves(
     displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
     is_near = description.camera.framing in ("close", "medium")
     least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
-    return (CameraMove("follow"),) if displacement_m > least * span else ()
+    if displacement_m <= least * span:
+        return ()
+    return tuple(time_moves([CameraMove("follow")], duration_s))

@@ -1,11 +1,12 @@
-"""The camera as a function of time: a static pose, or a route, plus channels that add up."""
+"""The camera as a function of time: a static pose, or a route, plus terms that add up."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,23 +14,28 @@ from texvent.scenes.rendered_scene import Float64Array, PosedCamera
 from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
-from texvent.scenes.staging.trajectories.track import Track
+from texvent.scenes.staging.trajectories.track import Term, Track, add_up
 
-PAN_RAD, TILT_RAD, ROLL_RAD = 0.36, 0.24, 0.7
-"""Turns over the clip."""
-ORBIT_RAD = 1.0
-"""Change of azimuth around the subject."""
-ZOOM, DOLLY = 1.7, 1.6
-"""Focal length at the near end over the far end; distance at the far end over the near end."""
-TRUCK_WIDTHS, PEDESTAL_WIDTHS = 0.4, 0.3
-"""Displacements aside and up, in widths of the picture at the subject."""
-SHAKE_RAD = 0.015
-ALL_AXES = "all axes"
-"""Direction of a handheld camera that moves in all six degrees of freedom."""
-ROAM_SHARE, ROAM_WIDTHS = 4.0, 0.08
-"""Turns of that camera relative to those of one that is held still, and its excursion aside."""
-_ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
-"""Angular frequencies of its displacement aside, along and up."""
+AMOUNTS = {
+    "pan": 0.36, "tilt": 0.24, "roll": 0.7, "orbit": 1.0, "truck": 0.4, "pedestal": 0.3,
+    "zoom": math.log(1.7), "dolly": math.log(1.6),
+}  # fmt: skip
+"""Kind of move, which is also its channel → usual amount: angles in rad, displacements in widths of
+the picture at the subject, logarithms of the focal length and of the nearness."""
+_NEAREST = ("zoom", "dolly")
+"""Moves that are framed where they are nearest; the others in the middle of their range."""
+_NEGATIVE = ("left", "down", "out", "counter-clockwise")
+_HANDHELD = (
+    Term("pan", 0.015, 1.1), Term("pan", 0.009, 2.7, 1.0),
+    Term("tilt", 0.015, 1.4, 2.0), Term("tilt", 0.0075, 3.3),
+)  # fmt: skip
+ALL_AXES, _MORE = "all axes", 4.0
+"""Direction of a handheld camera that moves in all six degrees of freedom, and how much more it
+turns then."""
+_ROAMING = (
+    Term("truck", 0.02, 4.9 / math.tau), Term("along", 0.02, 3.7 / math.tau, 1.0),
+    Term("pedestal", 0.02, 6.1 / math.tau, 2.0), Term("roll", 0.045, 5.5 / math.tau, 0.5),
+)  # fmt: skip
 _HIGH_WIDTHS = 1.3
 """Width of the picture of a camera that travels, in heights above the ground."""
 LOWEST_M = 0.25
@@ -37,47 +43,59 @@ LOWEST_M = 0.25
 MOST_PITCH_RAD = 1.5
 USUAL_S = 2.0
 """Length of a move that goes its usual way; shorter ones go less far."""
-_STEPS = 64
-"""Steps of the clip in which the range of a move is found."""
-_NEGATIVE = ("left", "down", "out", "counter-clockwise")
 
 
-class MoveChannels:
-    """Progress of all moves of a shot; each a smooth function of time.
+class TimedMove(NamedTuple):
+    """A camera move and when it happens, s."""
 
-    Moves of one phase happen together; phases follow each other and share the clip evenly.
+    move: CameraMove
+    begin_s: float
+    end_s: float
+
+
+def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove]:
+    """Times of moves: those that are said, else those of their phases, which share the clip evenly.
+
+    Moves that would begin at the end of the clip or later are left out.
     """
+    span = duration_s / (1 + max((move.phase for move in moves), default=0))
+    timed = []
+    for move in moves:
+        begin, end = move.phase * span, (move.phase + 1) * span
+        if move.start_s is not None:
+            begin, end = move.start_s, duration_s
+        end = end if move.duration_s is None else begin + move.duration_s
+        timed.append(TimedMove(move, begin, end))
+    return [one for one in timed if one.begin_s < min(one.end_s, duration_s)]
 
-    def __init__(self, moves: tuple[CameraMove, ...], duration_s: float = USUAL_S) -> None:
-        self.moves = moves
-        self._duration_s = duration_s
-        self._phases = 1 + max((move.phase for move in moves), default=0)
 
-    def centred(self, kind: str, time_s: float) -> float:
-        """Sum of the moves of a kind, in usual amounts, about the middle of its range."""
-        low, high = self._ranges.get(kind, (0.0, 0.0))
-        return self._sum(kind, time_s) - 0.5 * (low + high)
+def terms_of(moves: Sequence[TimedMove], duration_s: float) -> tuple[Term, ...]:
+    """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along"."""
+    terms = tuple(term for one in moves for term in _expand(one))
+    edges = {0.0, duration_s, *(time for one in moves for time in (one.begin_s, one.end_s))}
+    middles = []
+    for kind in AMOUNTS:
+        going = [term for term in terms if term.channel == kind and term.drift]
+        reached = [add_up(going, min(time, duration_s)).get(kind, 0.0) for time in edges]
+        least = max(reached) if kind in _NEAREST else min(reached)
+        middles.append(Term(kind, offset=-0.5 * (least + max(reached))))
+    return (*terms, *middles)
 
-    def below_most(self, kind: str, time_s: float) -> float:
-        """The same, 0 where it is largest and negative elsewhere: zoom and dolly."""
-        return self._sum(kind, time_s) - self._ranges.get(kind, (0.0, 0.0))[1]
 
-    def _sum(self, kind: str, time_s: float) -> float:
-        return sum(self._reach(move, time_s) for move in self.moves if move.kind == kind)
-
-    def _reach(self, move: CameraMove, time_s: float) -> float:
-        """Progress of one move, in usual amounts."""
-        span = self._duration_s / self._phases
-        amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace
-        amount *= -1.0 if move.direction in _NEGATIVE else 1.0
-        return amount * min(max(time_s / span - move.phase, 0.0), 1.0)
-
-    @cached_property
-    def _ranges(self) -> dict[str, tuple[float, float]]:
-        """Kind → least and most of its sum over the clip."""
-        times = [self._duration_s * step / _STEPS for step in range(_STEPS + 1)]
-        sums = {move.kind: [self._sum(move.kind, time) for time in times] for move in self.moves}
-        return {kind: (min(values), max(values)) for kind, values in sums.items()}
+def _expand(timed: TimedMove) -> Iterator[Term]:
+    """Terms of one move."""
+    move, begin_s, end_s = timed
+    is_roaming = move.direction == ALL_AXES
+    scale = move.pace * (_MORE if is_roaming else 1.0)
+    waves = _HANDHELD if move.kind == "handheld" else ()
+    for wave in (*waves, *(_ROAMING if is_roaming else ())):
+        yield wave._replace(amplitude=scale * wave.amplitude, begin_s=begin_s, end_s=end_s)
+    if move.kind in AMOUNTS:
+        span = end_s - begin_s
+        amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace * AMOUNTS[move.kind]
+        drift = (-amount if move.direction in _NEGATIVE else amount) / span
+        offset = -drift * begin_s
+        yield Term(move.kind, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
 
 
 @dataclass(frozen=True)
@@ -95,22 +113,27 @@ class Journey:
 class Tie:
     """The motion that a camera which follows or orbits its subject shares with it."""
 
-    trajectory: Track
-    """Trajectory of the subject."""
+    track: Track
+    """Track of the subject."""
+    begin_s: float
+    end_s: float
+    """Instants between which it does, s."""
     rises: bool = True
     """Whether it also rises and falls with it."""
 
     @classmethod
-    def of(cls, moves: Sequence[CameraMove], subject: Actor) -> Tie | None:
+    def of(cls, moves: Sequence[TimedMove], subject: Actor) -> Tie | None:
         """The tie that moves make; None where the camera or its subject stays."""
-        is_tied = any(move.kind in ("follow", "orbit") for move in moves)
-        if not is_tied or not subject.is_mover:
+        tied = [one for one in moves if one.move.kind in ("follow", "orbit")]
+        if not tied or not subject.is_mover:
             return None
-        return cls(subject.trajectory, subject.noun.habitat != "ground")
+        begin_s, end_s = min(one.begin_s for one in tied), max(one.end_s for one in tied)
+        return cls(subject.trajectory, begin_s, end_s, subject.noun.habitat != "ground")
 
     def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
-        now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
+        time_s = min(max(time_s, self.begin_s), self.end_s)
+        now, start = self.track.at(time_s).position, self.track.at(self.begin_s).position
         return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
@@ -123,7 +146,7 @@ class CameraTrajectory:
     """Camera moves over a clip; a pure, smooth function of time."""
 
     framing: Framing
-    moves: tuple[CameraMove, ...]
+    moves: tuple[TimedMove, ...]
     duration_s: float
     tie: Tie | None = None
     """Tie to the object that a "follow" or "orbit" keeps in place in the image."""
@@ -135,69 +158,33 @@ class CameraTrajectory:
     """The route of what travels."""
 
     @cached_property
-    def _channels(self) -> MoveChannels:
-        return MoveChannels(self.moves, self.duration_s)
-
-    @cached_property
-    def _roam(self) -> float:
-        """Pace of a camera that moves in all six degrees of freedom; 0 = it does not."""
-        return sum(move.pace for move in self.moves if move.direction == ALL_AXES)
+    def _terms(self) -> tuple[Term, ...]:
+        return terms_of(self.moves, self.duration_s)
 
     def at(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
+        framing, by = self.framing, dict.fromkeys((*AMOUNTS, "along"), 0.0)
+        by |= add_up(self._terms, time_s)
+        roll = by["roll"]
         if self.journey is not None:
-            start, target, roll = _ride(self.journey, time_s)
-            slide = self._slide(time_s, _HIGH_WIDTHS * self.journey.height_m)
-            position = self._keep_inside(start + slide)
-            ahead = target - start
+            state, width = self.journey.route.at(time_s), _HIGH_WIDTHS * self.journey.height_m
+            start = np.add(state.position, [0.0, 0.0, self.journey.height_m])
+            roll -= state.roll
         else:
-            (start, target), roll = self._stand(time_s), 0.0
-            slide = self._slide(time_s, self.framing.distance_m / self.framing.focal)
-            position = self._keep_inside(start + slide)
+            width, target = framing.distance_m / framing.focal, framing.target
+            if self.tie is not None:
+                target = target + self.tie.displacement(time_s)
+            away = direction(framing.azimuth + by["orbit"], framing.elevation)
+            start = target + framing.distance_m * math.exp(-by["dolly"]) * away
+        slide = width * _aside(framing.azimuth, by)
+        position = self._keep_inside(start + slide)
+        if self.journey is not None:
+            ahead = -direction(state.yaw - 0.5 * math.pi, self.journey.pitch_rad)
+        else:
             ahead = target + slide - position
-        near = self._channels.below_most
-        focal = self.framing.focal * ZOOM ** near("zoom", time_s)
-        camera = look_at(position, position + _turned(ahead, *self._turn(time_s)), focal)
-        return _rolled(camera, roll + self._roll(time_s))
-
-    def _stand(self, time_s: float) -> tuple[Float64Array, Float64Array]:
-        """Position and target of a camera that looks at its subject, m."""
-        framing, moved, near = self.framing, self._channels.centred, self._channels.below_most
-        azimuth = framing.azimuth + ORBIT_RAD * moved("orbit", time_s)
-        distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
-        target = framing.target
-        if self.tie is not None:
-            target = target + self.tie.displacement(time_s)
-        return target + distance * direction(azimuth, framing.elevation), target
-
-    def _slide(self, time_s: float, width_m: float) -> Float64Array:
-        """Metres by which camera and target move together; `width_m` of the picture."""
-        moved, azimuth = self._channels.centred, self.framing.azimuth
-        right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
-        ahead = np.array([-right[1], right[0], 0.0])
-        roam = ROAM_WIDTHS * self._roam * np.sin(_ROAM_RAD_S * time_s + [0.0, 1.0, 2.0])
-        rise = PEDESTAL_WIDTHS * moved("pedestal", time_s)
-        said = np.array([TRUCK_WIDTHS * moved("truck", time_s), 0.0, rise])
-        aside, along, up = roam + said
-        return np.asarray(width_m * (aside * right + along * ahead + [0.0, 0.0, up]))
-
-    def _turn(self, time_s: float) -> tuple[float, float]:
-        """Angles to the right and up, radians."""
-        right = PAN_RAD * self._channels.centred("pan", time_s)
-        up = TILT_RAD * self._channels.centred("tilt", time_s)
-        for move in self.moves:
-            if move.kind == "handheld":
-                wave = 2.0 * math.pi * time_s
-                shake = SHAKE_RAD * move.pace
-                shake *= ROAM_SHARE if move.direction == ALL_AXES else 1.0
-                right += shake * (math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0))
-                up += shake * (math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave))
-        return right, up
-
-    def _roll(self, time_s: float) -> float:
-        """Turn about the optical axis, radians."""
-        slant = ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
-        return slant + ROLL_RAD * self._channels.centred("roll", time_s)
+        ahead = _turned(ahead, by["pan"], by["tilt"])
+        camera = look_at(position, position + ahead, framing.focal * math.exp(by["zoom"]))
+        return _rolled(camera, roll)
 
     def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrajectory:
         """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
@@ -219,12 +206,11 @@ class CameraTrajectory:
         return position
 
 
-def _ride(journey: Journey, time_s: float) -> tuple[Float64Array, Float64Array, float]:
-    """Position and target of a camera that looks where it heads, m, and how it rolls, rad."""
-    state = journey.route.at(time_s)
-    x, y, z = state.position
-    position = np.array([x, y, z + journey.height_m])
-    return position, position - direction(state.yaw - 0.5 * math.pi, journey.pitch_rad), -state.roll
+def _aside(azimuth: float, by: Mapping[str, float]) -> Float64Array:
+    """[3] by which camera and target move together."""
+    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    ahead = np.array([-right[1], right[0], 0.0])
+    return np.asarray(by["truck"] * right + by["along"] * ahead + [0.0, 0.0, by["pedestal"]])
 
 
 def _rolled(camera: PosedCamera, angle: float) -> PosedCamera:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,8 +13,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.rendered_scene import Ground
-from texvent.scenes.spec.scene import CameraMove
-from texvent.scenes.staging.camera.camera_trajectory import Journey
+from texvent.scenes.staging.camera.camera_trajectory import Journey, TimedMove, time_moves
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.keys import Key
 from texvent.scenes.staging.trajectories.track import Track
@@ -98,9 +98,9 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     road_half = PLACES[place].road_m if PLACES[place].has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
-    last = max(move.phase for move in description.camera.moves)
-    phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
-    route, length = _lay_route(phases, speed, duration_s)
+    timed = time_moves(description.camera.moves, duration_s)
+    travels = [one for one in timed if one.move.kind == "travel"]
+    route, length = _lay_route(travels, speed, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = RoadLine(NORTH, (-lane, route.start[1]))
     if description.place.road == "crossing":
@@ -110,17 +110,17 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
 
 
 def _lay_route(
-    phases: Sequence[Sequence[CameraMove]], speed: float, duration_s: float
+    travels: Sequence[TimedMove], speed: float, duration_s: float
 ) -> tuple[Track, float]:
-    """The route, and its length from end to end, m; the camera rests in phases without a move."""
-    span = duration_s / len(phases)
-    ramp = min(0.5, 0.4 * span)
-    pieces = []
-    for moves in phases:
-        is_back = any(move.direction == "backward" for move in moves)
-        speed_m_s = -speed if is_back else speed if moves else 0.0
-        pieces.append(Key(span, speed_m_s, ramp_s=ramp))
-    route = Track((0.0, 0.0, 0.0), NORTH, (Key(0.0, pieces[0].speed_m_s), *pieces))
+    """The route, and its length from end to end, m; the camera rests between its moves."""
+    times = {time for one in travels for time in (one.begin_s, min(one.end_s, duration_s))}
+    keys = []
+    for begin, end in pairwise(sorted({0.0, duration_s, *times})):
+        now = [one.move for one in travels if one.begin_s <= begin < one.end_s]
+        is_back = any(move.direction == "backward" for move in now)
+        speed_m_s = -speed if is_back else speed if now else 0.0
+        keys.append(Key(end - begin, speed_m_s, ramp_s=min(0.5, 0.4 * (end - begin))))
+    route = Track((0.0, 0.0, 0.0), NORTH, (Key(0.0, keys[0].speed_m_s), *keys), floor_m=0.0)
     distances_m = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
     start = (0.0, -0.5 * (min(distances_m) + max(distances_m)), 0.0)
     return replace(route, start=start), max(distances_m) - min(distances_m)

@@ -12,9 +12,8 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.rendered_scene import Float64Array
-from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over, seeded
-from texvent.scenes.staging.camera.camera_trajectory import Tie
+from texvent.scenes.staging.camera.camera_trajectory import Tie, TimedMove
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
@@ -68,7 +67,7 @@ def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
 def choose_angles(
     description: SceneDescription,
     main: Actor,
-    moves: Sequence[CameraMove],
+    moves: Sequence[TimedMove],
     place: str,
     seed: int,
 ) -> tuple[float, float]:
@@ -79,7 +78,7 @@ def choose_angles(
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
     length = main.model.length  # all of a train or a ship from the side would be a thin line
     is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
-    follows = any(move.kind == "follow" for move in moves)
+    follows = any(one.move.kind == "follow" for one in moves)
     if is_in_depth:
         azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
     elif is_long and main.noun.motion in ("drive", "sail"):
@@ -133,7 +132,7 @@ class _Scope(NamedTuple):
 
 def list_framing_choices(
     description: SceneDescription, actors: Sequence[Actor], main: Actor,
-    moves: Sequence[CameraMove], times: Float64Array,
+    moves: Sequence[TimedMove], times: Float64Array,
 ) -> list[FramingChoice]:  # fmt: skip
     """Choices of what the image holds, from all objects to the subject alone, at instants, s."""
     shot, tie = description.camera, Tie.of(moves, main)
@@ -147,7 +146,7 @@ def list_framing_choices(
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         boxes = corners_over([main], times if tie is None else times[:1])
         return [FramingChoice(_upper_part(main, boxes, framing), _NEAR_FILL)]
-    fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
+    fill = min([_FILL, *(_FILL_BY_MOVE.get(one.move.kind, _FILL) for one in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
     if shot.framing == "wide":
         fill = _WIDE_FILL

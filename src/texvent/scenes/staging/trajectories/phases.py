@@ -88,11 +88,6 @@ def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
     return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
 
 
-def left_out(motions: Sequence[Motion], duration_s: float) -> list[Motion]:
-    """Motions that would begin when the clip is over."""
-    return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
-
-
 def needs_steering(motions: Sequence[Motion]) -> bool:
     """Whether these motions are a path of pieces, not one simple movement."""
     first = motions[0]
