@@ -20,15 +20,16 @@ from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.trajectories.keys import Vector
 from texvent.scenes.staging.trajectories.track import Grips, Track, attached, rotation, seated
 
-_STYLES = ("held as a tool", "held upright", "held up high", "held hanging")
-"""Traits that say how a noun is held."""
 _LARGE_M = 0.36
 """Size above which a thing is held in both arms."""
 _RAISED: Vector = (0.30, -0.24, 1.16)
 """Right hand of who holds something up, adult's body coordinates, m."""
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
-_GRIPS = {"held as a tool": _RAISED, "held upright": _RAISED, "held up high": _UP_HIGH}
-"""Style → the right hand, which is else where the arm hangs."""
+_STYLES: dict[str, Vector | None] = {
+    "held as a tool": _RAISED, "held upright": _RAISED, "held up high": _UP_HIGH,
+    "held hanging": None,
+}  # fmt: skip
+"""Trait that says how a noun is held → the right hand; None = where the arm hangs."""
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run"})
 """Activities that leave the hands to what they hold."""
 _STRETCH = 0.60
@@ -124,9 +125,8 @@ def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
     model, size = thing.model, size_of(holder.model)
     if style == "in both arms" and holder.trajectory.at(0.0).activity in _HANDS_FREE:
         return _in_both_arms(thing, size)
-    grips: Grips = ()
-    if style in _GRIPS:
-        grips = (("right hand", scaled(_GRIPS[style], size)),)
+    hand = _STYLES.get(style)
+    grips: Grips = () if hand is None else (("right hand", scaled(hand, size)),)
     if style == "held as a tool":
         return Hold("right hand", along_tool(thing), False, grips)
     below, x = min(0.35 * model.height, 0.06), 0.0

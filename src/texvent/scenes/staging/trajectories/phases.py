@@ -1,4 +1,4 @@
-"""Phases of an object's motion: their times, and the pieces of one continuous path."""
+"""Phases of an object's motion: their times, and the keys of one continuous track."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", 
 GOING = PATH_KINDS | {"reverse"}
 """Those with a direction of travel."""
 _STEERED = GOING | {"turn"}
-_PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
+_KEYED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
     "right": 0.0,
@@ -89,13 +89,13 @@ def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
 
 
 def needs_steering(motions: Sequence[Motion]) -> bool:
-    """Whether these motions are a path of pieces, not one simple movement."""
+    """Whether these motions are a track of keys, not one simple movement."""
     first = motions[0]
     return (
         len(motions) > 1
         or (first.end_pace is not None and first.kind not in ("spin", "work"))
         or bool(first.start_s)
-        or first.kind in _PIECED
+        or first.kind in _KEYED
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
     )
 
@@ -127,16 +127,14 @@ def build_path(
     """
     phases = schedule(motions, duration_s)
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
-    builder = _TrajectoryBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
+    builder = _KeyBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
-    first = Key(
-        0.0, builder.initial_speed, builder.initial_turn, activity=builder.pieces[0].activity
-    )
+    first = replace(builder.keys[0], activity=builder.keys[1].activity)
     path = Track(
         (0.0, 0.0, builder.initial_height),
         yaw,
-        (first, *builder.pieces),
+        (first, *builder.keys[1:]),
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
     )
@@ -177,8 +175,8 @@ def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
     ]
 
 
-class _TrajectoryBuilder:
-    """Collects pieces; knows the heading and height at the end of the last one."""
+class _KeyBuilder:
+    """Collects keys, the first without duration; knows heading and height at the last one."""
 
     def __init__(
         self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
@@ -189,11 +187,11 @@ class _TrajectoryBuilder:
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = 0.0
         self._heading = yaw
-        self.pieces: list[Key] = []
-        self.initial_speed = self.initial_turn = self.initial_height = 0.0
+        self.keys = [Key(0.0)]
+        self.initial_height = 0.0
 
     def add(self, phase: Phase) -> None:
-        """Append the pieces of one phase."""
+        """Append the keys of one phase."""
         motion, span = phase.motion, phase.duration_s
         if motion.kind in _STEERED:
             self._travel(motion, span)
@@ -212,20 +210,20 @@ class _TrajectoryBuilder:
             self._rest(motion, span)
 
     @property
-    def _last(self) -> Key:
-        return self.pieces[-1] if self.pieces else Key(0.0)
+    def _is_first(self) -> bool:
+        return len(self.keys) == 1
 
     def _start(self, speed: float, turn: float = 0.0) -> None:
         """Let the clip begin in full motion."""
-        if not self.pieces:
-            self.initial_speed, self.initial_turn = speed, turn
+        if self._is_first:
+            self.keys = [Key(0.0, speed, turn)]
 
-    def _append(self, piece: Key) -> None:
-        before = self._last.turn_rad_s if self.pieces else self.initial_turn
-        span, turn, ramp = piece.duration_s, piece.turn_rad_s, piece.ramp_s
+    def _append(self, key: Key) -> None:
+        before = self.keys[-1].turn_rad_s
+        span, turn, ramp = key.duration_s, key.turn_rad_s, key.ramp_s
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
-        self._height += piece.climb_m_s * span
-        self.pieces.append(piece)
+        self._height += key.climb_m_s * span
+        self.keys.append(key)
 
     def _speed(self, motion: Motion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
@@ -277,7 +275,7 @@ class _TrajectoryBuilder:
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
             return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
         target = YAWS.get(direction)
-        if not self.pieces or target is None or direction in ("up", "down"):
+        if self._is_first or target is None or direction in ("up", "down"):
             return [(1.0, 0.0)]
         turn = math.remainder(target - self._heading, 2.0 * math.pi)
         if abs(turn) < 0.05:
@@ -310,13 +308,13 @@ class _TrajectoryBuilder:
 
     def _hop(self, motion: Motion, span: float) -> None:
         """Jump or bounce."""
-        model, speed = self._model, self._last.speed_m_s
+        model, speed = self._model, self.keys[-1].speed_m_s
         height = max(1.5 * model.height, 0.4)
         if motion.kind == "jump":
             height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace
             if self._noun.habitat == "water":
                 height = max(height, 0.7 * model.length)
-            if not self.pieces and motion.direction is not None:
+            if self._is_first and motion.direction is not None:
                 speed = model.length / (flight_s(height) + HOP_PAUSE_S)
                 self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
@@ -326,24 +324,24 @@ class _TrajectoryBuilder:
     def _fall(self, kind: str, span: float) -> None:
         """Drop to the floor; or what stands there falls over."""
         is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
-        if kind == "topple" and not self.pieces:
+        if kind == "topple" and self._is_first:
             self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
-        piece = Key(span, activity="stand", restitution=_RESTITUTION)
+        key = Key(span, activity="stand", restitution=_RESTITUTION)
         if kind == "topple" or is_standing:
-            piece = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
-        self._append(piece)
+            key = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
+        self._append(key)
         self._height = 0.0
 
     def _rest(self, motion: Motion, span: float) -> None:
         """Come to rest, and act in place."""
-        last = self._last
+        last = self.keys[-1]
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
-        if self.pieces:
+        if not self._is_first:
             activity = _REACHED.get(activity, activity)
         if self._noun.name in PERSON_NOUNS:
             activity = ON_GROUND.get(activity, activity)
-        if self.pieces and motion.kind == "stand":
+        if not self._is_first and motion.kind == "stand":
             activity = last.activity  # wheels and legs go on until it stands
         braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
         ramp = min(braking, 0.9 * span)
