@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.spec.scene import Motion
-from texvent.scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, bounce_height
-from texvent.scenes.staging.trajectories.phases import build_path, schedule
-from texvent.scenes.staging.trajectories.track import Term, Track, seated, steady
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, bounce_height
+from texvent_scenes.staging.trajectories.phases import build_path, schedule
+from texvent_scenes.staging.trajectories.track import Term, Track, seated, steady
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
          "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip

@@ -1,0 +1,236 @@
+"""The camera as a function of time: a static pose, or a route, plus terms that add up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.camera import PosedCamera
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.scene import CameraMove
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.camera.framing import Framing, direction, look_at
+from texvent_scenes.staging.trajectories.track import Term, Track, add_up
+
+AMOUNTS = {
+    "pan": 0.36, "tilt": 0.24, "roll": 0.7, "orbit": 1.0, "truck": 0.4, "pedestal": 0.3,
+    "zoom": math.log(1.7), "dolly": math.log(1.6),
+}  # fmt: skip
+"""Kind of move, which is also its channel → usual amount: angles in rad, displacements in widths of
+the picture at the subject, logarithms of the focal length and of the nearness."""
+_NEAREST = ("zoom", "dolly")
+"""Moves that are framed where they are nearest; the others in the middle of their range."""
+_NEGATIVE = ("left", "down", "out", "counter-clockwise")
+_HANDHELD = (
+    Term("pan", 0.015, 1.1), Term("pan", 0.009, 2.7, 1.0),
+    Term("tilt", 0.015, 1.4, 2.0), Term("tilt", 0.0075, 3.3),
+)  # fmt: skip
+ALL_AXES, _MORE = "all axes", 4.0
+"""Direction of a handheld camera that moves in all six degrees of freedom, and how much more it
+turns then."""
+_ROAMING = (
+    Term("truck", 0.02, 4.9 / math.tau), Term("along", 0.02, 3.7 / math.tau, 1.0),
+    Term("pedestal", 0.02, 6.1 / math.tau, 2.0), Term("roll", 0.045, 5.5 / math.tau, 0.5),
+)  # fmt: skip
+_HIGH_WIDTHS = 1.3
+"""Width of the picture of a camera that travels, in heights above the ground."""
+LOWEST_M = 0.25
+"""The camera stays at least this high above the ground."""
+MOST_PITCH_RAD = 1.5
+USUAL_S = 2.0
+"""Length of a move that goes its usual way; shorter ones go less far."""
+
+
+class TimedMove(NamedTuple):
+    """A camera move and when it happens, s."""
+
+    move: CameraMove
+    begin_s: float
+    end_s: float
+
+
+def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove]:
+    """Times of moves: those that are said, else those of their phases, which share the clip evenly.
+
+    Moves that would begin at the end of the clip or later are left out.
+    """
+    span = duration_s / (1 + max((move.phase for move in moves), default=0))
+    timed = []
+    for move in moves:
+        begin, end = move.phase * span, (move.phase + 1) * span
+        if move.start_s is not None:
+            begin, end = move.start_s, duration_s
+        end = end if move.duration_s is None else begin + move.duration_s
+        timed.append(TimedMove(move, begin, end))
+    return [one for one in timed if one.begin_s < min(one.end_s, duration_s)]
+
+
+def terms_of(moves: Sequence[TimedMove], duration_s: float) -> tuple[Term, ...]:
+    """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along"."""
+    terms = tuple(term for one in moves for term in _expand(one))
+    edges = {0.0, duration_s, *(time for one in moves for time in (one.begin_s, one.end_s))}
+    middles = []
+    for kind in AMOUNTS:
+        going = [term for term in terms if term.channel == kind and term.drift]
+        reached = [add_up(going, min(time, duration_s)).get(kind, 0.0) for time in edges]
+        least = max(reached) if kind in _NEAREST else min(reached)
+        middles.append(Term(kind, offset=-0.5 * (least + max(reached))))
+    return (*terms, *middles)
+
+
+def _expand(timed: TimedMove) -> Iterator[Term]:
+    """Terms of one move."""
+    move, begin_s, end_s = timed
+    is_roaming = move.direction == ALL_AXES
+    scale = move.pace * (_MORE if is_roaming else 1.0)
+    waves = _HANDHELD if move.kind == "handheld" else ()
+    for wave in (*waves, *(_ROAMING if is_roaming else ())):
+        yield wave._replace(amplitude=scale * wave.amplitude, begin_s=begin_s, end_s=end_s)
+    if move.kind in AMOUNTS:
+        span = end_s - begin_s
+        amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace * AMOUNTS[move.kind]
+        drift = (-amount if move.direction in _NEGATIVE else amount) / span
+        offset = -drift * begin_s
+        yield Term(move.kind, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A camera that travels: ego-motion along a route."""
+
+    route: Track
+    """Position and heading on the ground."""
+    height_m: float
+    pitch_rad: float
+    """Pitch below the horizon."""
+
+
+@dataclass(frozen=True)
+class Tie:
+    """The motion that a camera which follows or orbits its subject shares with it."""
+
+    track: Track
+    """Track of the subject."""
+    begin_s: float
+    end_s: float
+    """Instants between which it does, s."""
+    rises: bool = True
+    """Whether it also rises and falls with it."""
+
+    @classmethod
+    def of(cls, moves: Sequence[TimedMove], subject: Actor) -> Tie | None:
+        """The tie that moves make; None where the camera or its subject stays."""
+        tied = [one for one in moves if one.move.kind in ("follow", "orbit")]
+        if not tied or not subject.is_mover:
+            return None
+        begin_s, end_s = min(one.begin_s for one in tied), max(one.end_s for one in tied)
+        return cls(subject.trajectory, begin_s, end_s, subject.noun.habitat != "ground")
+
+    def displacement(self, time_s: float) -> Float64Array:
+        """[3] by which the camera has gone along since the start, m."""
+        time_s = min(max(time_s, self.begin_s), self.end_s)
+        now, start = self.track.at(time_s).position, self.track.at(self.begin_s).position
+        return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
+
+    def relative(self, points: Float64Array, time_s: float) -> Float64Array:
+        """Points [n, 3], m, as the camera sees them, at the place of the start."""
+        return np.asarray(points - self.displacement(time_s))
+
+
+@dataclass(frozen=True)
+class CameraTrajectory:
+    """Camera moves over a clip; a pure, smooth function of time."""
+
+    framing: Framing
+    moves: tuple[TimedMove, ...]
+    duration_s: float
+    tie: Tie | None = None
+    """Tie to the object that a "follow" or "orbit" keeps in place in the image."""
+    has_floor: bool = True
+    """Whether there is ground to stay above."""
+    room_m: float = math.inf
+    """Half the side of the room it must stay in, m."""
+    journey: Journey | None = None
+    """The route of what travels."""
+
+    @cached_property
+    def _terms(self) -> tuple[Term, ...]:
+        return terms_of(self.moves, self.duration_s)
+
+    def at(self, time_s: float) -> PosedCamera:
+        """The camera at that instant."""
+        framing, by = self.framing, dict.fromkeys((*AMOUNTS, "along"), 0.0)
+        by |= add_up(self._terms, time_s)
+        roll = by["roll"]
+        if self.journey is not None:
+            state, width = self.journey.route.at(time_s), _HIGH_WIDTHS * self.journey.height_m
+            start = np.add(state.position, [0.0, 0.0, self.journey.height_m])
+            roll -= state.roll
+        else:
+            width, target = framing.distance_m / framing.focal, framing.target
+            if self.tie is not None:
+                target = target + self.tie.displacement(time_s)
+            away = direction(framing.azimuth + by["orbit"], framing.elevation)
+            start = target + framing.distance_m * math.exp(-by["dolly"]) * away
+        slide = width * _aside(framing.azimuth, by)
+        position = self._keep_inside(start + slide)
+        if self.journey is not None:
+            ahead = -direction(state.yaw - 0.5 * math.pi, self.journey.pitch_rad)
+        else:
+            ahead = target + slide - position
+        ahead = _turned(ahead, by["pan"], by["tilt"])
+        camera = look_at(position, position + ahead, framing.focal * math.exp(by["zoom"]))
+        return _rolled(camera, roll)
+
+    def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrajectory:
+        """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
+        places = np.array([self.at(float(time)).position for time in times])
+        reach = float(np.max(np.abs(places[:, :2])))
+        spread = float(np.max(np.abs(points[:, :2])))
+        height = float(np.max(points[:, 2])) / 0.6
+        above = (float(np.max(places[:, 2])) + 0.35) / 0.6
+        return replace(self, room_m=max(reach + 0.6, spread + 0.8, height + 0.5, above, 3.5))
+
+    def _keep_inside(self, position: Float64Array) -> Float64Array:
+        position = np.asarray(position, dtype=np.float64)
+        if self.has_floor:
+            position[2] = max(position[2], min(LOWEST_M, 0.4 * self.framing.distance_m))
+        if math.isfinite(self.room_m):
+            wall = self.room_m - 0.4
+            position[:2] = np.clip(position[:2], -wall, wall)
+            position[2] = min(position[2], 0.6 * self.room_m - 0.3)
+        return position
+
+
+def _aside(azimuth: float, by: Mapping[str, float]) -> Float64Array:
+    """[3] by which camera and target move together."""
+    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    ahead = np.array([-right[1], right[0], 0.0])
+    return np.asarray(by["truck"] * right + by["along"] * ahead + [0.0, 0.0, by["pedestal"]])
+
+
+def _rolled(camera: PosedCamera, angle: float) -> PosedCamera:
+    """The camera turned about its optical axis; positive = clockwise seen from behind it."""
+    if angle == 0.0:
+        return camera
+    cosine, sine = math.cos(angle), math.sin(angle)
+    right, down, forward = camera.rotation
+    axes = np.stack([cosine * right + sine * down, cosine * down - sine * right, forward])
+    return PosedCamera(camera.position, axes, camera.focal)
+
+
+def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:
+    """The vector turned to the right about the vertical, then up."""
+    cosine, sine = math.cos(right), math.sin(right)
+    x, y, z = forward
+    x, y = x * cosine + y * sine, y * cosine - x * sine
+    flat = math.hypot(x, y)
+    angle = min(max(math.atan2(z, flat) + up, -MOST_PITCH_RAD), MOST_PITCH_RAD)
+    length = math.hypot(flat, z)
+    scale = length * math.cos(angle) / max(flat, 1e-9)
+    return np.array([x * scale, y * scale, length * math.sin(angle)])
