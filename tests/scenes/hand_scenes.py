@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from texvent.camera import PosedCamera
 
-from texvent.scenes.rendered_scene import (
+from texvent_scenes.rendered_scene import (
     LAMP_RECORD,
     Environment,
     Float64Array,
     Ground,
-    PosedCamera,
     Primitives,
     Shape,
     Texture,
