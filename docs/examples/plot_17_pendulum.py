@@ -12,9 +12,9 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-from texvent.camera import project
 
 import texvent
+from texvent.camera import project
 from texvent_scenes import Camera, Place, Scene, SceneObject
 
 STEP_S, STEPS = 0.005, 400

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, turned
-from texvent.camera import PosedCamera
 
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.description import IMU_NOISES, ImuNoise

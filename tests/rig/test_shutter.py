@@ -8,8 +8,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, moving, still
-from texvent.camera import PosedCamera
 
+from texvent.camera import PosedCamera
 from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.render import render_light

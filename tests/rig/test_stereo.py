@@ -10,9 +10,9 @@ import cv2
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, still
-from texvent.camera import PosedCamera, project
 
 from texvent._registry import SIMULATORS
+from texvent.camera import PosedCamera, project
 from texvent.errors import ConfigError
 from texvent.lens import Lens
 from texvent.runtime.progress import NO_PROGRESS

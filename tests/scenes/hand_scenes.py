@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from texvent.camera import PosedCamera
 
+from texvent.camera import PosedCamera
 from texvent_scenes.rendered_scene import (
     LAMP_RECORD,
     Environment,

@@ -4,8 +4,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from texvent.camera import project
 
+from texvent.camera import project
 from texvent.sensor import SensorSize
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject

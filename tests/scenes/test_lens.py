@@ -4,8 +4,8 @@ import cv2
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, look_at, still
-from texvent.camera import PosedCamera, camera_rays, project
 
+from texvent.camera import PosedCamera, camera_rays, project
 from texvent.lens import Lens, lens_reach, normalised
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.ground_truth import ground_truth

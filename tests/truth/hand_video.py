@@ -9,7 +9,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 from texvent.camera import PosedCamera
-
 from texvent.sensor import SensorSize
 from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
 from texvent_scenes.rendered_scene import Ground, Shape

@@ -4,8 +4,8 @@ import cv2
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from texvent.camera import PosedCamera, project
 
+from texvent.camera import PosedCamera, project
 from texvent.lens import Lens
 from texvent.truth.poses import (
     camera_facts,

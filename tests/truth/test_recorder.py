@@ -11,10 +11,10 @@ from fractions import Fraction
 import cv2
 import numpy as np
 import pytest
-from texvent.camera import PosedCamera
-from texvent.class_ids import CLASS_IDS
 
 import texvent
+from texvent.camera import PosedCamera
+from texvent.class_ids import CLASS_IDS
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run

@@ -12,10 +12,11 @@ from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarn
 from texvent.sensor import SensorSize
 from texvent_scenes.assets.index import Asset, read_folder
 from texvent_scenes.assets.model_file import MOST_NODES
-from texvent_scenes.assets.nouns import check_files, load_model, merge_nouns
+from texvent_scenes.assets.nouns import load_model, merge_nouns
 from texvent_scenes.mesh import LARGEST_SIDE, light_of
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.named_files import check_files
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.spec.files import load_scene
 

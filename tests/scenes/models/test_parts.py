@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from texvent.class_ids import CLASS_IDS, FIRST_OTHER
 
+from texvent.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.errors import FileFormatError
 from texvent_scenes.models.joints import read_joint, read_light
 from texvent_scenes.models.materials import Material

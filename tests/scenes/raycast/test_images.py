@@ -4,8 +4,8 @@ import cv2
 import numpy as np
 import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
-from texvent.camera import PosedCamera, place_in_image
 
+from texvent.camera import PosedCamera, place_in_image
 from texvent.sensor import SensorSize
 from texvent.transfer import encode_srgb
 from texvent_scenes.mesh import SurfaceImage, surface_image

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from texvent.camera import camera_rays
 
+from texvent.camera import camera_rays
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.media import WIDENED_PX, density_integral, optical_depth
 from texvent_scenes.raycast.render import render_light, world_at

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
-from texvent.camera import project
 
+from texvent.camera import project
 from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
 from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
 from texvent_scenes.staging.camera.framing import (

@@ -5,8 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from texvent.camera import PosedCamera
 
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.materials import in_material

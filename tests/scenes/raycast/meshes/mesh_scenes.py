@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from tests.scenes.hand_scenes import day, look_at
-from texvent.camera import PosedCamera
 
+from texvent.camera import PosedCamera
 from texvent_scenes.mesh import Mesh, SurfaceImage, make_mesh, smooth_normals
 from texvent_scenes.rendered_scene import Environment, Float64Array, Primitives, Shape
 
