@@ -126,7 +126,7 @@ class ProceduralVideo(NotebookFrames):
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
     kept: KeptFrames | None = None
-    """What was rendered before, for several simulations; None: it is not kept."""
+    """Store of what was rendered, for several simulations; None: nothing is kept."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
