@@ -185,7 +185,7 @@ class CameraMove:
     """Number of the phase: moves of one phase happen together, phases share the clip evenly."""
     start_s: Seconds | None = None
     """Start time, s; left out: that of its phase."""
-    duration_s: Seconds | None = None
+    duration_s: Annotated[float, Between(0.001, 86_400.0)] | None = None
     """Duration, s; left out: to the end of its phase, or of the clip if it has a start time."""
     means: Literal["drive", "cycle", "walk", "run", "fly", "sail", "swim"] | None = None
     """Vehicle or gait of travel."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -60,15 +59,12 @@ class _Shooting:
     seed: int
     aspect: float
     """Image height over width."""
-    duration_s: float
-
-    @property
-    def has_floor(self) -> bool:
-        return PLACES[self.place].ground is not Ground.NONE
+    path: CameraTrajectory
+    """The camera's moves, around nothing yet."""
 
     @property
     def times(self) -> Float64Array:
-        return np.linspace(0.0, self.duration_s, INSTANTS)
+        return np.linspace(0.0, self.path.duration_s, INSTANTS)
 
 
 def place_camera(
@@ -86,43 +82,57 @@ def place_camera(
     `place` is a key of `PLACES`, `aspect` the image's height over its width; the seed decides the
     angle where nothing is said.
     """
-    shooting = _Shooting(description, actors, place, seed, aspect, duration_s)
-    is_fixed = travel is not None or description.camera.position_m is not None or not actors
-    if travel is not None:
-        path = _travel(shooting, travel)
-    elif description.camera.position_m is not None:
-        path = _stand_at(shooting)
-    else:
-        path = _watch(shooting) if actors else _look_around(shooting)
-    angle_deg = description.camera.field_of_view_deg
-    path = replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=is_fixed))
-    if actors and not is_fixed:
-        path = _keep_in_view(path, choose_main(description, actors), shooting)
-    if travel is not None or not is_room(place):
-        return path
-    near = [one for one in actors if description.objects[one.object_index].placement != "far"]
-    corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))
-    return path.in_room(corners, shooting.times)
+    shot = description.camera
+    main = choose_main(description, actors) if actors else None
+    watched = main if travel is None and shot.position_m is None else None
+    moves = _plan_moves(description, watched, duration_s)
+    path = CameraTrajectory(
+        _surroundings_of(description, place, travel), moves, duration_s,
+        Tie.of(moves, main) if main is not None and travel is None else None,
+        has_floor=PLACES[place].ground is not Ground.NONE and shot.position_m is None,
+        journey=None if travel is None else travel.journey,
+    )  # fmt: skip
+    shooting = _Shooting(description, actors, place, seed, aspect, path)
+    if watched is not None:
+        path = replace(path, framing=_watch(shooting, watched))
+    framing = seen_through(path.framing, shot.field_of_view_deg, is_fixed=watched is None)
+    path = replace(path, framing=framing)
+    if watched is not None:
+        path = _keep_in_view(path, watched, aspect)
+    return _keep_in_room(path, shooting, travel) if is_room(place) else path
 
 
-def _watch(shooting: _Shooting) -> CameraTrajectory:
-    """The widest camera that shows the objects with a large subject."""
+def _surroundings_of(
+    description: SceneDescription, place: str, travel: TravelPlan | None
+) -> Framing:
+    """The framing of a place, of a route, or of a pose in metres, which moves go through."""
+    shot = description.camera
+    if travel is not None:  # it looks some way ahead of the middle of the route
+        target = np.array([0.0, 0.0, 0.5 * travel.journey.height_m])
+        return Framing(target, 0.0, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
+    if shot.position_m is not None:
+        return pose(shot.position_m, shot.look_at_m or ())
+    if is_room(place):
+        return Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
+    usual = 0.2 if PLACES[place].ground is Ground.RIVER else 0.06
+    elevation = ELEVATIONS.get(shot.view or "", usual)
+    distance = 16.0 if elevation < 0.5 else 24.0
+    return Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
+
+
+def _watch(shooting: _Shooting, main: Actor) -> Framing:
+    """The widest framing that shows the objects with a large subject."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
-    main, times = choose_main(description, actors), shooting.times
-    moves = _plan_moves(description, main, shooting.duration_s)
-    place = shooting.place
+    moves, times, place = shooting.path.moves, shooting.times, shooting.place
     azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
-    is_open = shooting.has_floor and not is_room(place)
+    is_open = shooting.path.has_floor and not is_room(place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
     boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
-    tie = Tie.of(moves, main)
-
-    def path_of(framing: Framing) -> CameraTrajectory:
-        return CameraTrajectory(framing, moves, shooting.duration_s, tie, shooting.has_floor)
 
     def prominence(framing: Framing) -> float:
-        path, views = path_of(framing), zip(times, boxes, strict=True)
+        path = replace(shooting.path, framing=framing)
+        views = zip(times, boxes, strict=True)
         return float(np.mean([measure_prominence(path.at(float(t)), b, aspect) for t, b in views]))
 
     views = list_framing_choices(description, actors, main, moves, times)
@@ -131,13 +141,13 @@ def _watch(shooting: _Shooting) -> CameraTrajectory:
             lift=lift)
         for one in views
     ]  # fmt: skip
-    return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
+    return come_near(framings, prominence, [view.goal for view in views[1:]])
 
 
-def _keep_in_view(path: CameraTrajectory, main: Actor, shooting: _Shooting) -> CameraTrajectory:
+def _keep_in_view(path: CameraTrajectory, main: Actor, aspect: float) -> CameraTrajectory:
     """The path with smaller moves if the subject would leave the picture."""
     for _ in range(_TRIES):
-        if _is_visible(path, main, shooting.aspect):
+        if _is_visible(path, main, aspect):
             break
         damped = tuple(
             one._replace(move=replace(one.move, pace=0.75 * one.move.pace))
@@ -158,39 +168,19 @@ def _is_visible(path: CameraTrajectory, main: Actor, aspect: float) -> bool:
     return bool(is_inside.mean() >= _VISIBLE_SHARE)
 
 
-def _look_around(shooting: _Shooting) -> CameraTrajectory:
-    """A camera in a place where the scene has no object."""
-    usual = 0.2 if PLACES[shooting.place].ground is Ground.RIVER else 0.06
-    elevation = ELEVATIONS.get(shooting.description.camera.view or "", usual)
-    distance = 16.0 if elevation < 0.5 else 24.0
-    empty = Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
-    if is_room(shooting.place):
-        empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
-    moves = _plan_moves(shooting.description, None, shooting.duration_s)
-    return CameraTrajectory(empty, moves, shooting.duration_s, has_floor=shooting.has_floor)
-
-
-def _stand_at(shooting: _Shooting) -> CameraTrajectory:
-    """The camera where metres say; its moves go through that pose at mid clip."""
-    description, actors = shooting.description, shooting.actors
-    framing = pose(description.camera.position_m or (), description.camera.look_at_m or ())
-    moves = _plan_moves(description, None, shooting.duration_s)
-    tie = Tie.of(moves, choose_main(description, actors)) if actors else None
-    return CameraTrajectory(framing, moves, shooting.duration_s, tie, has_floor=False)
-
-
-def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraTrajectory:
-    """A camera on a route; what it looks at is some way ahead of the middle of the route."""
-    target = np.array([0.0, 0.0, 0.5 * travel.journey.height_m])
-    framing = Framing(target, 0.0, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
-    moves = _plan_moves(shooting.description, None, shooting.duration_s)
-    room = math.inf
-    if is_room(shooting.place):
-        middle = [0.5 * shooting.duration_s]
-        corners = corners_over(shooting.actors, middle) if shooting.actors else np.zeros((1, 3))
-        room = max(0.5 * travel.length_m + 3.5, float(np.abs(corners[:, :2]).max()) + 0.8)
-    return CameraTrajectory(framing, moves, shooting.duration_s, has_floor=shooting.has_floor,
-                      room_m=room, journey=travel.journey)  # fmt: skip
+def _keep_in_room(
+    path: CameraTrajectory, shooting: _Shooting, travel: TravelPlan | None
+) -> CameraTrajectory:
+    """The path in a room that holds the camera and the objects."""
+    actors, objects = shooting.actors, shooting.description.objects
+    if travel is not None:
+        middle = [0.5 * path.duration_s]
+        corners = corners_over(actors, middle) if actors else np.zeros((1, 3))
+        reach = float(np.abs(corners[:, :2]).max())
+        return replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8))
+    near = [one for one in actors if objects[one.object_index].placement != "far"]
+    corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))
+    return path.in_room(corners, shooting.times)
 
 
 def _plan_moves(
@@ -198,7 +188,7 @@ def _plan_moves(
 ) -> tuple[TimedMove, ...]:
     """The moves that are said, each kind once at a time; else the subject is followed if fast."""
     timed = time_moves(description.camera.moves, duration_s)
-    said = {(one.move.kind, one.begin_s): one for one in timed}
+    said = {(one.move.kind, one.begin_s, one.end_s): one for one in timed}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
     has_landmark = any(
