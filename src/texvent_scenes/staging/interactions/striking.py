@@ -37,11 +37,11 @@ class Strike(NamedTuple):
     """Instant of contact as a share of the clip."""
     loft: float
     """Upward speed of the thing, as a share of its speed along the ground."""
-    tumble_rad_s: float
+    tumble_rad_s: float | None = None
+    """None = it rolls."""
 
 
-KICK, THROW = Strike(0.45, 0.45, math.nan), Strike(0.35, 0.35, 6.0)
-"""What is kicked rolls."""
+KICK, THROW = Strike(0.45, 0.45), Strike(0.35, 0.35, 6.0)
 _FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
 _TURN_ROUND_S = 0.08
@@ -101,7 +101,7 @@ def _fly_off(
     contact_s, end_s = times_s
     speed = min(max(_FLIGHT_M / max(end_s - contact_s, 0.1), 1.5), 7.0)
     half = 0.5 * thing.model.height
-    tumble = speed / max(half, 0.05) if math.isnan(act.tumble_rad_s) else act.tumble_rad_s
+    tumble = act.tumble_rad_s or speed / max(half, 0.05)
     flight = Key(1.0, speed, climb_m_s=act.loft * speed, ramp_s=0.0, restitution=0.55)
     turned = start.pitch - tumble * contact_s
     terms = (
