@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.options.values import option_help
 from texvent_scenes.spec import scene as spec
-from texvent_scenes.spec.data import field_types, inner_type
 from texvent_scenes.spec.limits import Between
+from texvent_scenes.spec.tables import field_types, inner_type
 
 MARK = "<!-- fields: "
 """Begins the line of the page that the tables take the place of."""

@@ -144,10 +144,10 @@ def _plugged_in(group: str, *, is_own: bool) -> Mapping[str, str]:
         is_own: those of the distribution that texvent is in; False: of all others.
     """
     points = metadata.entry_points(group=group)
-    return {point.name: point.value for point in points if is_own_point(point) is is_own}
+    return {point.name: point.value for point in points if _is_own(point) is is_own}
 
 
-def is_own_point(point: metadata.EntryPoint) -> bool:
+def _is_own(point: metadata.EntryPoint) -> bool:
     """Whether an entry point is of the distribution that texvent is in."""
     return point.dist is not None and point.dist.name == "texvent"
 

@@ -20,13 +20,8 @@ from texvent_scenes.meanings import list_meanings, meanings_of
 from texvent_scenes.read.draft import is_grammar
 from texvent_scenes.read.lexicon import Token, lexicon_of, split_prompt
 from texvent_scenes.spec import scene as spec
-from texvent_scenes.spec.data import (
-    field_types,
-    inner_type,
-    plain_type,
-    required_fields,
-    scene_from_data,
-)
+from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.tables import field_types, inner_type, plain_type, required_fields
 
 KEY_VARIABLE = "TEXVENT_CHAT_KEY"
 """Environment variable with the server's key, if it wants one; never stored."""

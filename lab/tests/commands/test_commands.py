@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from texvent._registry import Registry
 from texvent.cli import app
 from texvent.cli.app import main
 from texvent_lab.commands import COMMANDS
@@ -27,8 +28,8 @@ def test_texvent_lists_the_commands_and_without_the_package_names_it(capsys, mon
     assert main(["--help"]) == 0
     shown = capsys.readouterr().out
     assert all(f"\n  {name} " in shown for name in COMMANDS)
-    # A group that no package has, as where the laboratory is not installed.
-    monkeypatch.setattr(app, "COMMAND_GROUP", "texvent.commands.of.nobody")
+    # A group of entry points that no package has, as where the laboratory is not installed.
+    monkeypatch.setattr(app, "PACKAGES", Registry("command of nobody", {}))
     assert main(["bench"]) == 4
     assert "pip install texvent-lab" in capsys.readouterr().err
 

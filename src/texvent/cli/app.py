@@ -7,9 +7,8 @@ import importlib
 import signal
 import sys
 from collections.abc import Sequence
-from importlib import metadata
 
-from texvent._registry import is_own_point, suggest
+from texvent._registry import Registry, suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
 from texvent.cli.standard_streams import (
@@ -87,8 +86,8 @@ COMMANDS = {
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
 """Command → `module` or `module:function`, without which it is `run`, and what it does."""
-COMMAND_GROUP = "texvent.commands"
-"""Entry points of packages with more commands: mappings like `COMMANDS`."""
+PACKAGES = Registry("command", {})
+"""Packages with more commands: mappings like `COMMANDS`, named by entry points."""
 OF_THE_LAB = ("align", "bench", "evaluate", "nt-imagenet", "reconstruct", "train")
 """Commands of the package texvent-lab."""
 LONGEST_LISTING, LONGEST_WORD = 220, 30
@@ -154,7 +153,9 @@ def _dispatch(words: list[str]) -> int:
     if words[0] in ("-V", "--version"):
         write_out(f"texvent {full_version()}\n")
         return 0
-    commands = COMMANDS if words[0] in COMMANDS else all_commands()
+    commands = COMMANDS if words[0] in COMMANDS else own_commands()
+    if words[0] not in commands:
+        commands = all_commands()
     if words[0] not in commands:
         if words[0] in OF_THE_LAB:
             raise MissingDependencyError(
@@ -169,11 +170,23 @@ def _dispatch(words: list[str]) -> int:
     return code
 
 
+def own_commands() -> dict[str, tuple[str, str]]:
+    """`COMMANDS`, and those of entry points of texvent's own distribution."""
+    commands = dict(COMMANDS)
+    for name in PACKAGES.shipped():
+        commands.update(PACKAGES.load(name))
+    return commands
+
+
 def all_commands() -> dict[str, tuple[str, str]]:
-    """`COMMANDS`, and those of entry points; no other package replaces one of texvent's."""
-    own, others = dict(COMMANDS), dict[str, tuple[str, str]]()
-    for point in metadata.entry_points(group=COMMAND_GROUP):
-        (own if is_own_point(point) else others).update(point.load())
+    """The commands of all packages; no other package replaces one of texvent's.
+
+    Raises:
+        TexventError: a package cannot be loaded.
+    """
+    own, others = own_commands(), dict[str, tuple[str, str]]()
+    for name in PACKAGES.entries():
+        others.update(PACKAGES.load(name))
     return {**own, **others, **own}
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError, warn
@@ -88,7 +88,7 @@ def prepare_prompt(
         InputError: the prompt is empty, a file is missing, or the target rate is out of reach.
     """
     check_run(settings)
-    _check_prompt(prompt)
+    prompt = _checked(prompt)
     simulation = text_to_events(prompt, settings, progress=progress)
     return reach_target_rate(simulation, progress=progress)
 
@@ -128,7 +128,7 @@ def make_video(
     progress: Progress | None = None,
 ) -> FrameStream:
     """The video of a prompt, fitted to the sensor; arguments and errors as `prepare_prompt`."""
-    _check_prompt(prompt)
+    prompt = _checked(prompt)
     return text_to_video(prompt, settings, progress=progress)
 
 
@@ -140,7 +140,7 @@ def make_scene(prompt: Subject, settings: Settings) -> SceneValue:
     """
     name = settings.generator or DEFAULT_GENERATOR
     check_takes(None, GENERATORS.load(name), name)
-    _check_prompt(prompt)
+    prompt = _checked(prompt)
     if not isinstance(prompt, str):
         return prompt
     reading = scenes().read(prompt, assets=getattr(settings.source, "assets", None))
@@ -226,9 +226,14 @@ def _stored_video(source: Any) -> FrameStream | None:
     return replace(video, metadata={**video.metadata, "source": str(source)})
 
 
-def _check_prompt(prompt: Any) -> None:
-    if not isinstance(prompt, str) and not scenes().is_scene(prompt):
+def _checked(prompt: Any) -> Subject:
+    """A prompt, or a scene whose fields are checked and built as those of files."""
+    if isinstance(prompt, str):
+        return prompt
+    if not scenes().is_scene(prompt):
         raise InputError(
             f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
             "left', or a texvent_scenes.Scene"
         )
+    data = scenes().scene_to_data(prompt)
+    return cast(Subject, scenes().scene_from_data(data))

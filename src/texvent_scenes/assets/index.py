@@ -16,8 +16,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.protocol import Habitat
-from texvent_scenes.spec.data import build_table
 from texvent_scenes.spec.limits import Between
+from texvent_scenes.spec.tables import build_table
 
 ENDINGS = (".glb", ".obj", ".ply")
 INDEX_NAME = "assets.toml"

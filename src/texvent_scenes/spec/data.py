@@ -5,16 +5,12 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-import types
-import typing
 from collections.abc import Iterator, Mapping
-from functools import cache
 from graphlib import CycleError, TopologicalSorter
-from typing import Annotated, Any, get_args, get_origin
+from typing import Any
 
 from texvent._registry import suggest
 from texvent.errors import MAX_WORD, ConfigError, few, shown
-from texvent.options.values import convert
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import (
     MAX_BODIES,
@@ -24,6 +20,7 @@ from texvent_scenes.spec.scene import (
     SceneObject,
     object_ids,
 )
+from texvent_scenes.spec.tables import build_table, field_types, plain_values
 
 PLACING = frozenset(
     {"on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
@@ -39,7 +36,7 @@ STEEPEST = 0.08
 
 def scene_to_data(scene: Scene) -> dict[str, Any]:
     """Plain values of a scene; fields at their defaults are left out."""
-    data: dict[str, Any] = _plain(scene)
+    data: dict[str, Any] = plain_values(scene)
     return data
 
 
@@ -55,7 +52,7 @@ def scene_from_data(data: Any, words: Vocabulary | None = None) -> Scene:
             colour is unknown; or relations name objects that are not there, or go round in a
             circle. The message begins with the path of the field.
     """
-    scene: Scene = _build(Scene, data, "", words or {})
+    scene: Scene = build_table(Scene, data, "", words or {})
     for fault in _faults(scene):
         raise ConfigError(fault)
     return scene
@@ -64,95 +61,6 @@ def scene_from_data(data: Any, words: Vocabulary | None = None) -> Scene:
 def checked_scene(scene: Scene, words: Vocabulary) -> Scene:
     """A scene that a program made, checked as one from a file; errors as `scene_from_data`."""
     return scene_from_data(scene_to_data(scene), words)
-
-
-@cache
-def field_types(owner: type) -> dict[str, Any]:
-    """Field → its type with its limits, of a class of `spec.scene`."""
-    return typing.get_type_hints(owner, include_extras=True)
-
-
-def inner_type(hint: Any) -> Any:
-    """The type of an optional field when it is given; any other type is its own."""
-    if get_origin(hint) in (typing.Union, types.UnionType):
-        return next(one for one in get_args(hint) if one is not types.NoneType)
-    return hint
-
-
-def plain_type(hint: Any) -> Any:
-    """The type of a field when it is given, without its limits."""
-    inner = inner_type(hint)
-    return get_args(inner)[0] if get_origin(inner) is Annotated else inner
-
-
-def required_fields(owner: type) -> list[str]:
-    """Fields without a default."""
-    return [
-        one.name
-        for one in dataclasses.fields(owner)
-        if one.default is dataclasses.MISSING and one.default_factory is dataclasses.MISSING
-    ]
-
-
-def _plain(value: Any) -> Any:
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        named = {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
-        usual = {one.name: _plain(_default(one)) for one in dataclasses.fields(value)}
-        return {name: one for name, one in named.items() if one != usual[name]}
-    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
-        value = value.tolist()
-    return [_plain(one) for one in value] if isinstance(value, (list, tuple)) else value
-
-
-def _default(field: dataclasses.Field[Any]) -> Any:
-    if field.default_factory is not dataclasses.MISSING:
-        return field.default_factory()
-    return field.default
-
-
-def _build(hint: Any, value: Any, where: str, words: Vocabulary) -> Any:
-    """`value` as the type `hint`, whose path is `where`; see `scene_from_data`."""
-    if value is None and inner_type(hint) is not hint:
-        return None
-    hint = inner_type(hint)
-    if get_origin(hint) is Annotated:
-        plain, *limits = get_args(hint)
-        built = _build(plain, value, where, words)
-        for limit in limits:
-            limit.check(built, where, words)
-        return built
-    if get_origin(hint) is tuple:
-        if not isinstance(value, (list, tuple)):
-            raise ConfigError(f"{where} is {shown(value)}; it must be a list")
-        items = get_args(hint)
-        if items[-1] is Ellipsis:
-            items = items[:1] * len(value)
-        if len(items) != len(value):
-            raise ConfigError(f"{where} is {shown(value)}; it must have {len(items)} numbers")
-        return tuple(
-            _build(item, one, f"{where}[{n}]", words)
-            for n, (item, one) in enumerate(zip(items, value, strict=True))
-        )
-    if dataclasses.is_dataclass(hint):
-        return build_table(hint, value, where, words)
-    return convert(value, hint, where)
-
-
-def build_table(owner: Any, value: Any, where: str, words: Vocabulary) -> Any:
-    """An instance of a dataclass from the table of its fields; errors as `scene_from_data`."""
-    kinds, table = field_types(owner), where or "scene"
-    if not isinstance(value, Mapping):
-        raise ConfigError(f"{table} is {shown(value)}; it must be a table of fields")
-    for name in value:
-        if name not in kinds:
-            raise ConfigError(f"{table} has no field {shown(name)}; {suggest(name, tuple(kinds))}")
-    for name in required_fields(owner):
-        if name not in value:
-            raise ConfigError(f"{table} has no {name}, which it must have")
-    prefix = f"{where}." if where else ""
-    return owner(
-        **{name: _build(kinds[name], one, prefix + name, words) for name, one in value.items()}
-    )
 
 
 def _faults(scene: Scene) -> Iterator[str]:

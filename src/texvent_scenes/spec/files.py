@@ -15,15 +15,10 @@ from texvent.options.values import option_help
 from texvent.runtime.file_names import usable_path
 from texvent.runtime.yaml_text import keys_once
 from texvent_scenes.colours import PALETTES
-from texvent_scenes.spec.data import (
-    field_types,
-    inner_type,
-    required_fields,
-    scene_from_data,
-    scene_to_data,
-)
+from texvent_scenes.spec.data import scene_from_data, scene_to_data
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Scene, SceneObject
+from texvent_scenes.spec.tables import field_types, inner_type, required_fields
 
 LONGEST_LINE = 100
 """Characters of a list on one line; the items of a longer one have lines of their own."""

@@ -1,14 +1,11 @@
 """Scenes as values: objects, effects, camera, light and place, in SI units.
 
-    Scene(
-        objects=(
-            SceneObject(noun="car", motions=(Motion(kind="drive", direction="left"),)),
-            SceneObject(noun="tree", count=2),
-        ),
-        light=Light(kind="dusk"),
-    )
+    scene = Scene(light=Light("dusk"))
+    scene += SceneObject("car", motions=[Motion("drive", "left")])
+    scene += SceneObject("tree", count=2)
 
 Only nouns and kinds are required: a field that is left out leaves the choice to the generator.
+Lists and tables do for fields, as in files; `+=` checks them.
 Files, errors and the JSON schema follow from these classes: a field's type says what it takes, and
 the text under it is its description.
 """
@@ -17,9 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias, cast
 
+from texvent.errors import ConfigError, shown
 from texvent_scenes.spec.limits import Between, Colour, Word
+from texvent_scenes.spec.tables import build_table, plain_values
 
 MAX_BODIES = 60
 """Most bodies in a scene: objects with all their copies."""
@@ -280,6 +279,10 @@ class Place:
     """Height of water waves, as a multiple of those in a light breeze."""
 
 
+Part: TypeAlias = SceneObject | Effect | Lamp | Camera | Light | Place
+"""Part of a scene."""
+
+
 @dataclass(frozen=True)
 class Scene:
     """A scene of the embedded generator."""
@@ -298,6 +301,39 @@ class Scene:
     """Surroundings."""
     absent: tuple[Annotated[str, Word("noun")], ...] = ()
     """Nouns that no scenery may show."""
+
+    def __add__(self, part: Part) -> Self:
+        """The scene with one more object, effect or lamp, or with another camera, light or place.
+
+        Raises:
+            ConfigError: it is something else, or a field is wrong; the message is that of a file.
+
+        Example:
+            >>> scene = Scene()
+            >>> scene += SceneObject("mug", position_m=(0, 0))
+            >>> scene += Light("dusk")
+            >>> scene.objects[0].noun, scene.light.kind
+            ('mug', 'dusk')
+        """
+        if type(part) not in _PLACES:
+            names = [one.__name__ for one in _PLACES]
+            raise ConfigError(f"{shown(part)} is no part of a scene; add one of {', '.join(names)}")
+        data = plain_values(self)
+        *way, name, is_list = _PLACES[type(part)]
+        table = data.setdefault(way[0], {}) if way else data
+        table[name] = [*table.get(name, ()), plain_values(part)] if is_list else plain_values(part)
+        return cast(Self, build_table(Scene, data, "", {}))
+
+
+_PLACES: dict[type, tuple[Any, ...]] = {
+    SceneObject: ("objects", True),
+    Effect: ("effects", True),
+    Lamp: ("light", "lamps", True),
+    Camera: ("camera", False),
+    Light: ("light", False),
+    Place: ("place", False),
+}
+"""Part of a scene → path of its field, and whether that is a list."""
 
 
 def object_ids(scene: Scene) -> tuple[str, ...]:

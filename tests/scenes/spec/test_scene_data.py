@@ -22,15 +22,11 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene, list_nouns, list_words
-from texvent_scenes.spec.data import (
-    field_types,
-    inner_type,
-    scene_from_data,
-    scene_to_data,
-)
+from texvent_scenes.spec.data import scene_from_data, scene_to_data
 from texvent_scenes.spec.files import json_schema, load_scene, save_scene, scene_text
 from texvent_scenes.spec.limits import Between, Colour, Word
-from texvent_scenes.spec.scene import Camera, Lamp, Motion, Relation, Scene, SceneObject
+from texvent_scenes.spec.scene import Camera, Lamp, Motion, Place, Relation, Scene, SceneObject
+from texvent_scenes.spec.tables import field_types, inner_type
 from texvent_scenes.staging.compose import compose_scene
 
 WORDS = list_words(list_nouns())
@@ -105,6 +101,41 @@ def test_any_scene_survives_files_and_the_schema(scene):
     assert scene_from_data(json.loads(scene_text(scene, ".json")), WORDS) == scene
     assert len(to_description(scene).relations) == sum(len(one.relations) for one in scene.objects)
     SCHEMA.validate(data)
+
+
+@given(scene=drawn_scenes())
+def test_a_scene_that_is_put_together_is_that_of_its_file(scene):
+    tables = scene_to_data(scene)
+    whole = Scene(
+        prompt=scene.prompt, absent=list(scene.absent), place=tables.get("place", Place())
+    )
+    parts = [*scene.effects, scene.camera, dataclasses.replace(scene.light, lamps=())]
+    for part in (*scene.objects, *parts, *scene.light.lamps):
+        # Its own fields are tables, as in a file.
+        whole += type(part)(**scene_to_data(part))
+    assert whole == scene
+
+
+@pytest.mark.parametrize(
+    ("part", "path", "table"),
+    [
+        (SceneObject("car", motions=[{"kind": "drive", "drection": "left"}]), "objects",
+         {"noun": "car", "motions": [{"kind": "drive", "drection": "left"}]}),
+        (SceneObject("car", size="large"), "objects", {"noun": "car", "size": "large"}),
+        (Lamp((0, 0)), "light.lamps", {"position_m": [0, 0]}),
+        (Place(sky="blu"), "place", {"sky": "blu"}),
+    ],
+)  # fmt: skip
+def test_a_wrong_part_is_refused_as_in_a_file(part, path, table):
+    outer, _, inner = path.partition(".")
+    value = {inner: [table]} if inner else [table] if outer == "objects" else table
+    with pytest.raises(ConfigError) as of_file:
+        scene_from_data({outer: value})
+    with pytest.raises(ConfigError) as of_part:
+        Scene() + part
+    assert str(of_part.value) == str(of_file.value)
+    with pytest.raises(ConfigError, match=r"'car' is no part of a scene; add one of SceneObject"):
+        Scene() + "car"
 
 
 def values(part: Any) -> Iterator[Any]:
