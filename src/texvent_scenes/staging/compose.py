@@ -14,6 +14,7 @@ from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
+from texvent_scenes.spec.scene import CameraMove, Motion
 from texvent_scenes.staging.actors import Actor, assemble, join_primitives, seeded
 from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
@@ -151,7 +152,9 @@ def compose_scene(
 def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str]:
     """Motions and camera moves that would begin when the clip is over."""
     end = f"(the clip ends at {duration_s:g} s)"
-    movers = [(f"the {one.noun}", one.motions) for one in description.objects]
+    movers: list[tuple[str, Sequence[Motion | CameraMove]]] = [
+        (f"the {one.noun}", one.motions) for one in description.objects
+    ]
     for who, moves in [*movers, ("the camera", description.camera.moves)]:
         for one in moves:
             if one.start_s is not None and one.start_s >= duration_s:
