@@ -14,6 +14,7 @@ from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
 from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent_lab.bench.fidelity import entries
 from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.config import PaperConfig
@@ -115,6 +116,18 @@ def keep_few(monkeypatch):
         for column in ("VID2E", "Texvent")
     }
     monkeypatch.setattr(paper, "ENTRIES", few)
+
+
+def test_rife_is_left_out_of_every_row_where_the_user_wants_it_so(monkeypatch):
+    monkeypatch.setattr(entries, "missing_rife", lambda: None)
+    monkeypatch.setattr(paper, "missing_rife", lambda: None)
+    for rife, way in ((True, "rife"), (False, "flow")):
+        config = PaperConfig(table=1, rife=rife)
+        rows = {one.name: one for one in read_ablations(PAPER, rife=rife)}
+        assert rows["Texvent"].interpolate == rows["E1"].interpolate == way
+        assert paper.find_columns(config)["Texvent"].interpolate == way
+        (note,) = paper.interpolation(config).notes
+        assert ("--no-rife" in note) == (not rife)
 
 
 def test_every_row_of_a_table_has_a_figure_per_column():
