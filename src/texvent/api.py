@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.generate.subjects import Subject
 from texvent.io.files import load
 from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
@@ -23,7 +24,6 @@ from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
-from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
@@ -39,7 +39,7 @@ __all__ = ["compare", "generate", "load", "open", "simulate", "video"]
 
 @overload
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: Literal[False] = False,
     config: str | Path | None = None,
@@ -49,7 +49,7 @@ def generate(
 ) -> EventStream: ...
 @overload
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: Literal[True],
     config: str | Path | None = None,
@@ -59,7 +59,7 @@ def generate(
 ) -> EventPackets: ...
 @naming_options(GenerateOptions)
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: bool = False,
     config: str | Path | None = None,
@@ -71,7 +71,7 @@ def generate(
 
     Args:
         prompt: what to show, such as "a red car drives left past two trees at dusk"; or a
-            `texvent.scenes.Scene`.
+            `texvent_scenes.Scene`.
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
         progress: a bar (True), none (False), or a function that takes steps done, steps in all or
@@ -195,7 +195,7 @@ def simulate(
 
 @naming_options(GenerateOptions)
 def video(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     config: str | Path | None = None,
     progress: ProgressOption = None,

@@ -15,14 +15,14 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from texvent._registry import GENERATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
 from texvent.errors import warn
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.generate.scene_input import Subject, check_takes, prompt_of
+from texvent.generate.subjects import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_change
 from texvent.runtime.progress import Progress
@@ -52,7 +52,7 @@ def text_to_video(
     prompt: Subject, settings: Settings, *, progress: Progress | None = None
 ) -> FrameStream:
     """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
-    generator_class = GENERATORS.load(settings.generator or "procedural")
+    generator_class = GENERATORS.load(settings.generator or DEFAULT_GENERATOR)
     check_takes(prompt, generator_class, str(settings.generator))
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
     return fit_to_sensor(generator.generate(prompt, progress=progress), settings)
