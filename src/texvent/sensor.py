@@ -39,7 +39,11 @@ class Sensor:
     source: str
     """Source of the numbers; Gallego 2022 is Table 1 of "Event-based vision: a survey"."""
     fill_factor: float | None = None
-    """Share of a pixel's area that light falls on, 0..1; None: not published."""
+    """Share of a pixel's area that light falls on, 0..1; None: no source is known.
+
+    The DVS128's stands in the abstract of Lichtsteiner 2008. The others are cited after Gallego
+    2022, and not checked against its text; the Gen4 HD's is the least value there (> 77 %).
+    """
 
 
 SENSORS: dict[str, Sensor] = {

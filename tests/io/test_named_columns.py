@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, TexventError, TexventWarning
-from texvent.events import EventStream
+from texvent.events import COLUMN_TYPES, ID_COLUMNS, EventStream
 from texvent.io.files import load
 from texvent.sensor import SensorSize
 
@@ -223,6 +223,24 @@ def test_on_is_a_name_of_polarity(name: str) -> None:
         f"t,x,y,{name}\n" + "".join(f"{t},{x},{y},{p}\n" for t, x, y, p in rows)
     )
     assert is_true(found(Path("e.csv"))[0])
+
+
+ID_KINDS = (None, np.uint16, np.int64, np.float32)
+"""Types of a column of ids, of which one is ours; None: there is none."""
+
+
+@pytest.mark.parametrize("kind", ["npz", "h5"])
+@pytest.mark.parametrize("kinds", pairs(ID_KINDS, ID_KINDS))
+def test_ids_count_only_together_and_in_their_own_types(
+    kind: str, kinds: tuple[type[np.number[Any]] | None, ...]
+) -> None:
+    given = dict(zip(ID_COLUMNS, kinds, strict=True))
+    columns = {name: np.full(COUNT, 3, one) for name, one in given.items() if one}
+    events, _ = found(written(kind, **columns))
+    assert is_true(events)
+    ours = all(one == COLUMN_TYPES[name] for name, one in given.items())
+    for name in ID_COLUMNS:
+        assert (getattr(events, name) is not None) == ours
 
 
 @pytest.mark.parametrize("label", [7, "cat", [7], np.full(COUNT, 7), np.arange(3)])

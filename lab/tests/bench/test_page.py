@@ -1,6 +1,7 @@
 """Pages of results: their own files and stored ones, hostile text, and documents of other kinds."""
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
@@ -36,6 +37,8 @@ def test_the_papers_page_has_every_table_and_the_time_of_each_that_was_measured(
     measured = [number for number in TABLES if document[f"table {number}"]["rows"]]
     assert all(f"## Table {number}: " in page for number in TABLES)
     assert page.count("- Measured in ") == len(measured) > 0
+    assert "`--folder`" in page
+    assert not re.search(r"(?<!`)--[a-z]", page)  # which a typesetter makes a dash
 
 
 def test_text_of_a_result_is_no_html_in_page_or_chart():

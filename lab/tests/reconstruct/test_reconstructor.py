@@ -7,7 +7,11 @@ from tests.represent.definitions import random_events
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.reconstruct.reconstructor import find_network, load_reconstructor
+from texvent_lab.reconstruct.reconstructor import (
+    Reconstructor,
+    find_network,
+    load_reconstructor,
+)
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import HEADS, random_state, save_published
@@ -57,6 +61,16 @@ def test_a_network_gets_its_voxel_grid_and_gives_an_image_of_any_size(folder, na
     assert grid.shape == (5, 16, 24)
     how = "reflect" if name == "e2depth" else "constant"
     np.testing.assert_array_equal(grid, np.pad(expected, ((0, 0), (2, 1), (2, 1)), mode=how))
+
+
+@pytest.mark.parametrize("name", RECONSTRUCTORS.names())
+@pytest.mark.parametrize("size", [(1, 1), (16, 12), (3, 70)], ids=str)
+def test_no_sensor_is_too_small_for_a_network(name, size):
+    published = RECONSTRUCTORS.load(name)
+    reconstructor = Reconstructor(published, published.network.like({}, {}))
+    for seed in range(2):
+        image = reconstructor.reconstruct(noise(seed, SensorSize(*size)))
+        assert image.shape == SensorSize(*size).shape
 
 
 def test_only_e2vid_stretches_its_images(folder):

@@ -115,6 +115,17 @@ def without_tags(text: str) -> str:
     return re.sub(r"<(?=[A-Za-z/!?])", "&lt;", text)
 
 
+def options_as_code(text: str) -> str:
+    """Markdown whose options are in code font, in which no typesetter makes a dash of two hyphens.
+
+    Example:
+        >>> options_as_code("give --table 4, or `texvent --help`")
+        'give `--table` 4, or `texvent --help`'
+    """
+    found = re.compile(r"`[^`]*`|(?<![\w-])--[a-z][\w-]*")
+    return found.sub(lambda one: one[0] if one[0].startswith("`") else f"`{one[0]}`", text)
+
+
 def _cell(text: str) -> str:
     one_line = " ".join(text.splitlines())
     return re.sub(r"(?<!\\)\|", r"\|", without_tags(one_line))

@@ -7,7 +7,12 @@ from typing import Any
 
 from texvent.errors import FileFormatError, one_line
 from texvent_lab.bench.digits import results as digits
-from texvent_lab.bench.document import COMPRESSED, read_records, without_tags
+from texvent_lab.bench.document import (
+    COMPRESSED,
+    options_as_code,
+    read_records,
+    without_tags,
+)
 from texvent_lab.bench.fidelity.results import FidelityReport, read_report
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
 from texvent_lab.bench.paper.published_tables import SCHEMA as PAPER_SCHEMA
@@ -55,7 +60,7 @@ def page_files(
     link = f"[{described}](../{described}) describes the measurement."
     drawing = [f"![Chart of the scores]({name}.svg)"] if chart else []
     parts = [f"# {title}", link, facts, *drawing, tables]
-    page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")
+    page = options_as_code(without_tags("\n\n".join(part.rstrip() for part in parts) + "\n"))
     return {f"{name}.md": page.encode(), **({f"{name}.svg": chart} if chart else {})}
 
 

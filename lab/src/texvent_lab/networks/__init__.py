@@ -49,14 +49,15 @@ class Padding:
     bottom: int
 
     @classmethod
-    def centred(cls, shape: Sequence[int], multiple: int) -> Padding:
+    def centred(cls, shape: Sequence[int], multiple: int, least: int = 1) -> Padding:
         """All around, one more above and left if odd, as the program of E2VID does.
 
         Args:
             shape: (height, width) of the image, px.
             multiple: both sides become multiples of this, px.
+            least: both sides become at least this, px.
         """
-        below, right = (-side % multiple for side in shape)
+        below, right = (-(-max(side, least) // multiple) * multiple - side for side in shape)
         return cls(right - right // 2, right // 2, below - below // 2, below // 2)
 
     def around(self, grid: NDArray[Any], how: Literal["constant", "reflect"]) -> NDArray[Any]:

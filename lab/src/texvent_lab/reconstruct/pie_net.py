@@ -31,6 +31,7 @@ class PieNet(RecurrentNetwork, _PieNet):
     """The full variant: a recurrent U-Net that also sees its last image and its variance."""
 
     bins = 5
+    least_side = 2 * 2 * 5  # its three poolings leave one pixel
 
     def __init__(self) -> None:
         """Random weights."""

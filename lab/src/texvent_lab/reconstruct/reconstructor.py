@@ -102,7 +102,9 @@ class Reconstructor:
         spreads them over all bins); an image whose percentiles coincide is not stretched (the
         program divides by zero); the first image is at the second frame (the program first shows
         the network an empty grid, for the first frame); an event at a frame's own time belongs to
-        the slice after it (the program also moves the last event before it there).
+        the slice after it (the program also moves the last event before it there); a grid smaller
+        than a network's least side is padded like one whose sides are no multiples (the program
+        of such a network stops).
     """
 
     def __init__(
@@ -203,7 +205,8 @@ class Reconstructor:
     def _run(self, grid: Intensity) -> Intensity:
         """The network's output for a voxel grid, [H, W]."""
         torch = require("torch", extra=EXTRA)
-        padding = Padding.centred(grid.shape[1:], self._network.multiple)
+        network = self._network
+        padding = Padding.centred(grid.shape[1:], network.multiple, network.least_side)
         what = (
             f"{self.name} does not fit into the memory of device {self._device} at "
             f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
@@ -212,7 +215,7 @@ class Reconstructor:
         with explain_memory(what), torch.inference_mode():
             padded = padding.around(grid, self._published.padding)
             voxel: Tensor = torch.from_numpy(padded)[None].to(self._device)
-            output = self._network.step(voxel)
+            output = network.step(voxel)
             image: Intensity = padding.off(output)[0, 0].cpu().numpy()
         return image
 

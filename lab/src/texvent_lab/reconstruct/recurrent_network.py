@@ -31,6 +31,8 @@ class RecurrentNetwork(Network):
     """Bins of the voxel grids."""
     multiple: int = 1
     """Both sides of a grid must be multiples of this, px."""
+    least_side: int = 1
+    """Both sides of a grid must be at least this, px."""
 
     @classmethod
     def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> RecurrentNetwork:

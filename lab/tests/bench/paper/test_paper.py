@@ -14,6 +14,7 @@ from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
 from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent_lab.bench.fidelity import entries
 from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.config import PaperConfig
@@ -115,6 +116,18 @@ def keep_few(monkeypatch):
         for column in ("VID2E", "Texvent")
     }
     monkeypatch.setattr(paper, "ENTRIES", few)
+
+
+def test_rife_is_left_out_of_every_row_where_the_user_wants_it_so(monkeypatch):
+    monkeypatch.setattr(entries, "missing_rife", lambda: None)
+    monkeypatch.setattr(paper, "missing_rife", lambda: None)
+    for rife, way in ((True, "rife"), (False, "flow")):
+        config = PaperConfig(table=1, rife=rife)
+        rows = {one.name: one for one in read_ablations(PAPER, rife=rife)}
+        assert rows["Texvent"].interpolate == rows["E1"].interpolate == way
+        assert paper.find_columns(config)["Texvent"].interpolate == way
+        (note,) = paper.interpolation(config).notes
+        assert ("--no-rife" in note) == (not rife)
 
 
 def test_every_row_of_a_table_has_a_figure_per_column():
@@ -275,7 +288,8 @@ def test_noise_that_grows_makes_images_less_like_those_without(tmp_path, monkeyp
 
 def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
-    for number, word in ((1, "data pull"), (7, "data pull"), (8, "data pull"), (9, "--folder")):
+    words = {**dict.fromkeys((1, 3, 7, 8), "data pull"), 6: "--folder", 9: "--folder"}
+    for number, word in words.items():
         found = measure_table(PaperConfig(table=number), silent)
         assert not found.rows
         assert word in " ".join(found.needs)

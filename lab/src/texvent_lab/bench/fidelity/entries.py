@@ -66,9 +66,9 @@ class Entry:
         preset = f" {self.preset}" if self.preset else ""
         return f"{self.simulator}{preset}, {self.interpolate}"
 
-    def or_flow(self) -> Self:
-        """This row, by optical flow if it asks for RIFE and that cannot run here."""
-        if self.interpolate != "rife" or missing_rife() is None:
+    def or_flow(self, *, rife: bool = True) -> Self:
+        """This row, by optical flow if it asks for RIFE and that is unwanted or cannot run here."""
+        if self.interpolate != "rife" or (rife and missing_rife() is None):
             return self
         return dataclasses.replace(self, interpolate="flow")
 
@@ -280,8 +280,15 @@ class FileEntry(Entry):
         return packets
 
 
-def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:
+def read_ablations(
+    folder: Path, *, is_rate_matched: bool = False, rife: bool = True
+) -> list[ConfigEntry]:
     """One row per config file of a folder, E2 before E10; RIFE's by flow where it cannot run.
+
+    Args:
+        folder: of the files.
+        is_rate_matched: whether contrast thresholds are fitted.
+        rife: False takes flow wherever a file asks for RIFE.
 
     Raises:
         InputError: there is no such folder, or no config file in it.
@@ -293,7 +300,8 @@ def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[Confi
             f"no config file in {folder}; give the folder configs/paper of the source "
             "distribution, or one with TOML files of your own"
         )
-    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched).or_flow() for path in paths]
+    rows = (ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths)
+    return [one.or_flow(rife=rife) for one in rows]
 
 
 def _by_number(path: Path) -> tuple[str, int, str]:

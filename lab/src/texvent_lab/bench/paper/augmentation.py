@@ -205,6 +205,8 @@ def measure_augmented_reconstruction(config: PaperConfig, progress: Progress) ->
     notes = [
         f"{config.epochs} epochs from random weights on the first four fifths of "
         f"{', '.join(config.sources)}; scores of the last fifth after the last epoch; loss: "
-        + ("L1 + 1 - SSIM" if absent else "LPIPS")
+        + ("L1 + 1 - SSIM" if absent else "LPIPS"),
+        f"{max(1, round(CLIPS * len(config.sources)))} simulated beside {len(config.sources)} "
+        "recorded: 5 % of the recordings, and at least one clip",
     ]
     return Measured(rows, notes, [f"{name}: {why}" for name, why in absent.items()])

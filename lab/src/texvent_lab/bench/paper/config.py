@@ -63,6 +63,9 @@ class PaperConfig:
     keeps its own, as in the paper: then the number of events decides."""
     configs: Path = Path("configs/paper")
     """Tables 4 and 5: folder with one TOML file per row."""
+    rife: bool = True
+    """Interpolate Texvent's rows by RIFE at every instant, as in the paper. --no-rife takes optical
+    flow, and minutes in place of hours on a processor."""
     baseline: str = BASELINE
     """Tables 4 and 5: row that the others are compared with, pair by pair."""
     weights: Path | None = None

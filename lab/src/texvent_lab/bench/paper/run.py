@@ -104,13 +104,13 @@ def measure_table(config: PaperConfig, progress: Progress) -> Measured:
     find_columns(config)  # what is missing is named before any work
     if config.table == 2:
         return join_measured(
-            [measure_times(config, progress), measure_eqs(config, progress), interpolation()]
+            [measure_times(config, progress), measure_eqs(config, progress), interpolation(config)]
         )
     if not config.sources:
         return Measured(
             needs=["anything; texvent data pull slider_depth, or --recordings with a recording"]
         )
-    found = [] if config.table == 7 else [interpolation()]
+    found = [] if config.table == 7 else [interpolation(config)]
     if config.table == 1:
         scenes = [open_scene(source) for source in config.sources]
         found.append(measure_event_frames(scenes, config, progress))
@@ -142,14 +142,14 @@ def find_columns(config: PaperConfig) -> dict[str, Entry]:
     """
     names, given = [recording_name(one) for one in config.sources], config.event_folders.items()
     return {
-        **{column: entry.or_flow() for column, entry in ENTRIES.items()},
+        **{column: entry.or_flow(rife=config.rife) for column, entry in ENTRIES.items()},
         **{one: FileEntry.find(one, folder, names) for one, folder in given},
     }
 
 
-def interpolation() -> Measured:
+def interpolation(config: PaperConfig) -> Measured:
     """A note: the interpolator of the rows of Texvent."""
-    reason = missing_rife()
+    reason = missing_rife() if config.rife else "--no-rife was given"
     if reason is None:
         return Measured(notes=["Texvent interpolates by RIFE at every instant, as in the paper"])
     return Measured(notes=[f"Texvent interpolates by flow, not by the paper's RIFE: {reason}"])
@@ -192,7 +192,7 @@ def measure_ablations(number: int, report: FidelityReport) -> Measured:
         rows[f"STPP ↑, {reference.title}"] = stpp
         rows[f"− {BASELINE}, {reference.title}"] = difference
     notes = [EQ7_READING] if number == 5 else []
-    return join_measured([interpolation(), Measured(rows, notes, [EQS_NEED])])
+    return Measured(rows, notes, [EQS_NEED])
 
 
 def choose_e8(

@@ -27,6 +27,7 @@ from texvent_lab.bench.paper.published_tables import (
 from texvent_lab.bench.paper.run import (
     choose_e8,
     find_columns,
+    interpolation,
     leave_out_other_tables,
     measure_ablations,
     measure_table,
@@ -76,8 +77,7 @@ def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
         raise InputError("there is no recording; texvent data pull slider_depth, or --recordings")
     entries: Mapping[str, Entry | ConfigEntry] = find_columns(config)
     if config.figure == ABLATION_FIGURE:
-        read = read_ablations(config.configs, is_rate_matched=config.match_rate)
-        entries = {one.name: one for one in read if one.name in ABLATED}
+        entries = {one.name: one for one in _read_ablations(config) if one.name in ABLATED}
     scene = open_scene(config.sources[0])
     png, notes = draw_figure(config.figure or 0, scene, entries, config, output.progress)
     with atomic_file(output.out, overwrite=output.overwrite) as part:
@@ -85,10 +85,14 @@ def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
     write_out("".join(f"- {note}\n" for note in notes))
 
 
+def _read_ablations(config: PaperConfig) -> list[ConfigEntry]:
+    return read_ablations(config.configs, is_rate_matched=config.match_rate, rife=config.rife)
+
+
 def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
     """Tables 4 and 5, or one of them, on scenes and recordings, with the time of the one run."""
     started = time.perf_counter()
-    entries = read_ablations(config.configs, is_rate_matched=config.match_rate)
+    entries = _read_ablations(config)
     if config.table is not None:
         entries = leave_out_other_tables(config.table, entries)
     entries, e8 = choose_e8(entries, config.slomo_weights)
@@ -104,7 +108,7 @@ def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:
         reports.append(run_real(recordings, entries, jobs=config.jobs, progress=progress))
     tables: dict[str, Any] = {}
     for number in ABLATIONS if config.table is None else (config.table,):
-        parts = [measure_ablations(number, report) for report in reports]
+        parts = [interpolation(config), *(measure_ablations(number, one) for one in reports)]
         measured = join_measured([*parts, e8] if number == 4 else parts)
         write_out(f"{compare_with_paper(TABLES[number], measured)}\n")
         tables[f"table {number}"] = asdict(measured)
