@@ -21,14 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.generate.scene_input import describe_scene
-from texvent.scenes.models.effects import EFFECTS
-from texvent.scenes.models.nouns import MOTIONS, NOUNS
-from texvent.scenes.models.people.activities import (
+from texvent.scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
     PERSON_NOUNS,
 )
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.nouns import MOTIONS, NOUNS
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.spec import scene as spec

@@ -5,8 +5,8 @@ import tomllib
 import numpy as np
 import pytest
 
-from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
-from texvent.scenes.models.joints import read_cycle
+from texvent.scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
+from texvent.scenes.models.joints import Instant, read_cycle
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
@@ -23,18 +23,19 @@ def middles(model: Model, pose: Pose) -> np.ndarray:
     return np.array([part.to_body[:, 3] for part in model.parts(pose)])
 
 
-def test_a_cycle_counts_seconds_or_metres():
-    pose = Pose(0.5, 3.0, 1.0)
-    assert read_cycle(["2hz"])(pose, 0) == pytest.approx(1.0)
-    assert read_cycle(["1.5/m", "from", ".25"])(pose, 0) == pytest.approx(4.75)
-    begun = {read_cycle(["2hz", "start", "flap"])(pose, seed) for seed in range(5)}
+def test_a_cycle_counts_seconds_metres_or_strides():
+    now = Instant(Pose(0.5, 3.0, 1.0), 0, strides=2.5)
+    assert read_cycle(["2hz"])(now) == pytest.approx(1.0)
+    assert read_cycle(["1.5/m", "from", ".25"])(now) == pytest.approx(4.75)
+    assert read_cycle(["2step"])(now) == pytest.approx(5.0)
+    begun = {read_cycle(["2hz", "start", "flap"])(Instant(now.pose, seed)) for seed in range(5)}
     assert len(begun) == 5
 
 
 LEGS = """
 colours = { paint = ["(.3 .2 .1)"] }
 gait = { stride = 1.0, duty = 0.6, lift = 0.1 }
-bob = [0.1, 2, 0.0]
+body = "shift 0 0 .05 by step, sway z .05 2step from -.25 by step"
 parts = "ball paint   0 0 1   1 .4 .4"
 [[legs]]
 surface = "paint"

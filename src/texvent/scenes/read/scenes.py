@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.models.protocol import Noun

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from texvent.scenes.models.people import person, posture
-from texvent.scenes.models.people.activities import (
+from texvent.scenes.models.activities import (
     ACTIVITIES,
     ON_GROUND,
     TRAVELLING,
 )
+from texvent.scenes.models.people import person, posture
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CLOTHES,

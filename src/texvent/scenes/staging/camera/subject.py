@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.rendered_scene import Float64Array
 from texvent.scenes.spec.scene import CameraMove

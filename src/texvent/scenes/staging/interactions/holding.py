@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent.scenes.models.activities import PERSON_NOUNS
 from texvent.scenes.models.anchors import find_support, top_heights
-from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import CLOTHES, list_props
 from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.shapes import Affine, shift

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import trait_value

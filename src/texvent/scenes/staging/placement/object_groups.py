@@ -10,9 +10,9 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.anchors import find_support
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent.scenes.models.people.person import dress
 from texvent.scenes.models.people.posture import SEAT

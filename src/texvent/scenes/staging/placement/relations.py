@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import IndexedRelation
-from texvent.scenes.models.anchors import Support, find_support
-from texvent.scenes.models.people.activities import (
+from texvent.scenes.models.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
     SEATED,
     TO_AND_FROM_SEATS,
 )
+from texvent.scenes.models.anchors import Support, find_support
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.rendered_scene import Float64Array

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ
-from texvent.scenes.models.animals.activities import ANIMAL_ACTIVITIES
+from texvent.scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,

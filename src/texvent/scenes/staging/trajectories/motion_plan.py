@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import (
+from texvent.scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
@@ -54,7 +54,7 @@ class MotionPlan:
     path: SteeredPath | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
-    """Activity of a person or a hand in place: a name of `people.activities`."""
+    """Activity of a person or a hand in place: a name of `models.activities`."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: Axis = "yaw"

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING
-from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
+from texvent.scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.spec.scene import Motion
