@@ -177,6 +177,11 @@ def _amount(options: _Options) -> Amount:
     return lambda now: math.prod(now.channels.get(name, 0.0) for name in names)
 
 
+def _still(motion: Affine) -> JointMotion:
+    """The same map at every instant."""
+    return lambda now: motion
+
+
 def _spin(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Steady turning: rate."""
     cycle = _cycle(words[0], options)
@@ -196,6 +201,8 @@ def _swing(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> 
 def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Turned by an angle: once and for all, or as far as channels say."""
     angle, amount = _angle(words[0]), _amount(options)
+    if "by" not in options:
+        return _still(turn_about(axis, angle, pivot))
     return lambda now: turn_about(axis, amount(now) * angle, pivot)
 
 
@@ -248,12 +255,14 @@ def _sway(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> J
 def _shift(axis: str, way: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Shifted by a vector: once and for all, or as far as channels say."""
     amount = _amount(options)
+    if "by" not in options:
+        return _still(shift(*way))
     return lambda now: shift(*(amount(now) * one for one in way))
 
 
 def _stretch(axis: str, factors: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Stretched once and for all along x, y and z."""
-    return lambda now: np.diag(factors) @ np.eye(3, 4)
+    return _still(np.diag(factors) @ np.eye(3, 4))
 
 
 _Maker = Callable[[str, Point, Sequence[str], _Options], JointMotion]

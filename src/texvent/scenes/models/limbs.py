@@ -186,10 +186,11 @@ class Legs:
 
 def _blend(start: Point, by: Mapping[str, Point], channels: Mapping[str, float]) -> Point:
     """A point shifted as far as channels say."""
-    total = np.array(start)
-    for name, way in by.items():
-        total = total + channels.get(name, 0.0) * np.array(way)
-    return point(total)
+    x, y, z = start
+    for name, (far_x, far_y, far_z) in by.items():
+        amount = channels.get(name, 0.0)
+        x, y, z = x + amount * far_x, y + amount * far_y, z + amount * far_z
+    return x, y, z
 
 
 @dataclass(frozen=True)
