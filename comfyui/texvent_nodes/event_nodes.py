@@ -8,7 +8,7 @@ from typing import Any
 import texvent
 from texvent.config import InterpolateConfig, RunConfig
 from texvent.errors import InputError, TexventError
-from texvent.scenes.report import PromptReport
+from texvent.prompt_report import PromptReport
 from texvent.sensor import parse_sensor
 
 from .model_nodes import CATEGORY, MODEL

@@ -14,8 +14,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import texvent
-from texvent.scenes import Camera, Place, Scene, SceneObject
-from texvent.scenes.rendered_scene import project
+from texvent.camera import project
+from texvent_scenes import Camera, Place, Scene, SceneObject
 
 STEP_S, STEPS = 0.005, 400
 LENGTH_M, RADIUS_M = 1.0, 0.03

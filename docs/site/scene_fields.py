@@ -1,12 +1,12 @@
-"""Tables of the fields of scene files, made from the dataclasses of `texvent.scenes.spec.scene`."""
+"""Tables of the fields of scene files, made from the dataclasses of `texvent_scenes.spec.scene`."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.options.values import option_help
-from texvent.scenes.spec import scene as spec
-from texvent.scenes.spec.data import field_types, inner_type
-from texvent.scenes.spec.limits import Between
+from texvent_scenes.spec import scene as spec
+from texvent_scenes.spec.data import field_types, inner_type
+from texvent_scenes.spec.limits import Between
 
 MARK = "<!-- fields: "
 """Begins the line of the page that the tables take the place of."""

@@ -18,7 +18,6 @@ from texvent.errors import TexventWarning as TexventWarning
 from texvent.event_camera import EventCamera as EventCamera
 from texvent.event_packets import EventPackets as EventPackets
 from texvent.events import EventStream as EventStream
-from texvent.generate.scene_input import read as read
 from texvent.listings import formats as formats
 from texvent.listings import generators as generators
 from texvent.listings import interpolators as interpolators
@@ -36,3 +35,4 @@ from texvent.truth.recorder import save_truth as save_truth
 from texvent.video import Frame as Frame
 from texvent.video import FrameStream as FrameStream
 from texvent.video import Video as Video
+from texvent_scenes.scene_input import read as read

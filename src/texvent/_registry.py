@@ -134,7 +134,7 @@ def _plugged_in(group: str) -> Mapping[str, str]:
 GENERATORS = Registry(
     "generator",
     {
-        "procedural": "texvent.generate.procedural:ProceduralGenerator",
+        "procedural": "texvent_scenes.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora:OpenSoraGenerator",
     },
     table="texvent.generate.video_models.known_models",

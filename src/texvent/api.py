@@ -23,10 +23,10 @@ from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
-from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
+from texvent_scenes.spec.scene import Scene
 
 if TYPE_CHECKING:
     from texvent.metrics.protocol import Metric
@@ -71,7 +71,7 @@ def generate(
 
     Args:
         prompt: what to show, such as "a red car drives left past two trees at dusk"; or a
-            `texvent.scenes.Scene`.
+            `texvent_scenes.Scene`.
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
         progress: a bar (True), none (False), or a function that takes steps done, steps in all or

@@ -22,7 +22,7 @@ from texvent.config import CaptureConfig, RunConfig
 from texvent.errors import warn
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.generate.scene_input import Subject, check_takes, prompt_of
+from texvent.generate.subjects import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_change
 from texvent.runtime.progress import Progress

@@ -15,17 +15,17 @@ from texvent._registry import FILTERS
 from texvent.capture.given_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.dataset.specification.list_files import read_list
-from texvent.generate.scene_input import describe_scene, list_nouns, understand
 from texvent.io.calibration import read_calibration
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
 from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.options.parts import make_part
-from texvent.scenes.spec.data import scene_from_data
-from texvent.scenes.spec.files import load_scene, scene_text
-from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.labels import read_labels
+from texvent_scenes.scene_input import describe_scene, list_nouns, understand
+from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.files import load_scene, scene_text
+from texvent_scenes.staging.compose import compose_scene
 
 from ..io.test_pixel_mask import write_mask
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published

@@ -9,13 +9,13 @@ import numpy as np
 
 import texvent
 from texvent.errors import warnings_to
-from texvent.generate.procedural import (
+from texvent.prompt_report import PromptReport
+from texvent.sensor import SensorSize
+from texvent_scenes.procedural import (
     ProceduralConfig,
     ProceduralGenerator,
     ProceduralVideo,
 )
-from texvent.scenes.report import PromptReport
-from texvent.sensor import SensorSize
 
 from ..scenes.hand_scenes import showcase
 

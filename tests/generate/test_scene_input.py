@@ -12,7 +12,7 @@ import texvent
 from texvent.cli.app import main
 from texvent.errors import InputError
 from texvent.run.regeneration import render_again
-from texvent.scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
+from texvent_scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
 
 OPTIONS = {"sensor": "48x36", "duration": 0.2, "seed": 3}
 FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--previews", "none", "-q"]
@@ -114,7 +114,7 @@ def test_reading_a_scene_file_loads_no_numba(tmp_path):
     path = tmp_path / "car.toml"
     path.write_text('[[objects]]\nnoun = "car"\ncolour = "red"')
     code = (
-        "import sys; from texvent.scenes import Scene, load_scene; "
+        "import sys; from texvent_scenes import Scene, load_scene; "
         f"assert load_scene({str(path)!r}).objects; print(*sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -9,18 +9,19 @@ import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, turned
 
-from texvent.generate.scene_input import list_nouns, understand
-from texvent.rig.description import IMU_NOISES, ImuNoise
-from texvent.rig.imu import (
+from texvent.camera import PosedCamera
+from texvent.sensor import SensorSize
+from texvent_scenes.rendered_scene import RenderedScene
+from texvent_scenes.rig.description import IMU_NOISES, ImuNoise
+from texvent_scenes.rig.imu import (
     GRAVITY,
     ImuSamples,
     sample_times_us,
     true_samples,
     with_noise,
 )
-from texvent.scenes.rendered_scene import PosedCamera, RenderedScene
-from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize
+from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.staging.compose import compose_scene
 
 RATE, DURATION = 1000.0, 2.0
 LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

@@ -11,9 +11,9 @@ import yaml
 
 from texvent.errors import ConfigError, TexventWarning
 from texvent.lens import Lens
-from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
-from texvent.rig.kalibr import camchain, imu_yaml, read_noise, read_rig, stereo_rig
 from texvent.sensor import SensorSize
+from texvent_scenes.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
+from texvent_scenes.rig.kalibr import camchain, imu_yaml, read_noise, read_rig, stereo_rig
 
 SIZE = SensorSize(346, 260)
 KALIBR = """

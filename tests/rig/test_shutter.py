@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, moving, still
 
+from texvent.camera import PosedCamera
 from texvent.errors import ConfigError
-from texvent.rig.config import RigConfig
-from texvent.rig.shutter import (
+from texvent.sensor import SensorSize
+from texvent_scenes.raycast.render import render_light
+from texvent_scenes.rendered_scene import Ground, Shape
+from texvent_scenes.rig.config import RigConfig
+from texvent_scenes.rig.shutter import (
     Shutter,
     count_instants,
     expose,
@@ -20,9 +24,6 @@ from texvent.rig.shutter import (
     frame_times_us,
     make_shutter,
 )
-from texvent.scenes.raycast.render import render_light
-from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape
-from texvent.sensor import SensorSize
 
 SIZE = SensorSize(96, 64)
 LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

@@ -12,17 +12,18 @@ import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, still
 
 from texvent._registry import SIMULATORS
+from texvent.camera import PosedCamera, project
 from texvent.errors import ConfigError
-from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.lens import Lens
-from texvent.rig.config import RigConfig
-from texvent.rig.description import ImuNoise, Rig, RigCamera
-from texvent.rig.layouts.dsec import rectified_points, rectify, write_disparity
-from texvent.rig.recording import Recording
 from texvent.runtime.progress import NO_PROGRESS
-from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape, project
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
+from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
+from texvent_scenes.rendered_scene import Ground, Shape
+from texvent_scenes.rig.config import RigConfig
+from texvent_scenes.rig.description import ImuNoise, Rig, RigCamera
+from texvent_scenes.rig.layouts.dsec import rectified_points, rectify, write_disparity
+from texvent_scenes.rig.recording import Recording
 
 SIZE = SensorSize(128, 76)
 LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

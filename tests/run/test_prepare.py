@@ -9,11 +9,11 @@ import texvent
 from texvent.cli.app import main
 from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.errors import InputError, MissingDependencyError
-from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
 from texvent.settings.resolution import resolve
 from texvent_lab.bench.fidelity.entries import simulate_video
+from texvent_scenes.procedural import ProceduralGenerator
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2}

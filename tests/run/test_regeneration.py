@@ -11,11 +11,11 @@ from tests.cli.running import run
 
 import texvent
 from texvent.events import EventStream
-from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.run.regeneration import render_again
-from texvent.scenes.spec.files import load_scene
 from texvent.settings.resolution import resolve
+from texvent_scenes.procedural import ProceduralVideo
+from texvent_scenes.spec.files import load_scene
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
 

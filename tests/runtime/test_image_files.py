@@ -17,8 +17,8 @@ from texvent.io.pixel_mask import read_pixel_mask
 from texvent.runtime import memory
 from texvent.runtime.image_files import decode_image, stated_bytes
 from texvent.runtime.memory import SMALL_BYTES, check_claim
-from texvent.scenes.pictures import read_image as read_picture
 from texvent.sensor import SensorSize
+from texvent_scenes.pictures import read_image as read_picture
 
 SHAPE = (37, 53)
 FORMATS = {

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.rendered_scene import (
+from texvent.camera import PosedCamera
+from texvent_scenes.rendered_scene import (
     LAMP_RECORD,
     Environment,
     Float64Array,
     Ground,
-    PosedCamera,
     Primitives,
     Shape,
     Texture,

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.description import IndexedRelation, SceneDescription
-from texvent.scenes.rendered_scene import project
-from texvent.scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.camera import project
 from texvent.sensor import SensorSize
+from texvent_scenes.description import IndexedRelation, SceneDescription
+from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.compose import ComposedScene, compose_scene
 
 SIZE = SensorSize(173, 130)
 DURATION_S = 2.0

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.description import IndexedRelation, SceneDescription
-from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
-from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.spec.scene import SceneObject
-from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
-from texvent.scenes.staging.camera.framing import pose
+from texvent_scenes.description import IndexedRelation, SceneDescription
+from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.spec.scene import SceneObject
+from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.framing import pose
 
 CAR = SceneObject("car")
 

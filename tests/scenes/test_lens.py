@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, look_at, still
 
+from texvent.camera import PosedCamera, camera_rays, project
 from texvent.lens import Lens, lens_reach, normalised
-from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.raycast.render import render, world_at
-from texvent.scenes.raycast.trace import ray_direction
-from texvent.scenes.rendered_scene import PosedCamera, Shape, camera_rays, project
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.raycast.render import render, world_at
+from texvent_scenes.raycast.trace import ray_direction
+from texvent_scenes.rendered_scene import Shape
 
 SIZE = SensorSize(160, 120)
 RADTAN = Lens(110.0, 112.0, 78.0, 61.5, "radtan", (-0.28, 0.07, 2e-3, -1e-3))

@@ -3,10 +3,10 @@
 import ast
 from pathlib import Path
 
-import texvent.scenes
-from texvent.scenes.models.nouns import NOUNS
+import texvent_scenes
+from texvent_scenes.models.nouns import NOUNS
 
-ROOT = Path(texvent.scenes.__file__).parent
+ROOT = Path(texvent_scenes.__file__).parent
 OTHER_MEANINGS = {
     *("sink", "slide", "swing", "crane", "truck"),  # motions of bodies and of the camera
     *("ball", "bar", "box", "cone", "disc", "wheel", "anchor"),  # shapes and words of part lines

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.report import REPORT_KEY, PromptReport, ReportTally, Substitution
+from texvent.prompt_report import REPORT_KEY, PromptReport, ReportTally, Substitution
 
 WORDS = st.lists(st.text(min_size=1, max_size=6), max_size=4).map(tuple)
 REPORTS = st.builds(

@@ -13,11 +13,11 @@ from texvent.cli.simulation.calibrate import CalibrateOptions
 from texvent.cli.simulation.generate import PromptOptions
 from texvent.config import CaptureConfig, InterpolateConfig, warn_of_idle
 from texvent.errors import ConfigError, TexventWarning
-from texvent.rig.config import RigConfig
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
 from texvent.settings.resolution import resolve, unmeasured_sensor
 from texvent.view.render import RenderConfig
+from texvent_scenes.rig.config import RigConfig
 
 
 def test_a_video_keeps_its_size_and_a_scene_is_davis346():

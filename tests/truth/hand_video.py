@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
-from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
+from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
+from texvent_scenes.rendered_scene import Ground, Shape
 
 from ..scenes.hand_scenes import HandScene, MovingShape, day, look_at, moving
 

@@ -16,12 +16,12 @@ from tests.truth.hand_video import DEPTH_M, SIZE, SPEED_PX_PER_FRAME, board_vide
 
 import texvent
 from texvent.errors import FileFormatError, InputError
-from texvent.generate.procedural import ProceduralVideo
 from texvent.truth.boxes import BOX_RECORD, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
 from texvent.truth.layout import CLIP_FILES, parse_parts
 from texvent.truth.recorder import TruthRecorder
 from texvent.truth.sinks import FolderSink, SampleSink
+from texvent_scenes.procedural import ProceduralVideo
 
 TIMES = [0, 40_000, 80_000, 120_000]
 Files = dict[str, bytes]

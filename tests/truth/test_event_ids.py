@@ -8,12 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
-from texvent.scenes.rendered_scene import Shape
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
 from texvent.truth.source import Snapshot
 from texvent.video import Motion
+from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
+from texvent_scenes.rendered_scene import Shape
 
 from ..scenes.hand_scenes import HandScene, MovingShape, moving, still
 from .hand_video import FPS, SIZE, board_video, level

@@ -5,8 +5,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.camera import PosedCamera, project
 from texvent.lens import Lens
-from texvent.scenes.rendered_scene import PosedCamera, project
 from texvent.truth.poses import (
     camera_facts,
     intrinsics,

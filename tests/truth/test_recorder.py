@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import texvent
+from texvent.camera import PosedCamera
+from texvent.class_ids import CLASS_IDS
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.scenes.models.tables import CLASS_IDS
-from texvent.scenes.rendered_scene import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.sinks import encode_flow, write_png

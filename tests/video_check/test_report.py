@@ -7,7 +7,6 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer, decode_srgb
 from texvent.video import Frame
@@ -17,6 +16,7 @@ from texvent.video_check.measurements import (
     block_means,
     neighbour_correlation,
 )
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 RNG = np.random.default_rng(0)
 

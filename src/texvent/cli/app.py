@@ -33,7 +33,7 @@ COMMANDS = {
         "Events from a video, an image folder or a camera.",
     ),
     "rig": (
-        "texvent.cli.simulation.rig",
+        "texvent_scenes.commands.rig",
         "Several cameras with lenses, frames and an IMU, from a prompt.",
     ),
     "render": (
@@ -89,7 +89,7 @@ COMMANDS = {
         "Text-to-video generators: which there are, which are ready.",
     ),
     "scenes": (
-        "texvent.cli.setup.scenes",
+        "texvent_scenes.commands.scenes",
         "Nouns of embedded scenes: list them, see one.",
     ),
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),

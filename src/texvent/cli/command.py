@@ -11,13 +11,14 @@ from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import ConfigError
-from texvent.generate.scene_input import Subject, check_words
+from texvent.generate.subjects import Subject
 from texvent.io.atomic import protect_inputs
 from texvent.options.values import option_names
-from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
 from texvent.settings.resolution import DECIDING, Settings, read_basis
+from texvent_scenes.scene_input import check_words
+from texvent_scenes.spec.files import is_scene_file, load_scene
 
 
 @dataclass(frozen=True, kw_only=True)

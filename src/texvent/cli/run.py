@@ -17,10 +17,10 @@ from texvent.errors import few
 from texvent.events import EventStream
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
+from texvent.prompt_report import PromptReport
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.scenes.report import PromptReport
 from texvent.settings.resolution import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 

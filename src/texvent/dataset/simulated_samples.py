@@ -10,13 +10,13 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 import numpy as np
 
 from texvent.api import Source
+from texvent.class_ids import class_ids_of
 from texvent.config import check_range
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.run.prepare import prepare_prompt, prepare_source
-from texvent.scenes.models.tables import class_ids_of
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key

@@ -19,7 +19,7 @@ from texvent.dataset.generation.shards import (
 )
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import few
-from texvent.scenes.report import PromptReport, ReportTally, ranked
+from texvent.prompt_report import PromptReport, ReportTally, ranked
 from texvent.truth.boxes import SIZE_CLASSES
 
 QUANTILES = (0.05, 0.5, 0.95)

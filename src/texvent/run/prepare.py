@@ -12,17 +12,18 @@ from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError, warn
-from texvent.generate.scene_input import Subject, check_takes, read
+from texvent.generate.subjects import Subject, check_takes
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
+from texvent.prompt_report import PromptReport
 from texvent.run.rate_search import reach_target_rate
 from texvent.runtime.memory import usable_bytes
 from texvent.runtime.progress import Progress
-from texvent.scenes.report import PromptReport
-from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import describe_weights
 from texvent.settings.resolution import Settings
 from texvent.video import FrameStream
+from texvent_scenes.scene_input import read
+from texvent_scenes.spec.scene import Scene
 
 UNMEASURED = 200
 """Bytes per pixel of a part that declares none."""
@@ -231,5 +232,5 @@ def _check_prompt(prompt: Any) -> None:
     if not isinstance(prompt, str | Scene):
         raise InputError(
             f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
-            "left', or a texvent.scenes.Scene"
+            "left', or a texvent_scenes.Scene"
         )

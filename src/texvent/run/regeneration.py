@@ -9,10 +9,10 @@ from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import InputError, shown, warn
 from texvent.generate.protocol import renders_instants
-from texvent.generate.scene_input import stored_subject
-from texvent.scenes.assets.nouns import check_files, files_of
+from texvent.generate.subjects import stored_subject
 from texvent.settings.resolution import Settings, resolve
 from texvent.video import FrameStream, RenderableStream
+from texvent_scenes.named_files import check_files, files_of
 
 
 def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> FrameStream | None:

@@ -13,11 +13,11 @@ from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
-from texvent.generate.scene_input import SCENE_KEY
+from texvent.generate.subjects import SCENE_KEY
+from texvent.prompt_report import REPORT_KEY
 from texvent.runtime.file_names import IMAGE_EXTENSIONS
-from texvent.scenes.report import REPORT_KEY
-from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
+from texvent_scenes.spec.scene import Scene
 
 END_BYTES = 8 * 2**20
 """Bytes that are read of the beginning and of the end of a larger file."""
@@ -118,7 +118,7 @@ def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
 
 def files_read(settings: Settings, subject: str | Scene = "") -> list[str]:
     """Files and folders that options and a scene name, which the events depend on."""
-    from texvent.scenes.assets.nouns import files_of  # brings OpenCV
+    from texvent_scenes.named_files import files_of  # brings OpenCV
 
     configs = settings.groups().values()
     values = (getattr(config, one.name) for config in configs for one in fields(config))

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from texvent.sensor import SensorSize
 
 if TYPE_CHECKING:
-    from texvent.scenes.raycast.ground_truth import Box
+    from texvent.ground_truth import Box
 
 COCO, PROPHESEE = "coco.json", "bbox.npy"
 BOX_RECORD = np.dtype(

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.rendered_scene import PosedCamera
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
 

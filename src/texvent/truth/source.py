@@ -16,12 +16,12 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.camera import PosedCamera
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.scale_check import CheckedFrames
+from texvent.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.errors import ConfigError, InputError
-from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
-from texvent.scenes.raycast.ground_truth import Box
-from texvent.scenes.rendered_scene import PosedCamera
+from texvent.ground_truth import Box
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import box_records
 from texvent.truth.layout import PARTS

@@ -26,11 +26,11 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
 from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
-from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
+from texvent_scenes.procedural import ProceduralVideo
 
 SMALL = {"duration": 0.1, "sensor": "32x24"}
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from texvent.config import InterpolateConfig
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.interpolate.motion.interpolator import MotionInterpolator
 from texvent.metrics.compare import compare
 from texvent.pipeline import Simulation
-from texvent.scenes.raycast.incremental import IncrementalRenderer
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.raycast.incremental import IncrementalRenderer
 
 SIZE = SensorSize(80, 60)
 

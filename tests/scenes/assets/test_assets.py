@@ -9,15 +9,16 @@ import pytest
 from tests.scenes.assets.glb_bar import write_bar, write_triangle
 
 from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.assets.index import Asset, read_folder
-from texvent.scenes.assets.model_file import MOST_NODES
-from texvent.scenes.assets.nouns import check_files, load_model, merge_nouns
-from texvent.scenes.mesh import LARGEST_SIDE, light_of
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.spec.files import load_scene
 from texvent.sensor import SensorSize
+from texvent_scenes.assets.index import Asset, read_folder
+from texvent_scenes.assets.model_file import MOST_NODES
+from texvent_scenes.assets.nouns import load_model, merge_nouns
+from texvent_scenes.mesh import LARGEST_SIDE, light_of
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.named_files import check_files
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.spec.files import load_scene
 
 
 def test_a_scene_brings_models_by_path(tmp_path):

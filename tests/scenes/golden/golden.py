@@ -25,10 +25,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
-from texvent.generate.scene_input import describe_scene, list_nouns, read
-from texvent.scenes.description import SceneDescription
-from texvent.scenes.spec.data import scene_from_data, scene_to_data
 from texvent.sensor import SensorSize
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.scene_input import describe_scene, list_nouns, read
+from texvent_scenes.spec.data import scene_from_data, scene_to_data
 
 FOLDER = Path(__file__).parent
 SCENES = FOLDER / "scenes.json.gz"
@@ -83,9 +83,9 @@ def film(sentence: str) -> tuple[NDArray[np.float32], str]:
     Returns:
         Means over blocks, [instants, rows, columns, `CHANNELS`], and a digest of every pixel.
     """
-    from texvent.scenes.raycast.ground_truth import ground_truth
-    from texvent.scenes.raycast.render import render
-    from texvent.scenes.staging.compose import compose_scene
+    from texvent_scenes.raycast.ground_truth import ground_truth
+    from texvent_scenes.raycast.render import render
+    from texvent_scenes.staging.compose import compose_scene
 
     description = describe_scene(scene_from_data(stored_scenes()[sentence]), list_nouns())
     scene = compose_scene(description, seed=SEED, size=SIZE, duration_s=DURATION_S)

@@ -20,19 +20,20 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.generate.scene_input import describe_scene
-from texvent.scenes.models.activities import (
+from texvent.sensor import SensorSize
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
     PERSON_NOUNS,
 )
-from texvent.scenes.models.effects import EFFECTS
-from texvent.scenes.models.nouns import MOTIONS, NOUNS
-from texvent.scenes.models.places import PLACES
-from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.spec import scene as spec
-from texvent.scenes.spec.scene import (
+from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.nouns import MOTIONS, NOUNS
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec import scene as spec
+from texvent_scenes.spec.scene import (
     Camera,
     CameraMove,
     Effect,
@@ -43,9 +44,8 @@ from texvent.scenes.spec.scene import (
     Scene,
     SceneObject,
 )
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.lighting import choose_lighting
-from texvent.sensor import SensorSize
+from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.surroundings.lighting import choose_lighting
 
 SUMS = Path(__file__).with_name("rows.json.gz")
 SIZE, SEED, DURATION_S = SensorSize(96, 72), 5, 1.0

@@ -15,10 +15,10 @@ from tests.scenes.golden.golden import (
 )
 from tests.scenes.golden.rows import rows, stored_sums
 
-from texvent.generate.scene_input import list_nouns, list_words
-from texvent.scenes.models.places import PLACES
-from texvent.scenes.spec.data import scene_from_data
-from texvent.scenes.spec.files import scene_text
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.scene_input import list_nouns, list_words
+from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.files import scene_text
 
 WITHIN = dict(zip(CHANNELS, (1.0, 1.0, 1.0, 0.1, 0.01, 0.2, 0.2), strict=True))
 """What a block's mean may differ by between processors: a pixel of 576 may fall to a neighbour."""

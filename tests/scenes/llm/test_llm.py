@@ -14,9 +14,9 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.errors import InputError, TexventError
-from texvent.scenes.llm import ground, model_schema, write_scene
-from texvent.scenes.spec.files import load_scene
-from texvent.scenes.spec.scene import Motion, Relation, SceneObject
+from texvent_scenes.llm import ground, model_schema, write_scene
+from texvent_scenes.spec.files import load_scene
+from texvent_scenes.spec.scene import Motion, Relation, SceneObject
 
 PROMPT = "a red automobile drives left past two trees in the rain"
 CAR = {

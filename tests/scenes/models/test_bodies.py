@@ -5,12 +5,12 @@ import tomllib
 import numpy as np
 import pytest
 
-from texvent.scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
-from texvent.scenes.models.joints import Instant, read_cycle
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.parts import PartsBuilder
-from texvent.scenes.models.protocol import Model, Pose
-from texvent.scenes.models.shapes import bounds
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
+from texvent_scenes.models.joints import Instant, read_cycle
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.parts import PartsBuilder
+from texvent_scenes.models.protocol import Model, Pose
+from texvent_scenes.models.shapes import bounds
 
 STILL = Pose(0.0, 0.0, 0.0, "stand")
 

@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from texvent.scenes.models.nouns import AFLOAT, NOUNS
-from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.rendered_scene import Shape
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
+from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent_scenes.rendered_scene import Shape
 
 from ..every_row import for_every
 from ..golden.rows import usual_model

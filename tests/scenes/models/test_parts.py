@@ -5,16 +5,16 @@ import math
 import numpy as np
 import pytest
 
+from texvent.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.errors import FileFormatError
-from texvent.scenes.models.joints import Instant, read_joint, read_light
-from texvent.scenes.models.materials import Material
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.part_lines import read_parts
-from texvent.scenes.models.parts import read_nouns
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.surfaces import read_surface, shared_surfaces
-from texvent.scenes.models.tables import CLASS_IDS, FIRST_OTHER
-from texvent.scenes.rendered_scene import Texture
+from texvent_scenes.models.joints import Instant, read_joint, read_light
+from texvent_scenes.models.materials import Material
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.part_lines import read_parts
+from texvent_scenes.models.parts import read_nouns
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.surfaces import read_surface, shared_surfaces
+from texvent_scenes.rendered_scene import Texture
 
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
 

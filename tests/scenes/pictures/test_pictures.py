@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
-from texvent.scenes.spec.scene import Picture
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.pictures import PicturedModel, check_picture, load_picture
+from texvent_scenes.spec.scene import Picture
 
 
 def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:

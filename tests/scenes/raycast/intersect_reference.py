@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent.scenes.rendered_scene import Float64Array, Shape
+from texvent_scenes.rendered_scene import Float64Array, Shape
 
 _Span = tuple[Float64Array, Float64Array]
 

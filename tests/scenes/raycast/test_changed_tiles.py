@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.raycast import changed_tiles as changed
-from texvent.scenes.raycast.changed_tiles import Drawn, changed_tiles
-from texvent.scenes.raycast.incremental import IncrementalRenderer
-from texvent.scenes.raycast.render import render, world_and_shapes
-from texvent.scenes.rendered_scene import Shape
 from texvent.sensor import SensorSize
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.raycast import changed_tiles as changed
+from texvent_scenes.raycast.changed_tiles import Drawn, changed_tiles
+from texvent_scenes.raycast.incremental import IncrementalRenderer
+from texvent_scenes.raycast.render import render, world_and_shapes
+from texvent_scenes.rendered_scene import Shape
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, still
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.rendered_scene import Ground, PosedCamera, Shape, camera_rays
+from texvent.camera import PosedCamera, camera_rays
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.rendered_scene import Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, look_at, moving, showcase, still
 

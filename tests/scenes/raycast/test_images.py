@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
-from texvent.scenes.mesh import SurfaceImage, surface_image
-from texvent.scenes.pictures import draw_checks
-from texvent.scenes.raycast.render import render_light
-from texvent.scenes.rendered_scene import PosedCamera, place_in_image
+from texvent.camera import PosedCamera, place_in_image
 from texvent.sensor import SensorSize
 from texvent.transfer import encode_srgb
+from texvent_scenes.mesh import SurfaceImage, surface_image
+from texvent_scenes.pictures import draw_checks
+from texvent_scenes.raycast.render import render_light
 
 SIZE = SensorSize(48, 36)
 

@@ -7,8 +7,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.scenes.raycast.adaptive_sampling import UNKNOWN
-from texvent.scenes.raycast.incremental import (
+from texvent.sensor import SensorSize
+from texvent_scenes.raycast.adaptive_sampling import UNKNOWN
+from texvent_scenes.raycast.incremental import (
     BLOCK,
     SURE_PX,
     block_speeds,
@@ -16,7 +17,6 @@ from texvent.scenes.raycast.incremental import (
     spread_speeds,
     widen_speeds,
 )
-from texvent.sensor import SensorSize
 
 SIZE = SensorSize(22, 17)  # the last blocks are partial ones
 BLOCKS = -(-SIZE.height // BLOCK), -(-SIZE.width // BLOCK)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.raycast.trace import hit_shape
-from texvent.scenes.rendered_scene import Shape
+from texvent_scenes.raycast.trace import hit_shape
+from texvent_scenes.rendered_scene import Shape
 
 UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]
 

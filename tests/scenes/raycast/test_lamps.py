@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.raycast.lamps.light import (
+from texvent.sensor import SensorSize
+from texvent_scenes.raycast.lamps.light import (
     MOST_SHADOW_LAMPS,
     lamp_light,
     lamps_reach,
     order_lamps,
 )
-from texvent.scenes.raycast.render import render_light, world_at
-from texvent.scenes.rendered_scene import Environment, Ground, Shape
-from texvent.sensor import SensorSize
+from texvent_scenes.raycast.render import render_light, world_at
+from texvent_scenes.rendered_scene import Environment, Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, still
 

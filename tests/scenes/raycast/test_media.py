@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.raycast.media import WIDENED_PX, density_integral, optical_depth
-from texvent.scenes.raycast.render import render_light, world_at
-from texvent.scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, camera_rays
+from texvent.camera import camera_rays
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.media import WIDENED_PX, density_integral, optical_depth
+from texvent_scenes.raycast.render import render_light, world_at
+from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at
 

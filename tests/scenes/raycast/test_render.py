@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from texvent.runtime.threads import THREADS_VARIABLE
-from texvent.scenes.raycast.render import render
-from texvent.scenes.rendered_scene import Environment, Ground, Shape
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.render import render
+from texvent_scenes.rendered_scene import Environment, Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still
 

@@ -9,23 +9,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.scenes.hand_scenes import day
 
-from texvent.scenes.raycast.acceleration import bin_rectangles
-from texvent.scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
-from texvent.scenes.raycast.shading.ground import strip_place
-from texvent.scenes.raycast.shading.material import patch_axes, tile_average
-from texvent.scenes.raycast.shading.value_noise import (
+from texvent_scenes.raycast.acceleration import bin_rectangles
+from texvent_scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
+from texvent_scenes.raycast.shading.ground import strip_place
+from texvent_scenes.raycast.shading.material import patch_axes, tile_average
+from texvent_scenes.raycast.shading.value_noise import (
     box_coverage,
     square_wave,
 )
-from texvent.scenes.raycast.surfaces.catalogue import (
+from texvent_scenes.raycast.surfaces.catalogue import (
     CHANNELS,
     LEVELS,
     SURFACES,
     build_tile,
 )
-from texvent.scenes.raycast.surfaces.fields import SIDE
-from texvent.scenes.rendered_scene import Ground, Texture
-from texvent.scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.raycast.surfaces.fields import SIDE
+from texvent_scenes.rendered_scene import Ground, Texture
+from texvent_scenes.staging.surroundings.environment import RoadLine
 
 Floats = np.ndarray
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import InputError
-from texvent.generate.scene_input import list_nouns, understand
-from texvent.scenes.description import SceneDescription
-from texvent.scenes.read import Reading
-from texvent.scenes.spec.data import scene_to_data
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.read import Reading
+from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.spec.data import scene_to_data
 
 FACTS = Path(__file__).parent / "facts.toml"
 PROMPTS: list[dict[str, Any]] = tomllib.loads(FACTS.read_text(encoding="utf-8"))["prompt"]

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
-from texvent.generate.scene_input import list_words, read
-from texvent.scenes import read as reader
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.read.draft import is_grammar
-from texvent.scenes.read.lexicon import lexicon_of, split_prompt
-from texvent.scenes.spec.data import checked_scene
+from texvent_scenes import read as reader
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.read.draft import is_grammar
+from texvent_scenes.read.lexicon import lexicon_of, split_prompt
+from texvent_scenes.scene_input import list_words, read
+from texvent_scenes.spec.data import checked_scene
 
 MOST_WRONG, MOST_SILENT = 0.07, 0.03
 """Share of facts that are wrong, and of prompts that are wrong without a word in the report."""

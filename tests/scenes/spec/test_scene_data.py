@@ -16,22 +16,22 @@ from hypothesis import strategies as st
 from tests.scenes.golden.golden import read_lines, stored_scenes
 
 from texvent.errors import ConfigError
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.generate.scene_input import describe_scene, list_nouns, list_words
-from texvent.scenes.colours import PALETTES
-from texvent.scenes.defaults import complete
-from texvent.scenes.description import to_description
-from texvent.scenes.spec.data import (
+from texvent.sensor import SensorSize
+from texvent_scenes.colours import PALETTES
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.scene_input import describe_scene, list_nouns, list_words
+from texvent_scenes.spec.data import (
     field_types,
     inner_type,
     scene_from_data,
     scene_to_data,
 )
-from texvent.scenes.spec.files import json_schema, load_scene, save_scene, scene_text
-from texvent.scenes.spec.limits import Between, Colour, Word
-from texvent.scenes.spec.scene import Camera, Lamp, Motion, Relation, Scene, SceneObject
-from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize
+from texvent_scenes.spec.files import json_schema, load_scene, save_scene, scene_text
+from texvent_scenes.spec.limits import Between, Colour, Word
+from texvent_scenes.spec.scene import Camera, Lamp, Motion, Relation, Scene, SceneObject
+from texvent_scenes.staging.compose import compose_scene
 
 WORDS = list_words(list_nouns())
 SCHEMA = jsonschema.Draft202012Validator(json_schema(WORDS))

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent.scenes.rendered_scene import project
-from texvent.scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
-from texvent.scenes.staging.camera.camera_trajectory import CameraTrajectory
-from texvent.scenes.staging.camera.framing import (
+from texvent.camera import project
+from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
+from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.framing import (
     come_near,
     fit,
     image_of,

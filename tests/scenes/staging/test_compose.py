@@ -6,18 +6,19 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from texvent.generate.scene_input import understand
-from texvent.scenes.description import SceneDescription
-from texvent.scenes.models.materials import in_material
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.rendered_scene import Float64Array, PosedCamera, Texture
-from texvent.scenes.spec.scene import Place, SceneObject
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.framing import image_of
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.interactions.perform import ACTS
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.materials import in_material
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.rendered_scene import Float64Array, Texture
+from texvent_scenes.scene_input import understand
+from texvent_scenes.spec.scene import Place, SceneObject
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.camera.framing import image_of
+from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.interactions.perform import ACTS
 
 SIZE = SensorSize(346, 260)
 PROMPTS = (

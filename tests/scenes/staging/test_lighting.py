@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage, thing
 
-from texvent.generate.scene_input import describe_scene, list_nouns
-from texvent.scenes.models.effects import LAMPS
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.raycast.render import render
-from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
-from texvent.scenes.staging.compose import compose_scene
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.raycast.render import render
+from texvent_scenes.scene_input import describe_scene, list_nouns
+from texvent_scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
+from texvent_scenes.staging.compose import compose_scene
 
 CAR = thing("car", ("drive", "left"))
 

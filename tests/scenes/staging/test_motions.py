@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.spec.scene import Motion
-from texvent.scenes.staging.trajectories.action_trajectories import (
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Flight,
     Oscillating,
@@ -19,9 +19,9 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     bounce_height,
     hover,
 )
-from texvent.scenes.staging.trajectories.phases import build_path, schedule
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, steady
-from texvent.scenes.staging.trajectories.trajectory import (
+from texvent_scenes.staging.trajectories.phases import build_path, schedule
+from texvent_scenes.staging.trajectories.steered_path import Piece, SteeredPath, steady
+from texvent_scenes.staging.trajectories.trajectory import (
     Attached,
     BodyState,
     Rolling,

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage
 
-from texvent.scenes.models.effects import EFFECTS
-from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.raycast.render import render
-from texvent.scenes.rendered_scene import Float64Array
-from texvent.scenes.spec.scene import Effect, SceneObject
-from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.particles.emitter import TINY_M, flight
+from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.raycast.render import render
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.scene import Effect, SceneObject
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.particles.emitter import TINY_M, flight
 
 
 def staged(*effects, seed=0):

@@ -9,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.places import PLACES, is_room
-from texvent.scenes.raycast.render import render
-from texvent.scenes.rendered_scene import Ground
-from texvent.scenes.spec.scene import Motion, SceneObject
-from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.sensor import SensorSize
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.places import PLACES, is_room
+from texvent_scenes.raycast.render import render
+from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.staging.surroundings.environment import RoadLine
 
 TIMES = np.linspace(0.0, 2.0, 9)
 

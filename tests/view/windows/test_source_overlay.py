@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.scenes.raycast.ground_truth import Box, GroundTruth
+from texvent.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.video import Video
 from texvent.view.drawing.panels import (

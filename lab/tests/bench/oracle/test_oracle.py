@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, render_video
@@ -14,6 +13,7 @@ from texvent_lab.bench.oracle.scenes import (
     build_scene,
     camera_level,
 )
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 ONE = SensorSize(1, 1)
 

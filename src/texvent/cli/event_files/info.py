@@ -23,7 +23,7 @@ from texvent.errors import FileFormatError, visible, warn
 from texvent.event_packets import EventPackets
 from texvent.io.files import is_event_path, side_data
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
-from texvent.scenes.report import REPORT_KEY, PromptReport
+from texvent.prompt_report import REPORT_KEY, PromptReport
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is

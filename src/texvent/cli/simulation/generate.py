@@ -15,17 +15,17 @@ from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import describe_scene, execute, print_settings
 from texvent.config import IdleOptions
 from texvent.errors import ConfigError, InputError, warn
-from texvent.generate.procedural import ProceduralGenerator
-from texvent.generate.scene_input import Subject, check_takes
+from texvent.generate.subjects import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.scenes.spec.files import is_scene_file, save_scene
-from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 from texvent.video import frame_time_us
+from texvent_scenes.procedural import ProceduralGenerator
+from texvent_scenes.spec.files import is_scene_file, save_scene
+from texvent_scenes.spec.scene import Scene
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -130,7 +130,7 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent.scenes.llm import write_scene  # most runs do not need it
+    from texvent_scenes.llm import write_scene  # most runs do not need it
 
     if is_scene_file(own.prompt):
         raise ConfigError(f"--llm-url reads a sentence, and {own.prompt} is a scene file")

@@ -19,11 +19,11 @@ from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import ID_DIGITS, Sample
 from texvent.errors import ConfigError, OutputError, warnings_to
 from texvent.pipeline import Simulation
+from texvent.prompt_report import REPORT_KEY, PromptReport, ReportTally
 from texvent.run.files import RunFiles, write_run
 from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.runtime.identity import digest
-from texvent.scenes.report import REPORT_KEY, PromptReport, ReportTally
 from texvent.settings.provenance import describe_state, files_read, is_replaced
 from texvent.settings.resolution import Settings
 from texvent.video import Frame

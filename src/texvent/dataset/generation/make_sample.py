@@ -20,7 +20,6 @@ from texvent.dataset.specification.clips import Clip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
-from texvent.generate.procedural import ProceduralVideo, Rendered
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
@@ -31,12 +30,13 @@ from texvent.truth.clip import ClipTruth
 from texvent.video import Frame, Motion
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
+from texvent_scenes.procedural import ProceduralVideo, Rendered
 
 if TYPE_CHECKING:
-    from texvent.scenes.raycast.ground_truth import Box, GroundTruth
-    from texvent.scenes.raycast.incremental import IncrementalRenderer
+    from texvent.ground_truth import Box, GroundTruth
     from texvent.truth.recorder import TruthRecorder
     from texvent.truth.sinks import SampleSink
+    from texvent_scenes.raycast.incremental import IncrementalRenderer
 
 
 MOST_BYTES = 2**29
@@ -290,7 +290,7 @@ def preview_png(events: EventStream, truth: ClipTruth) -> bytes:
 
 def _boxes_near(truth: ClipTruth, t_us: int) -> tuple[Box, ...]:
     """Boxes at the time nearest to an instant, µs, of those at which they are known."""
-    from texvent.scenes.raycast.ground_truth import Box  # brings Numba
+    from texvent.ground_truth import Box  # brings Numba
 
     times = truth.box_times_us
     near = truth.boxes[truth.boxes["t"] == times[np.abs(times - t_us).argmin()]]

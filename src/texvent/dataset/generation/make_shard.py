@@ -43,16 +43,16 @@ from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
+from texvent.prompt_report import REPORT_KEY
 from texvent.run.prepare import make_video, prepare_video
 from texvent.runtime.engines import ENDING_ALL
 from texvent.runtime.file_names import inside
 from texvent.runtime.identity import digest
-from texvent.scenes.assets.nouns import files_of
-from texvent.scenes.report import REPORT_KEY
 from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
+from texvent_scenes.named_files import files_of
 
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]

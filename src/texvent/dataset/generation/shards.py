@@ -18,7 +18,7 @@ from typing import Any, BinaryIO
 
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import atomic_file
-from texvent.scenes.report import PromptReport
+from texvent.prompt_report import PromptReport
 from texvent.truth.boxes import SIZE_CLASSES
 
 MADE, FILTERED, FAILED = "made", "filtered", "failed"

@@ -20,8 +20,8 @@ from texvent.dataset.specification.list_files import (
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.runtime.identity import derived_seed, digest
-from texvent.scenes.spec.data import scene_to_data
-from texvent.scenes.spec.files import is_scene_file
+from texvent_scenes.spec.data import scene_to_data
+from texvent_scenes.spec.files import is_scene_file
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""

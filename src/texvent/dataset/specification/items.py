@@ -21,9 +21,9 @@ from texvent.dataset.specification.specification import (
 )
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.identity import derived_seed, digest
-from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
-from texvent.scenes.spec.scene import Scene
 from texvent.settings.provenance import describe_state
+from texvent_scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
+from texvent_scenes.spec.scene import Scene
 
 MAX_ITEMS = 10_000_000
 KEY_DIGITS = 16

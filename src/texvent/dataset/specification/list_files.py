@@ -23,8 +23,8 @@ from texvent.errors import (
 from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.runtime.yaml_text import check_once, keys_once
-from texvent.scenes.spec.files import is_scene_file, load_scene
-from texvent.scenes.spec.scene import Scene
+from texvent_scenes.spec.files import is_scene_file, load_scene
+from texvent_scenes.spec.scene import Scene
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""

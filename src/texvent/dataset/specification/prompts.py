@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.errors import ConfigError, InputError
-from texvent.generate.scene_input import Subject
+from texvent.generate.subjects import Subject
+from texvent.prompt_report import ReportTally
 from texvent.run.prepare import is_strict, report_prompt
-from texvent.scenes.report import ReportTally
 from texvent.settings.resolution import Settings
 
 

@@ -12,10 +12,10 @@ from texvent._registry import GENERATORS, suggest
 from texvent.dataset.specification.items import Items
 from texvent.dataset.specification.specification import Specification, extreme_options
 from texvent.errors import ConfigError, InputError, shown
-from texvent.generate.scene_input import list_nouns
 from texvent.settings.resolution import resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
+from texvent_scenes.scene_input import list_nouns
 
 if TYPE_CHECKING:
     from texvent.truth.labels import Labels

@@ -27,7 +27,7 @@ from texvent.view.drawing.canvas import (
 from texvent.view.drawing.palettes import Colour, Palette
 
 if TYPE_CHECKING:
-    from texvent.scenes.raycast.ground_truth import Box, GroundTruth
+    from texvent.ground_truth import Box, GroundTruth
 
 
 def title_of(metadata: Mapping[str, Any]) -> str:

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from texvent.scenes.models.activities import (
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     ON_GROUND,
     TRAVELLING,
 )
-from texvent.scenes.models.people import person, posture
-from texvent.scenes.models.people.outfit import (
+from texvent_scenes.models.people import person, posture
+from texvent_scenes.models.people.outfit import (
     ADULT,
     CLOTHES,
     HOLDS,
@@ -21,9 +21,9 @@ from texvent.scenes.models.people.outfit import (
     put_on,
     read_table,
 )
-from texvent.scenes.models.people.person import find_posture
-from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.protocol import Pose
+from texvent_scenes.models.people.person import find_posture
+from texvent_scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
+from texvent_scenes.models.protocol import Pose
 
 from ...every_row import for_every
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from tests.scenes.hand_scenes import day, look_at
 
-from texvent.scenes.mesh import Mesh, SurfaceImage, make_mesh, smooth_normals
-from texvent.scenes.rendered_scene import Environment, Float64Array, PosedCamera, Primitives, Shape
+from texvent.camera import PosedCamera
+from texvent_scenes.mesh import Mesh, SurfaceImage, make_mesh, smooth_normals
+from texvent_scenes.rendered_scene import Environment, Float64Array, Primitives, Shape
 
 
 def ball(across: int = 24, down: int = 12) -> tuple[Float64Array, np.ndarray]:

@@ -10,11 +10,11 @@ from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball_mesh, hit_me
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
-from texvent.scenes.mesh import make_mesh
-from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.raycast.meshes.hit import hit_mesh
-from texvent.scenes.raycast.render import world_at
 from texvent.sensor import SensorSize
+from texvent_scenes.mesh import make_mesh
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.raycast.meshes.hit import hit_mesh
+from texvent_scenes.raycast.render import world_at
 
 SIZE = SensorSize(48, 36)
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, middle, stage
 
-from texvent.scenes.models.anchors import top_heights
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.shapes import bounds, moved
-from texvent.scenes.spec.scene import Motion, SceneObject
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.interactions.striking import contact_time
+from texvent_scenes.models.anchors import top_heights
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.interactions.striking import contact_time
 
 CONTACT_M = 0.02
 

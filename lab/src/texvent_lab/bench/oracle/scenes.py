@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 EXPOSURE = 0.9
 GAMMA = 2.2

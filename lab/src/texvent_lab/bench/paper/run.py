@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 
 from texvent.errors import InputError, MissingDependencyError, TexventError
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
 from texvent.metrics.controls import CONTROLS, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
@@ -52,6 +51,7 @@ from texvent_lab.train.classification.config import (
     ClassNetwork,
 )
 from texvent_lab.train.schedule import Hardware
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "pie-net"}
 """Table → network: the paper's, but for Table 8, whose ET-Net PIE-Net replaces."""

@@ -21,14 +21,14 @@ import numpy as np
 
 from texvent.errors import InputError, TexventError, TexventWarning, shown
 from texvent.extending import full_version
-from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.io.atomic import atomic_file
-from texvent.scenes.report import REPORT_KEY, PromptReport
+from texvent.prompt_report import REPORT_KEY, PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes, tile
 from texvent_lab.bench.jobs import run_jobs
 from texvent_lab.measure.prompts.score import COLUMNS, read_csv, write_csv
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 SIZE, DURATION_S, STILLS, SEED = SensorSize(173, 130), 2.0, 6, 0
 GAP_PX, LINE_PX, LETTERS, LINES = 2, 15, 158, 9

@@ -1,0 +1,310 @@
+"""Defaults: what objects do, and where they are, in a scene that leaves it open.
+
+Scenes of files and of sentences go the same way. What a scene says stays as it is; a note tells
+what was decided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.places import is_room
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
+
+NO_PLACE = "no place is said"
+"""Begins the note about it."""
+SWAY = CameraMove("handheld", pace=0.4)
+"""Move of the camera where nothing else moves: a still image has no events."""
+_ACTS = frozenset({"push", "kick", "throw", "collide"})
+"""Relations in which something moves."""
+_RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
+                      "around"})  # fmt: skip
+"""Relations that an object would undo by moving off."""
+_AT_HAND = frozenset({"hold", "wear"})
+_GOING = {"stand": "slide", "float": "fly"}
+_AFLOAT = ("sail", "paddle")
+_IN_WATER = ("swim", "surf", *_AFLOAT)
+_DARK_EFFECTS = frozenset({"fireworks"})
+_PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
+_NO_GROUND = ("sky", "space", "underwater")
+_FAST_FLYER_M_S = 4.0
+"""Speed above which what flies is shown in the sky, far from the ground."""
+
+
+def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description with every object's motion and the place decided.
+
+    What lives in the air or in water moves unless it is said to rest. When nothing moves, the
+    first object that can move does what it usually does; when none can, the camera sways.
+    """
+    description = _rest(_set_far(description), nouns)
+    objects = tuple(
+        replace(one, motions=(*_decide_motion(one.motion, nouns[one.noun]), *one.motions[1:]))
+        for one in description.objects
+    )
+    description = _darken(_move_others(replace(description, objects=objects), nouns))
+    place = _choose_place(description, nouns)
+    if description.place.name is None:
+        description = _note(description, f"{NO_PLACE}: {place} is chosen")
+    description = replace(description, place=replace(description.place, name=place))
+    if not _has_motion(description):
+        description = _set_in_motion(description, nouns)
+    everything = range(len(description.objects))
+    return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _note(description: SceneDescription, note: str) -> SceneDescription:
+    return replace(description, notes=(*description.notes, note))
+
+
+def _change(description: SceneDescription, new: Mapping[int, SceneObject]) -> SceneDescription:
+    """The description with some objects replaced."""
+    objects = tuple(new.get(n, one) for n, one in enumerate(description.objects))
+    return replace(description, objects=objects)
+
+
+def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> SceneDescription:
+    """The description with motions of objects that have none."""
+    objects = description.objects
+    new = {n: replace(objects[n], motions=(one,)) for n, one in motions.items()
+           if not objects[n].motions}  # fmt: skip
+    return _change(description, new)
+
+
+def _set_far(description: SceneDescription) -> SceneDescription:
+    """Towering objects stand in the background of others that they are not related to."""
+    towering, objects = nouns_with("towering"), description.objects
+    related = {n for one in description.relations for n in (one.subject, *one.targets)}
+    related |= {n for n in (description.index(description.camera.target),) if n is not None}
+    if all(one.noun in towering for one in objects):
+        return description
+    far = (n for n, one in enumerate(objects) if one.noun in towering and one.placement is None)
+    return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
+
+
+def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
+    """The usual motion for "move", and for what always moves."""
+    if noun.is_working and _is_work(motion, noun):
+        return (_work(motion, noun),)
+    if motion is None and noun.name in HAND_NOUNS:
+        return (STANDING,)
+    if motion is None:
+        lives_there = noun.habitat in ("air", "water") and noun.motion != "stand"
+        return (Motion(noun.motion),) if lives_there else ()
+    if motion.kind == "move":
+        motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
+    if motion.kind == "turn" and noun.habitat == "fixed":
+        motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
+    if motion.kind == "spin" and motion.rate_hz is not None:
+        motion = replace(motion, pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
+    return (motion,)
+
+
+def _is_work(motion: Motion | None, noun: Noun) -> bool:
+    """Whether a motion is that of the parts of a noun, which stays where it is."""
+    if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
+        return True
+    is_flat = noun.name in nouns_with("flat pattern")
+    return motion.kind == "move" and (motion.direction is None or is_flat)
+
+
+def _work(motion: Motion | None, noun: Noun) -> Motion:
+    rests = motion is None or motion.kind == "stand"
+    if rests and noun.name in nouns_with("works on demand"):
+        return STANDING
+    if motion is None:
+        return Motion("work")
+    kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
+    direction = motion.direction if kept else None
+    pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
+    if motion.rate_hz is not None and own_hz is not None:
+        pace = motion.rate_hz / own_hz
+    elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
+        pace = max(pace, 1.0)
+    return Motion("work", direction, pace, end_pace=motion.end_pace)
+
+
+def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Rest for objects that relations only place, and for bicycles without a rider."""
+    motions: dict[int, Motion] = {}
+    for one in description.relations:
+        motions.update(_rest_of(one, description.objects, nouns))
+    is_plain = description.place.name is None and not description.camera.is_moving
+    resting = nouns_with("lies still") | (
+        nouns_with("parked unless ridden") if is_plain else frozenset()
+    )
+    ridden = _list_ridden(description)
+    for n, thing in enumerate(description.objects):
+        if thing.noun in resting and n not in ridden:
+            motions.setdefault(n, STANDING)
+    return _move(description, motions)
+
+
+def _rest_of(
+    relation: IndexedRelation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
+) -> dict[int, Motion]:
+    """People on seats or at tables sit; objects whose motion would break a relation stand."""
+    kind, target = relation.kind, objects[relation.targets[0]]
+    is_person = objects[relation.subject].noun in PERSON_NOUNS
+    seats = nouns_with("seat") | nouns_with("sat on")
+    if kind == "at" or (kind == "on" and is_person and target.noun in seats):
+        return {relation.subject: Motion("sit")}
+    if kind == "in" or (kind == "on" and target.motion is None):
+        return {relation.subject: STANDING}
+    if kind == "wear" or (kind == "hold" and is_person):
+        return {relation.targets[0]: STANDING}
+    if kind not in _RESTING:
+        return {}
+    members = {n: nouns[objects[n].noun] for n in (relation.subject, *relation.targets)}
+    rests = (n for n, one in members.items() if one.habitat == "ground" or one.motion in _AFLOAT)
+    return dict.fromkeys(rests, STANDING)
+
+
+def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Motion for objects that are followed or overtaken; runners on a belt stay in place."""
+    motions: dict[int, Motion] = {}
+    new: dict[int, SceneObject] = {}
+    kinds = [nouns[one.noun] for one in description.objects]
+    for one in description.relations:
+        target = one.targets[0]
+        if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
+            motions[target] = Motion(kinds[target].motion)
+        rider = description.objects[one.subject]
+        runs = rider.motion is not None and rider.motion.kind in ("walk", "run")
+        if one.kind == "on" and kinds[target].is_working and rider.motion and runs:
+            done = replace(rider.motion, kind="run in place", direction=None)
+            new[one.subject] = replace(rider, motions=(done, *rider.motions[1:]))
+    if any(move.kind == "follow" for move in description.camera.moves):
+        movers = [n for n, noun in enumerate(kinds) if noun.speed_m_s > 0.0]
+        aim = description.index(description.camera.target)
+        for n in movers[:1] if aim is None else {aim}.intersection(movers):
+            motions[n] = Motion(kinds[n].motion)
+    return _move(_change(description, new), motions)
+
+
+def _has_motion(description: SceneDescription) -> bool:
+    moved = (
+        one.blink_hz is not None
+        or len(one.motions) > 1
+        or one.noun in nouns_with("flows")
+        or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
+        for one in description.objects
+    )
+    acts = any(one.kind in _ACTS for one in description.relations)
+    return description.camera.is_moving or bool(description.effects) or acts or any(moved)
+
+
+def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Let the first object that can move do so, or else the camera."""
+    held = {n for one in description.relations if one.kind in _AT_HAND
+            for n in (one.subject, *one.targets)}  # fmt: skip
+    able = () if _stays_together(description, nouns) else tuple(enumerate(description.objects))
+    for n, one in able:
+        usual = _usual_motion(description, nouns[one.noun])
+        if one.motion is None and usual != "stand" and n not in held:
+            note = f"no motion is said of the {one.noun}, so it does what it usually does"
+            return _note(_move(description, {n: Motion(usual)}), note)
+    is_seen = description.light.flicker_hz is not None
+    if is_seen or description.place.weather in ("rain", "snow"):
+        return description
+    if description.camera.moves:
+        note = "nothing moves in the prompt and the camera is static: there will be no events"
+        return _note(description, note)
+    camera = replace(description.camera, moves=(SWAY,))
+    note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
+    return _note(replace(description, camera=camera), note)
+
+
+def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
+    """Whether one object that goes off would leave the others behind."""
+    others = [nouns[one.noun] for one in description.objects if one.noun not in PERSON_NOUNS]
+    if len(others) == len(description.objects):
+        return len(others) > 1
+    return bool(others) and all(noun.habitat == "fixed" for noun in others)
+
+
+def _usual_motion(description: SceneDescription, noun: Noun) -> str:
+    """Motion of a noun if nothing else moves: people stay in a close shot, cars in a room."""
+    place, is_person = description.place.name, noun.name in PERSON_NOUNS
+    if is_person and (place == "space" or description.camera.framing in ("close", "medium")):
+        return "hover" if place == "space" else "stand"
+    is_parked = place is None or is_room(place)
+    return "stand" if noun.motion == "drive" and is_parked else noun.motion
+
+
+def _list_ridden(description: SceneDescription) -> set[int]:
+    """Objects with a rider or a person on them, and those that collide: they are on the way."""
+    relations, objects = description.relations, description.objects
+    ridden = {n for one in relations for n in one.targets if one.kind == "ride"
+              or (one.kind == "on" and objects[one.subject].noun in PERSON_NOUNS)}  # fmt: skip
+    return ridden | {one.subject for one in relations if one.kind == "collide"}
+
+
+def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Vehicles that only stand have no rider."""
+    ridden, new = _list_ridden(description), {}
+    for n, one in enumerate(description.objects):
+        parked = f"parked {one.noun}"
+        stands = [motion.kind for motion in one.motions] == ["stand"]
+        if parked in nouns and n not in ridden and stands:
+            new[n] = replace(one, noun=parked)
+    return _change(description, new)
+
+
+def _darken(description: SceneDescription) -> SceneDescription:
+    """Lights that flash or blink do so in the dark, unless the scene says otherwise."""
+    is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects) or any(
+        one.blink_hz is not None or one.noun in nouns_with("seen in the dark")
+        for one in description.objects
+    )
+    if description.light.kind is not None or not is_seen:
+        return description
+    description = replace(description, light=replace(description.light, kind="night"))
+    return _note(description, "it is dark, so that the light that changes is seen")
+
+
+def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
+    """The place that is said, or the usual one of the objects."""
+    held = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
+    members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in held]
+    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
+    said, usual = description.place, _usual_place(members, description, kinds)
+    dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
+    dives = dives and bool(members) and "jump" not in kinds
+    if dives and said.name in (None, "sea", "lake", "river"):
+        return "underwater"
+    if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
+        return "sea" if kinds.intersection(_IN_WATER) else "beach"
+    travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
+    of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
+    if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
+        return "snow"
+    return said.name or (of_travel[0] if of_travel else usual)
+
+
+def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:
+    """Usual place of objects with these motions."""
+    habitats = {noun.habitat for noun in members}
+    of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
+    if habitats == {"water"} or (habitats == {"ground"} and kinds & {"swim", "surf"}):
+        return "sea"
+    if any(noun.motion in _AFLOAT for noun in members):
+        return "sea" if "sea" in of_nouns else "lake"
+    is_outdoors = description.place.weather in ("rain", "snow") or any(
+        noun.name in nouns_with("outdoors") for noun in members
+    )
+    of_acts = [trait_value("place of activity", kind) for kind in sorted(kinds)]
+    for place in filter(None, (*of_nouns, *of_acts)):
+        is_wrong = (is_outdoors and is_room(place)) or (
+            "ground" in habitats and place in _NO_GROUND
+        )
+        if not is_wrong:
+            return str(place)
+    is_fast = all(noun.speed_m_s >= _FAST_FLYER_M_S for noun in members)
+    rests = kinds <= {"stand", "sit", "lie", "rise", "sink"}
+    return "sky" if habitats == {"air"} and is_fast and not rests else "grass"

@@ -1,0 +1,77 @@
+"""Scenes as staging takes them, and in lines: nouns, colours and ids checked, relations by index.
+
+All else are the values of `spec.scene`; fields without a text mean the same there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+
+from texvent.prompt_report import PromptReport
+from texvent_scenes.spec.data import scene_to_data
+from texvent_scenes.spec.files import inline_text
+from texvent_scenes.spec.scene import Motion, Scene, object_ids
+
+SPIN_RATE_HZ = 0.5
+"""Usual turns per second of what spins."""
+STANDING = Motion("stand")
+
+
+@dataclass(frozen=True)
+class IndexedRelation:
+    """A position or an action of an object with respect to others."""
+
+    kind: str
+    subject: int
+    """Index of an object."""
+    targets: tuple[int, ...]
+    """Indices of objects; the subject itself is its target if its copies collide."""
+    distance_m: float | None = None
+
+
+@dataclass(frozen=True)
+class SceneDescription(Scene):
+    """A scene whose objects have ids of their own, which their nouns may no longer tell."""
+
+    relations: tuple[IndexedRelation, ...] = ()
+    words: PromptReport = field(default_factory=PromptReport)
+    """Report of the words of a prompt that was read."""
+    notes: tuple[str, ...] = ()
+    """Decisions where the scene leaves a choice open, as sentences."""
+
+    def index(self, id: str | None) -> int | None:
+        """Index of the object of an id."""
+        return None if id is None else object_ids(self).index(id)
+
+
+def to_description(scene: Scene) -> SceneDescription:
+    """The description of a scene that `scene_from_data` accepts; what is open stays open."""
+    ids = object_ids(scene)
+    objects = tuple(replace(one, id=id) for one, id in zip(scene.objects, ids, strict=True))
+    relations = tuple(
+        IndexedRelation(one.kind, number, tuple(map(ids.index, one.to)), one.distance_m)
+        for number, subject in enumerate(objects)
+        for one in subject.relations
+    )
+    return SceneDescription(**{**vars(scene), "objects": objects}, relations=relations)
+
+
+def report_of(description: SceneDescription) -> PromptReport:
+    """Report of a scene and of the words of its prompt, before it is staged.
+
+    Its lines are those of a scene file, an object each; `Scene.prompt` is left out.
+
+    Example:
+        >>> from texvent_scenes.spec.scene import SceneObject
+        >>> car = SceneObject("car", motions=(Motion("drive", "left"),))
+        >>> report_of(SceneDescription(objects=(car,))).lines()
+        ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
+    """
+    objects = tuple(replace(one, id="" if one.id == one.noun else one.id)
+                    for one in description.objects)  # fmt: skip
+    said = {one.name: getattr(description, one.name) for one in fields(Scene)}
+    data = scene_to_data(Scene(**{**said, "objects": objects, "prompt": ""}))
+    parts = [(name, part if isinstance(part, list) else [part]) for name, part in data.items()]
+    lines = (f"{name}: {inline_text(one)[2:-2] if isinstance(one, dict) else one}"
+             for name, part in parts for one in part)  # fmt: skip
+    return replace(description.words, scene=tuple(lines), notes=description.notes)

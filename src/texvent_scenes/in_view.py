@@ -1,0 +1,219 @@
+"""Check of a staged scene: objects out of view or tiny, and words that its picture does not show.
+
+Rays through a grid of image points count the pixels of every object.
+What is said of light, sky, ground, weather and effects must change the pixels of small pictures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.defaults import NO_PLACE
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.meanings import list_meanings
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.raycast.ground_truth import visible_instances
+from texvent_scenes.raycast.render import render
+from texvent_scenes.relation_check import Body, Violation, body_of, find_violations
+from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
+from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.actors import Actor, assemble
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.particles.choose import FALLING
+from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
+
+INSTANTS = 7
+"""Instants of the clip at which it is looked for objects; what is in view at one of them is."""
+MOST_POINTS = 12_000
+"""Points of the grid."""
+LEAST_PIXELS = 6
+"""Pixels below which an object is too small to be told."""
+LEAST_INSIDE = 0.33
+"""Share of an object's extent that is inside the image; of less it is cut off."""
+MOST_COUNTED = 6
+"""Copies of an object that are counted one by one; of more, some may hide each other."""
+_SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
+"""Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are."""
+_LEAST_CLIP_S = 1.0
+"""Length of a clip, s, in which motions get so far that they are judged."""
+_FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
+"""Grounds that many places have: only their scenery shows which one it is."""
+_TURNS = ("spin", "work", "rotate")
+_INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
+"""Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
+_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
+"""Fields of a place that pictures must show."""
+
+
+class Unseen(NamedTuple):
+    """Words of a scene that a clip does not show."""
+
+    out_of_view: tuple[str, ...]
+    """Such as "tree", or "dog (2 of 3)"."""
+    too_small: tuple[str, ...]
+    """Such as "bird (2 pixels)"."""
+    violations: tuple[Violation, ...] = ()
+    """Relations, directions, weather, effects and light."""
+
+
+def find_unseen(
+    scene: ComposedScene, description: SceneDescription, size: SensorSize, duration_s: float
+) -> Unseen:
+    """Words of a description that no instant shows.
+
+    An object without a body of its own is part of another one's, as a worn coat is.
+    """
+    times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
+    cameras = [scene.camera(time_s) for time_s in times]
+    pixels = count_pixels(scene, list(scene.class_names), size, times)
+    related = {i for one in description.relations for i in one.targets}
+    outside, small, bodies = list[str](), list[str](), list[list[Body]]()
+    for index, thing in enumerate(description.objects):
+        own = [one for one in scene.actors if one.object_index == index]
+        counts = [pixels[one.instance] for one in own]
+        bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
+        if not own:
+            continue
+        most, lost = max(counts), counts.count(0)
+        least = math.inf if index not in related else 0.1 * size.width * size.height
+        if most == 0:
+            outside.append(thing.noun)
+        elif most < LEAST_PIXELS:
+            small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
+        elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
+            outside.append(f"{thing.noun} ({lost} of {len(counts)})")
+        elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
+            outside.append(f"{thing.noun} (cut off)")
+    lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
+    violations = [Violation("noun", noun, "") for noun, *_ in lines]
+    violations += [one for one in find_violations(description, bodies)
+               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+    return Unseen(
+        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(violations))
+    )
+
+
+def without_words(words: Sequence[str], faults: Sequence[Violation]) -> tuple[str, ...]:
+    """Words of a report, but for those that mean what a picture does not show."""
+    lost = {(kind, value) for kind, value, _ in faults}
+    return tuple(
+        word for word in words
+        if not any((kind, value) in lost or (kind, "") in lost
+                   for kind, value in list_meanings(word))
+    )  # fmt: skip
+
+
+def _find_unshown(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
+    place, said = scene.place, description.place
+    for name, value, other in _list_without(scene, description):
+        if not _differs(scene, other, times):
+            is_kind = name in ("light", "weather", "effect")
+            line = name.split("_")[-1] if value is True else f"{name} {value}"
+            line = f"{line.replace('_', ' ')}: no pixel shows it"
+            yield Violation(name, value if is_kind else "", line)
+    for one in description.objects:
+        if one.is_lit and one.noun not in LAMPS:
+            yield Violation("is_lit", "", f"lights of the {one.noun}")
+        if one.noun in nouns_with("part of a wall"):
+            yield Violation("noun", one.noun, f"the {one.noun} in a wall")
+    turning = [one for one in description.objects
+               if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
+    if turning and not description.camera.is_moving and not _differs(scene, scene, times, _LATER_S):
+        line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
+        yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
+    alike = (one for one in PLACES.values() if one.ground is place.ground)
+    is_shared = place.is_room or place.surface in _FLOORS or place is not next(
+        one for one in alike if one.surface is place.surface)  # fmt: skip
+    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
+    bare = replace(scene, still=assemble([]))
+    if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
+        line = f"{said.name}, of which only the ground is in view"
+        yield Violation("place", said.name or "", line)
+
+
+def _list_without(
+    scene: ComposedScene, description: SceneDescription
+) -> Iterator[tuple[str, Any, ComposedScene]]:
+    """Kind and value of what is said of surroundings, and the scene without it."""
+    said, base, staged = description.place, scene.animated_environment.base, scene.particles
+    x, y = map(float, base.road_offset)
+    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
+
+    def without(**fields: Any) -> ComposedScene:
+        other = build_environment(
+            replace(description, **fields), place=scene.place, road=road,
+            room_m=scene.camera_path.room_m, distance_m=scene.camera_path.framing.distance_m,
+        )  # fmt: skip
+        return replace(scene, animated_environment=other)
+
+    for name in _SURROUNDINGS:
+        value, usual = getattr(said, name), getattr(Place, name)
+        is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
+        if value != usual and value not in FALLING and not is_so:
+            yield name, value, without(place=replace(said, **{name: usual}))
+    if description.light.kind not in (None, "day"):
+        yield "light", description.light.kind, without(light=replace(description.light, kind=None))
+    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
+        pairs = zip(staged.effects, staged.kinds, strict=True)
+        rest = tuple(effect for effect, own in pairs if own != kind)
+        if len(rest) < len(staged.effects):
+            name = "weather" if kind == said.weather else "effect"
+            yield name, kind, replace(scene, particles=replace(staged, effects=rest))
+
+
+def _is_cut_off(
+    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> bool:
+    """Whether no instant has more than a share of its box in the image."""
+    for time_s, camera in zip(times, cameras, strict=True):
+        seen = project(camera, size, actor.corners(time_s))
+        if (seen[:, 2] > 0.0).all():
+            box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
+            inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
+            if float(np.prod(inside / np.diff(box, axis=0))) >= LEAST_INSIDE:
+                return False
+    return True
+
+
+def _differs(
+    scene: RenderedScene, other: RenderedScene, times: Sequence[float], later_s: float = 0.0,
+    least: float = _LEAST_SHARE,
+) -> bool:  # fmt: skip
+    """Whether enough pixels of small pictures are others at one of the instants."""
+    for time_s in times:
+        first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
+                         for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
+        change = np.abs(first - second).max(axis=-1)
+        if np.mean(change >= _LEAST_LEVELS) >= least:
+            return True
+    return False
+
+
+def count_pixels(
+    scene: RenderedScene, instances: list[int], size: SensorSize, times: Sequence[float]
+) -> dict[int, int]:
+    """Instance id → its pixels at the instant that shows most of it, from a grid of points."""
+    step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
+    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    most = dict.fromkeys(instances, 0)
+    for time_s in times:
+        _, owner = visible_instances(scene, time_s, size, points)
+        seen = Counter(owner.tolist())
+        most = {one: max(count, seen[one] * step * step) for one, count in most.items()}
+    return most

@@ -1,0 +1,286 @@
+"""Limbs: gait cycles without sliding feet, knees between two points, legs and waving chains."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise, product
+from typing import Any
+
+import numpy as np
+
+from texvent_scenes.models.joints import Instant, read_cycle
+from texvent_scenes.models.materials import Material
+from texvent_scenes.models.protocol import ModelPart, Pose, fraction
+from texvent_scenes.models.shapes import (
+    Affine,
+    Point,
+    limb,
+    moved,
+    plank,
+    point,
+    shift,
+    turn_about,
+)
+from texvent_scenes.models.surfaces import Painted
+
+
+@dataclass(frozen=True)
+class Gait:
+    """A cycle of steps as a function of the distance travelled."""
+
+    stride: float
+    """Distance of one whole cycle, m."""
+    duty: float
+    """Share of the cycle that a foot stays on the ground."""
+    lift: float
+    """Height of a foot in mid-swing, m."""
+    full_share: float = 0.35
+    """Strides a second from which on steps are full."""
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Phase of a body in its cycle of steps at one instant."""
+
+    gait: Gait
+    strides: float
+    amount: float
+    """Amplitude of its steps, 0 to 1."""
+    runs: bool = False
+
+
+def foot_path(steps: Steps, lead: float) -> tuple[float, float]:
+    """Place of a foot, relative to the point on the ground below its hip.
+
+    On the ground the foot moves back exactly as fast as the body moves forward, so it does not
+    slide; then it swings forward in an arc.
+
+    Args:
+        steps: gait and phase of the body.
+        lead: share of a cycle by which this foot is ahead.
+
+    Returns:
+        Its x and its height, m.
+    """
+    gait, amount = steps.gait, steps.amount
+    phase = (steps.strides + lead) % 1.0
+    half_step = 0.5 * gait.duty * gait.stride
+    if phase < gait.duty:
+        return amount * (half_step - phase * gait.stride), 0.0
+    swing = (phase - gait.duty) / (1.0 - gait.duty)
+    eased = swing * swing * (3.0 - 2.0 * swing)
+    rise = math.sin(math.pi * swing)
+    return amount * half_step * (2.0 * eased - 1.0), amount * gait.lift * rise * rise
+
+
+def step_amount(activity: str, speed: float, full_speed: float) -> float:
+    """Amplitude of steps: 0 while a body stands or sits, 1 from `full_speed` (m/s) on."""
+    if activity in ("stand", "sit", "lie"):
+        return 0.0
+    share = min(1.0, max(0.0, speed / full_speed))
+    return share * share * (3.0 - 2.0 * share)
+
+
+def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -> Point:
+    """The knee or elbow between two points.
+
+    Args:
+        start: hip or shoulder, m.
+        end: ankle or wrist, m.
+        upper: length of thigh or upper arm, m.
+        lower: length of shin or forearm, m.
+        towards: direction in which the joint points (need not be a unit vector).
+
+    Returns:
+        The joint. If the two lengths cannot meet, the joint lies on the straight line.
+    """
+    span = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+    reach = max(math.sqrt(sum(v * v for v in span)), 1e-9)
+    along = (span[0] / reach, span[1] / reach, span[2] / reach)
+    near = (reach * reach + upper * upper - lower * lower) / (2.0 * reach)
+    near = min(max(near, -upper), reach)
+    out = math.sqrt(max(upper * upper - near * near, 0.0))
+    slope = sum(a * t for a, t in zip(along, towards, strict=True))
+    side = [t - slope * a for a, t in zip(along, towards, strict=True)]
+    norm = max(math.sqrt(sum(v * v for v in side)), 1e-9)
+    x, y, z = (s + near * a + out * v / norm for s, a, v in zip(start, along, side, strict=True))
+    return (x, y, z)
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Gaits of a body: with `walk` it goes, with `run` it runs."""
+
+    walk: Gait
+    run: Gait
+    runs: bool = False
+    """Whether it runs unless told otherwise."""
+
+    def steps(self, pose: Pose, seed: int) -> Steps:
+        """Its steps at that pose; where its first stride begins is by the seed."""
+        runs = self.runs or pose.activity == "run"
+        gait = self.run if runs else self.walk
+        strides = pose.distance_m / gait.stride + fraction(seed, "step")
+        amount = step_amount(pose.activity, pose.speed_m_s, self.walk.full_share * self.walk.stride)
+        return Steps(gait, strides, amount, runs)
+
+
+DrawLegs = Callable[[Steps, Affine, Mapping[str, float]], list[ModelPart]]
+"""Steps, map of the body, and channels → all legs."""
+
+
+@dataclass(frozen=True)
+class Legs:
+    """Pairs of legs of one make; lengths in m."""
+
+    surface: str
+    pairs: tuple[tuple[float, ...], ...]
+    """Left legs: root x y z, foot x y on the ground, and lead, cycles."""
+    bones: tuple[float, float]
+    """Lengths of the upper and the lower part."""
+    radii: tuple[float, float]
+    """Half thicknesses of them."""
+    towards: Point
+    """Direction of its knee."""
+    ankle: float = 0.0
+    """Height of the ankle above the ground."""
+    foot: str = ""
+    """Part lines around the ankle."""
+    apart: float = 0.5
+    """Lead of the right legs over the left ones, cycles: 0 = it hops."""
+    running: tuple[float, float] | None = None
+    """Lead of the left legs, and of the right ones over them, while it runs; None = the same."""
+    feet_by: Mapping[str, Point] = field(default_factory=dict)
+    """Channel → displacement of the feet at 1."""
+    knees_by: Mapping[str, Point] = field(default_factory=dict)
+    """Channel → change of the direction of the knees at 1."""
+
+    def drawn_in(self, painted: Painted) -> DrawLegs:
+        """Draws all legs."""
+        material, foot = painted.material(self.surface), painted.draw_lines(self.foot)
+
+        def draw(steps: Steps, body: Affine, channels: Mapping[str, float]) -> list[ModelPart]:
+            parts: list[ModelPart] = []
+            far_x, far_y, far_z = _blend((0.0, 0.0, 0.0), self.feet_by, channels)
+            knee_x, knee_y, knee_z = _blend(self.towards, self.knees_by, channels)
+            for (x, y, z, foot_x, foot_y, lead), side in product(self.pairs, (1.0, -1.0)):
+                lead, apart = self.running if self.running and steps.runs else (lead, self.apart)
+                ahead = lead + (0.0 if side > 0.0 else apart)
+                step, lift = foot_path(steps, ahead)
+                root = point(body @ np.array([x, side * y, z, 1.0]))
+                ankle: Point = (
+                    foot_x + step + far_x, side * (foot_y + far_y), self.ankle + lift + far_z
+                )  # fmt: skip
+                knee = bend(root, ankle, *self.bones, (knee_x, side * knee_y, knee_z))
+                parts += [
+                    limb(material, root, knee, self.radii[0]),
+                    limb(material, knee, ankle, self.radii[1]),
+                    *moved(foot, shift(*ankle)),
+                ]
+            return parts
+
+        return draw
+
+
+def _blend(start: Point, by: Mapping[str, Point], channels: Mapping[str, float]) -> Point:
+    """A point shifted as far as channels say."""
+    x, y, z = start
+    for name, (far_x, far_y, far_z) in by.items():
+        amount = channels.get(name, 0.0)
+        x, y, z = x + amount * far_x, y + amount * far_y, z + amount * far_z
+    return x, y, z
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Links from joint to joint along which a wave runs: a tail, a cord, an arm, a cloth."""
+
+    surface: str
+    start: Point
+    step: Point
+    """Vector from one joint to the next at rest, m."""
+    links: int
+    radii: tuple[float, float]
+    """Radii of the first and the last link, m."""
+    wave: str
+    """Axis along which it waves, reach at its end, m, and the words of its rate."""
+    lag: float
+    """Lag of each joint's wave behind that of the joint before, cycles."""
+    grows: float = 1.0
+    """Power of the share of the length with which the reach grows; 0 = the same all along."""
+    curl: float = 0.0
+    """Upward turn of each link from the one before, rad."""
+    tall: float = 0.0
+    """Height of upright planks, m; 0 = the links are round."""
+    around: int = 1
+    """Number of such chains around the upright axis."""
+    beads: str = ""
+    """Part lines around each joint but the first."""
+    head: str = ""
+    """Part lines around the first joint."""
+
+    def drawn_in(self, painted: Painted) -> Callable[[Instant], list[ModelPart]]:
+        """Draws all links."""
+        material = painted.material(self.surface)
+        beads, head = painted.draw_lines(self.beads), painted.draw_lines(self.head)
+        axis, reach, *rate = self.wave.split()
+        cycle = read_cycle(rate)
+
+        def draw(now: Instant) -> list[ModelPart]:
+            parts: list[ModelPart] = []
+            for turn in range(self.around):
+                cycles = cycle(now) + 2.0 * turn / self.around
+                joints = self._joints(axis, float(reach), cycles)
+                drawn = moved(head, shift(*joints[0]))
+                for index, (a, b) in enumerate(pairwise(joints)):
+                    drawn += [self._link(material, a, b, index), *moved(beads, shift(*b))]
+                parts += moved(drawn, turn_about("z", 2.0 * math.pi * turn / self.around))
+            return parts
+
+        return draw
+
+    def _link(self, material: Material, start: Point, end: Point, index: int) -> ModelPart:
+        share = index / max(self.links - 1, 1)
+        radius = self.radii[0] + share * (self.radii[1] - self.radii[0])
+        if self.tall:
+            upright, thick = (0.0, 0.0, self.tall), (0.0, 2.0 * radius, 0.0)
+            return plank(material, start, end, chord=upright, thickness=thick)
+        return limb(material, start, end, radius)
+
+    def _joints(self, axis: str, reach: float, cycles: float) -> list[Point]:
+        across, up = math.hypot(*self.step[:2]), self.step[2]
+        long, rise = math.hypot(across, up), math.atan2(up, across)
+        ahead = (self.step[0] / across, self.step[1] / across) if across > 0.0 else (0.0, 0.0)
+        x, y, z = self.start
+        joints: list[Point] = []
+        for index in range(self.links + 1):
+            swing = math.sin(2.0 * math.pi * (cycles - self.lag * index))
+            off = reach * (index / self.links) ** self.grows * swing
+            joints.append(
+                (x + off * (axis == "x"), y + off * (axis == "y"), z + off * (axis == "z"))
+            )
+            tilt = rise + self.curl * index
+            x += long * math.cos(tilt) * ahead[0]
+            y += long * math.cos(tilt) * ahead[1]
+            z += long * math.sin(tilt)
+        return joints
+
+
+def read_walk(table: Mapping[str, Any]) -> Walk | None:
+    """The gaits of a noun's table, if it walks: `gait`, and `run` where that differs."""
+    if "gait" not in table:
+        return None
+    walk = Gait(**table["gait"])
+    run = Gait(**table["run"]) if "run" in table else walk
+    return Walk(walk, run, table.get("runs", False))
+
+
+def read_legs(table: Mapping[str, Any], painted: Painted) -> list[DrawLegs]:
+    """The legs of a noun's table: each of `legs` has the fields of `Legs`."""
+    legs = []
+    for one in table.get("legs", ()):  # pairs are lines of six numbers
+        rows = (map(float, row.split()) for row in one["pairs"].splitlines() if row.strip())
+        legs.append(Legs(**{**one, "pairs": tuple(map(tuple, rows))}).drawn_in(painted))
+    return legs

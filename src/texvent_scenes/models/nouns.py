@@ -1,0 +1,48 @@
+"""All nouns of the embedded generator.
+
+Origins: a noun with habitat "ground" or "fixed" stands on z = 0 below its middle (a ball too: it
+rolls; a throw lifts it). One with habitat "air" or "water" has its origin at its
+middle, except that what floats (`AFLOAT`) has it on the waterline: put it at the water's surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import chain
+from types import MappingProxyType
+
+from texvent_scenes.models.parts import read_nouns
+from texvent_scenes.models.people import person
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import list_data
+
+MOTIONS = frozenset(
+    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide",
+     "float",
+     "hover", "blow", "turn", "reverse",
+     "spin", "rotate", "orbit", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
+     "topple", "work", "hang", "stand", "sit", "lie"}
+)  # fmt: skip
+"""Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a
+machine, "stand" rest."""
+
+
+FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
+    {"people": (*person.NOUNS, *chain.from_iterable(map(read_nouns, list_data("people"))))}
+    | {file.name.removesuffix(".toml"): read_nouns(file)
+       for file in chain(list_data("bodies"), list_data("nouns"))}
+)  # fmt: skip
+"""Nouns by family, such as "vehicles": people, and the files of `data/bodies` and `data/nouns`."""
+
+NOUNS: Mapping[str, Noun] = MappingProxyType(
+    {noun.name: noun for family in FAMILIES.values() for noun in family}
+)
+"""Every noun by its singular name."""
+
+SCENERY_ONLY: frozenset[str] = frozenset(noun.name for noun in FAMILIES["extra_scenery"])
+"""Nouns that only scenery uses: no prompt means them."""
+
+AFLOAT: frozenset[str] = frozenset(
+    name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")
+)
+"""Names of the nouns that float on the surface: boats and ducks."""

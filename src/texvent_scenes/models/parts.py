@@ -1,0 +1,327 @@
+"""Nouns as data: the TOML files of `data/nouns/` and `data/bodies/`, built when they are shown.
+
+    [pendulum]
+    colours = ["(.6 .3 .04)"]
+    parts = '''
+    box wood   0 0 .03   .4 .9 .06
+    rod wood   0 ±.42 .05   0 ±.42 1.18   .025
+    moving swing x 0 0 1.17 22.9deg .541hz
+    ball paint   0 0 .32   .2 .2 .2'''
+
+docs/nouns.md describes the format.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent.errors import FileFormatError, InputError
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, find_channels, motion_of
+from texvent_scenes.models.joints import Instant, place, read_joint, read_joints, read_wave
+from texvent_scenes.models.limbs import Chain, Steps, Walk, read_legs, read_walk
+from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
+from texvent_scenes.models.people.figure import read_rider
+from texvent_scenes.models.proportions import fill_in
+from texvent_scenes.models.protocol import ModelPart, Noun, Pose, between, choose, fraction
+from texvent_scenes.models.shapes import (
+    SAMPLE_POSES,
+    STANDING_POSES,
+    Affine,
+    ArticulatedModel,
+    ball,
+    compose,
+    half_extents,
+    moved,
+    shift,
+    turn_about,
+)
+from texvent_scenes.models.skeleton import Anchor, Group, locate_all, read_anchor, read_group
+from texvent_scenes.models.surfaces import Painted, paint_model, toned
+from texvent_scenes.rendered_scene import Colour
+
+_KEYS: Mapping[str, tuple[type, ...]] = {
+    "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
+    "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
+    "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
+    "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,),
+    "clumps": (list,), "legs": (list,), "gait": (dict,), "run": (dict,), "runs": (bool,),
+    "body": (str,), "sizes": (dict,), "acts": (str,), "anchors": (dict,), "options": (dict,),
+    "with": (list,), "usual_more": (str,),
+}  # fmt: skip
+"""Keys of a noun, and what their values are."""
+_OWN = ("names", "plurals", "more", "usual_more")
+"""Keys that no noun takes from the one that it is like."""
+_HABITATS: Mapping[str, str] = {
+    **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
+    **dict.fromkeys(("fly", "float"), "air"),
+    **dict.fromkeys(("swim", "sail", "paddle"), "water"),
+    "stand": "fixed",
+}
+"""Usual motion → habitat, where an entry does not say it."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartsBuilder:
+    """Builds the models of one noun; implements `protocol.ModelBuilder`."""
+
+    where: str
+    """File and noun, for messages."""
+    table: Mapping[str, Any]
+
+    def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+        """Build it; `colour` takes the place of `colours`.
+
+        Raises:
+            FileFormatError: its table cannot be read.
+        """
+        try:
+            return self._build(colour, scale, seed)
+        except InputError:
+            raise
+        except (KeyError, TypeError, ValueError) as error:
+            raise FileFormatError(f"{self.where}: {error}") from None
+
+    def _build(self, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+        table = self._filled
+        painted = paint_model(table, colour=colour, seed=seed)
+        placed, groups = self._drawing
+        for label, texts in self._variants.items():
+            placed = (*placed, *choose(seed, label, texts))
+        rigid = painted.draw(placed)
+        is_drawn = [colour is None or not one.is_usual for one in groups]
+        drawn = [painted.draw(one.parts) if is_shown else []
+                 for one, is_shown in zip(groups, is_drawn, strict=True)]  # fmt: skip
+        clumps = [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
+        groups, drawn = (
+            (*groups, *(one for _, one in clumps)),
+            [*drawn, *(one for one, _ in clumps)],
+        )
+        extras = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
+        if "rider" in table:
+            rider = read_rider(table["rider"])
+            extras.append(lambda now: rider.draw(seed, now.pose.distance_m))
+        wave = read_wave(table["wave"]) if "wave" in table else None
+        body, legs = read_joints(table.get("body", "")), read_legs(table, painted)
+        moves_all = wave is not None or bool(body or legs)
+
+        def articulate(pose: Pose) -> list[ModelPart]:
+            now, steps = self._instant(pose, seed)
+            carrier = place(body, now) if body else None
+            parts = list(rigid) if moves_all else []
+            if wave is not None:
+                parts = [wave(part, now) for part in parts]
+            parts += [part for draw in extras for part in draw(now)]
+            parts = moved(parts, carrier) if carrier is not None else parts
+            motions = locate_all(groups, now, carrier)
+            for group, shapes, motion in zip(groups, drawn, motions, strict=True):
+                parts += group.draw(shapes, now, motion)
+            if steps is not None:
+                upright = np.eye(3, 4) if carrier is None else carrier
+                parts += [one for draw in legs for one in draw(steps, upright, now.channels)]
+            return parts
+
+        def anchor(name: str, pose: Pose) -> Affine | None:
+            named = self._anchors.get(name, self._anchors.get("other"))
+            if named is None:
+                return None
+            now, _ = self._instant(pose, seed)
+            motions = locate_all(groups, now, place(body, now) if body else None)
+            return named.locate(groups, motions)
+
+        rests = moves_all or any(one.at_rest is not None for one in groups)
+        return ArticulatedModel(
+            [] if moves_all else rigid,
+            scale=scale * table.get("size", 1.0),
+            articulate=articulate if moves_all or groups or extras else None,
+            is_centred=_is_centred(table),
+            anchor=anchor if self._anchors else None,
+            poses=SAMPLE_POSES if rests else STANDING_POSES,
+            is_wheeled=any(one.rolls for group in groups for one in group.joints[:1]),
+        )
+
+    def _instant(self, pose: Pose, seed: int) -> tuple[Instant, Steps | None]:
+        """What its joints and its legs follow at a pose."""
+        channels = find_channels(
+            self._filled.get("acts", "animal_activities"), pose.activity, pose.time_s,
+            before=pose.before, share=pose.share,
+        )  # fmt: skip
+        if self._walk is None:
+            return Instant(pose, seed, channels), None
+        steps = self._walk.steps(pose, seed)
+        gait = "run" if steps.runs else "walk"
+        channels |= {"step": steps.amount, gait: steps.amount}
+        return Instant(pose, seed, channels, steps.strides), steps
+
+    @cached_property
+    def _filled(self) -> Mapping[str, Any]:
+        """Its table with numbers in place of formulas."""
+        return fill_in(self.table)
+
+    @cached_property
+    def _walk(self) -> Walk | None:
+        return read_walk(self._filled)
+
+    @cached_property
+    def _anchors(self) -> Mapping[str, Anchor]:
+        return {name: read_anchor(text) for name, text in self._filled.get("anchors", {}).items()}
+
+    @cached_property
+    def _drawing(self) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
+        """Parts that stay in the body, and groups of those that move."""
+        table = self._filled
+        texts = [
+            (table.get(key, ""), key == "usual_more") for key in ("parts", "more", "usual_more")
+        ]
+        texts += [(table["options"][name], False) for name in table.get("with", ())]
+        split = [(read_groups(text), is_usual) for text, is_usual in texts]
+        rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
+        if table.get("laid"):
+            rigid = _laid(rigid)
+        groups, names = list[Group](), set[str]()
+        for (how, lines), is_usual in (
+            (one, is_usual) for (_, *more), is_usual in split for one in more
+        ):
+            parts, more = read_parts(lines)
+            group = replace(read_group(how, parts, names), is_usual=is_usual)
+            if not how or not (parts or more or group.name):
+                raise ValueError(f"'moving {how}' needs a joint or a light, and parts below it")
+            groups.append(group)
+            names.add(group.name)
+            wheels += more
+        groups += [Group(shapes, (joint,)) for shapes, joint in wheels]
+        return rigid, tuple(groups)
+
+    @cached_property
+    def _variants(self) -> Mapping[str, Sequence[tuple[Placed, ...]]]:
+        """Parts of which the seed chooses one list, by the label of the choice."""
+        said = self._filled.get("variants", {})
+        return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
+
+
+def _read_clump(
+    table: Mapping[str, Any], painted: Painted, seed: int
+) -> tuple[list[ModelPart], Group]:
+    """Balls around an upright axis, their places, sizes and shades chosen by the seed.
+
+    Its table: count, surface; lowest and highest `out` (from the axis), `up`, `size` (m) and
+    `shade`; `across` (their places and extents along y compared with those along x), `flat`
+    (their extents along z); joints.
+    """
+    material, count = painted.material(table["surface"]), table["count"]
+    across, flat = table.get("across", 1.0), table.get("flat", 1.0)
+    parts = []
+    for index in range(count):
+        angle = math.tau * (index + 0.6 * fraction(seed, f"angle {index}")) / count
+        out, up, size, tint = (
+            between(seed, f"{name} {index}", *table[name])
+            for name in ("out", "up", "size", "shade")
+        )
+        at = (out * math.cos(angle), across * out * math.sin(angle), up)
+        parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
+    return parts, Group((), tuple(map(read_joint, table.get("joints", ()))))
+
+
+def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:
+    """Parts drawn upright, laid on their backs over the origin."""
+    turn = turn_about("y", -0.5 * math.pi)
+    turned = [replace(one, to_body=compose(turn, one.to_body)) for one in parts]
+    ends = [half_extents(one.shape, one.to_body) for one in turned]
+    low = np.min([low for low, _ in ends], axis=0)
+    high = np.max([high for _, high in ends], axis=0)
+    drop = shift(-0.5 * (low[0] + high[0]), -0.5 * (low[1] + high[1]), -low[2])
+    return tuple(replace(one, to_body=compose(drop, one.to_body)) for one in turned)
+
+
+def _is_centred(table: Mapping[str, Any]) -> bool:
+    """Whether the origin is its middle: of what flies or swims, not of what floats."""
+    habitat = _habitat(table)
+    return habitat == "air" or (habitat == "water" and table.get("motion") == "swim")
+
+
+def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
+    """The nouns of a TOML file; what stands above its first table, or in "usual", holds for all.
+
+    Raises:
+        FileFormatError: the file is damaged or has a key that no noun has; what is wrong with parts
+            is said when the noun is first built.
+    """
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"{file}: {error}") from error
+    usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
+    nouns = [key for key in tables if key not in usual and key != USUAL]
+    usual |= tables.get(USUAL, {})
+    entries: dict[str, Mapping[str, Any]] = {}
+    for name in nouns:
+        own, like = tables[name], tables[name].get("like")
+        if like is not None and like not in entries:
+            raise FileFormatError(
+                f"{file.name}, {name!r}: there is no noun {like!r} above it to be like"
+            )
+        model = usual if like is None else entries[like]
+        entries[name] = _merged({key: model[key] for key in model if key not in _OWN}, own)
+    return tuple(_noun(f"{file.name}, {name!r}", name, entries[name]) for name in entries)
+
+
+def _merged(model: Mapping[str, Any], own: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A table with what it does not say taken from another, in the tables within it too."""
+    return {
+        key: _merged(model[key], own[key])
+        if isinstance(own.get(key), Mapping) and isinstance(model.get(key), Mapping)
+        else own.get(key, model.get(key))
+        for key in {**model, **own}
+    }
+
+
+def _habitat(table: Mapping[str, Any]) -> Any:
+    return table.get("habitat") or _HABITATS.get(table.get("motion", "stand"), "ground")
+
+
+def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
+    for key, value in table.items():
+        if key not in _KEYS:
+            raise FileFormatError(f"{where}: unknown key {key!r}; known: {', '.join(_KEYS)}")
+        if not isinstance(value, _KEYS[key]):
+            raise FileFormatError(
+                f"{where}: {key} must be a {_KEYS[key][0].__name__} but is {value!r}"
+            )
+    habitat = _habitat(table)
+    if habitat not in _HABITATS.values():
+        known = ", ".join(dict.fromkeys(_HABITATS.values()))
+        raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
+    words = table.get("parts", "").split()
+    return Noun(
+        name,
+        PartsBuilder(where, table),
+        habitat,
+        float(table.get("speed", 0.0)),
+        table.get("motion", "stand"),
+        tuple(table.get("names", ())),
+        tuple(table.get("plurals", ())),
+        place=table.get("place", ""),
+        acts=_acts_of(table) if "acts" not in table else frozenset(),
+        is_working=bool(table.get("works", habitat == "fixed" and "moving" in words)),
+    )
+
+
+def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
+    """Activities of animals that its joints follow."""
+    text = f"{table.get('parts', '')} {table.get('body', '')}"
+    followed = set(" ".join(re.findall(r"\bby ([\w. ]+)", text)).split())
+    followed |= {"down"} & {"down" if word == "bow" else "" for word in text.split()}
+    return frozenset(
+        name
+        for name in ANIMAL_ACTIVITIES
+        if followed & (motion_of("animal_activities", name).keys() - {"idle"})
+    )

@@ -1,0 +1,110 @@
+"""Places as data: the ground of each, its scenery, and the words that name it.
+
+`data/places.toml` says what its fields mean; an entry there is all that a new place takes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Literal
+
+from texvent_scenes.models.tables import frozen, read_table
+from texvent_scenes.rendered_scene import Colour, Ground, Texture
+
+Where = Literal["around", "walls", "under", "water", "far", "route"]
+"""Regions of a place for scenery."""
+_SCALES: Mapping[str, tuple[float, float]] = {
+    "walls": (0.95, 1.1), "under": (1.0, 1.0),
+}  # fmt: skip
+"""Usual multiples of its size, of what does not stand around."""
+
+
+@dataclass(frozen=True)
+class Scenery:
+    """Pieces of scenery of one noun, with the region that they are scattered over."""
+
+    noun: str
+    count: int = 1
+    where: Where = "around"
+    reach: tuple[float, float] = (0.0, 0.0)
+    """Nearest and farthest: in camera distances behind what the camera looks at, or metres from
+    the camera of what is far off; of what lies under all, how far before the first of them."""
+    scale: tuple[float, float] = (0.8, 1.2)
+    """Least and greatest multiple of its usual size."""
+    colours: tuple[Colour | None, ...] = (None,)
+    faces: bool = False
+    """Whether its front is turned to the camera."""
+    grows: bool = False
+    """Whether its size follows the distance of the camera, so that it neither towers nor
+    vanishes."""
+
+    @property
+    def is_structure(self) -> bool:
+        """Whether it is part of a place that is empty, too: lines on the ground."""
+        return self.where == "under"
+
+
+@dataclass(frozen=True)
+class PlaceModel:
+    """The ground of a place, its walls, and its scenery."""
+
+    names: tuple[str, ...]
+    ground: Ground
+    colours: tuple[Colour, Colour]
+    """Colours of the ground's pattern, or of land and of road or water."""
+    surface: Texture | None = None
+    """Material of the ground; None = the usual one of its kind."""
+    walls: Texture = Texture.PLASTER
+    wall_colour: Colour = (0.75, 0.69, 0.61)
+    road_m: float = 3.4
+    """Half the width of its road or river."""
+    light: str = ""
+    """Its daylight, where that is not that of the open air."""
+    flight_m: float = 0.0
+    """Additional height of things that fly."""
+    is_backdrop: bool = False
+    """Whether it is a background without horizon and stars."""
+    scenery: tuple[Scenery, ...] = field(default=())
+
+    @property
+    def is_room(self) -> bool:
+        """Whether it has walls and a ceiling."""
+        return self.ground is Ground.FLOOR
+
+    @property
+    def has_road(self) -> bool:
+        """Whether a road or a street runs through it."""
+        return self.ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
+
+    @property
+    def has_shore(self) -> bool:
+        """Whether water lies beside land."""
+        return self.ground in (Ground.RIVER, Ground.LAKE)
+
+
+def _place_of(fields: dict[str, Any]) -> PlaceModel:
+    ground, walls = fields.pop("ground"), fields.pop("walls", None)
+    if "surface" in ground:
+        fields["surface"] = Texture[ground["surface"].upper()]
+    if walls is not None:
+        fields["walls"] = Texture[walls["surface"].upper()]
+        fields["wall_colour"] = walls["colour"]
+    fields["scenery"] = tuple(
+        Scenery(**{"scale": _SCALES.get(row.get("where"), Scenery.scale), **row})
+        for row in fields.get("scenery", ())
+    )
+    kind = Ground[ground["kind"].upper().replace(" ", "_")]
+    fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
+    return PlaceModel(ground=kind, colours=ground["colours"], **fields)
+
+
+PLACES: Mapping[str, PlaceModel] = MappingProxyType(
+    {name: _place_of(row) for name, row in frozen(read_table("places")).items()}
+)
+
+
+def is_room(place: str) -> bool:
+    """Whether a place has walls and a ceiling."""
+    return PLACES[place].is_room

@@ -1,0 +1,167 @@
+"""Skeleton of a model: groups of parts on joints, one group on another, all on the body.
+
+A group begins with a line of part lines: "moving JOINT, JOINT, ...", the outermost joint first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent_scenes.models.joints import (
+    RESTING,
+    Instant,
+    Joint,
+    LightModulation,
+    place,
+    read_joint,
+    read_light,
+    read_number,
+)
+from texvent_scenes.models.part_lines import Placed
+from texvent_scenes.models.protocol import ModelPart
+from texvent_scenes.models.shapes import Affine, Point, compose, moved, point
+
+
+@dataclass(frozen=True)
+class Group:
+    """Parts that move together."""
+
+    parts: tuple[Placed, ...]
+    joints: tuple[Joint, ...] = ()
+    """From the body, or the group that it is on; outermost first."""
+    name: str = ""
+    on: str = ""
+    """Name of the group that carries it; "" = the body."""
+    at_rest: tuple[Joint, ...] | None = None
+    """Its joints while the body stays where it is; None = the same."""
+    light: LightModulation | None = None
+    clip: tuple[int, float, float] | None = None
+    """Axis, least and greatest coordinate between which its boxes are seen, m."""
+    is_paired: bool = False
+    """Whether the other side of the body has the same."""
+    is_usual: bool = False
+    """Whether only a body of a usual colour has it."""
+
+    def locate(self, now: Instant, carrier: Affine | None) -> Affine | None:
+        """Map of its parts to body coordinates; `carrier` is that of what it is on.
+
+        None is the map that leaves all where it is.
+        """
+        is_resting = self.at_rest is not None and now.pose.activity in RESTING
+        joints = self.at_rest if self.at_rest is not None and is_resting else self.joints
+        if not joints:
+            return carrier
+        own = place(joints, now)
+        return own if carrier is None else compose(carrier, own)
+
+    def draw(
+        self, parts: Sequence[ModelPart], now: Instant, motion: Affine | None
+    ) -> list[ModelPart]:
+        """Its parts, painted, where a motion carries them."""
+        lit = self.light.shine(parts, now) if self.light else list(parts)
+        there = lit if motion is None else moved(lit, motion)
+        if self.clip is not None:
+            there = [_clip(one, *self.clip) for one in there]
+        return [*there, *_mirrored(there)] if self.is_paired else there
+
+
+def locate_all(groups: Sequence[Group], now: Instant, body: Affine | None) -> list[Affine | None]:
+    """Maps of groups to body coordinates; each is on the body or on one before it."""
+    motions: list[Affine | None] = []
+    named: dict[str, Affine | None] = {"": body}
+    for group in groups:
+        motions.append(group.locate(now, named[group.on]))
+        if group.name:
+            named[group.name] = motions[-1]
+    return motions
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """A place of a body for other things."""
+
+    on: str
+    """Name of a group; another one = the ground."""
+    at: Point
+    """In that group, m."""
+    is_level: bool = False
+    """Whether its axes are those of the body, and not of the group."""
+
+    def locate(self, groups: Sequence[Group], motions: Sequence[Affine | None]) -> Affine:
+        """[3, 4] axes at the place, in body coordinates."""
+        named = {group.name: motion for group, motion in zip(groups, motions, strict=True)}
+        motion = named.get(self.on)
+        if motion is None:
+            motion = np.eye(3, 4)
+        turn = np.eye(3) if self.is_level else motion[:, :3]
+        return np.column_stack([turn, motion @ np.array([*self.at, 1.0])])
+
+
+def read_anchor(text: str) -> Anchor:
+    """An anchor from its text, such as "head .1 0 .36", or "head .1 0 .36 level".
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    on, *place_words = text.split()
+    is_level = place_words[-1:] == ["level"]
+    return Anchor(on, point([read_number(one) for one in place_words[:3]]), is_level)
+
+
+def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> Group:
+    """A group from what stands after "moving"; it may be on one of those that have these names.
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    joints: list[Joint] = []
+    at_rest: list[Joint] | None = None
+    light, clip, is_paired, name, on = None, None, False, "", ""
+    for item in map(str.strip, how.rstrip(",").split(",")):
+        first, _, rest = item.partition(" ")
+        if first == "on":
+            if rest not in names:
+                raise ValueError(f"no moving part before it has the name {rest!r}")
+            on = rest
+        elif first == "called":
+            name = rest
+        elif first == "light":
+            light = read_light(rest)
+        elif first == "clip":
+            axis, low, high = rest.split()
+            clip = "xyz".index(axis), float(low), float(high)
+        elif item == "pair":
+            is_paired = True
+        elif item == "at rest":
+            at_rest = []
+        else:
+            (joints if at_rest is None else at_rest).append(read_joint(item))
+    resting = None if at_rest is None else tuple(at_rest)
+    return Group(parts, tuple(joints), name, on, resting, light, clip, is_paired)
+
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_TURNED_BACK = np.array([-1.0, 1.0, 1.0, 1.0])
+"""Signs of the columns of a map: its first axis the other way round."""
+
+
+def _mirrored(parts: Sequence[ModelPart]) -> list[ModelPart]:
+    """The same parts on the other side of the body, their surfaces not turned inside out."""
+    return [each.at(_MIRROR[:, None] * each.to_body * _TURNED_BACK) for each in parts]
+
+
+_SLIVER_M = 5e-5
+"""Half of what is left of a box that is not seen."""
+
+
+def _clip(box: ModelPart, axis: int, low: float, high: float) -> ModelPart:
+    """A box along the axes, cut off at two planes across one of them."""
+    to_body = box.to_body.copy()
+    middle, half = to_body[axis, 3], to_body[axis, axis]
+    first, last = max(middle - half, low), min(middle + half, high)
+    to_body[axis, axis] = max(0.5 * (last - first), _SLIVER_M)
+    to_body[axis, 3] = min(max(0.5 * (first + last), low + _SLIVER_M), high - _SLIVER_M)
+    return box.at(to_body)

@@ -1,0 +1,103 @@
+"""The TOML files of `models/data` and `read/data` as tables, traits of nouns, and class ids.
+
+The class id of a noun in label images, boxes and events is the same in every clip and version: new
+nouns are added at the end of `data/class_ids.toml`, and no number is given to another noun.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from types import MappingProxyType
+from typing import Any
+
+
+def list_data(folder: str) -> list[Traversable]:
+    """The TOML files of a folder of `data`, in alphabetical order."""
+    found = (files("texvent_scenes.models") / "data" / folder).iterdir()
+    return sorted((one for one in found if one.name.endswith(".toml")), key=lambda one: one.name)
+
+
+@cache
+def read_table(name: str, room: str = "models") -> Mapping[str, Any]:
+    """The content of `data/<name>.toml` of a room of scenes."""
+    file = files(f"texvent_scenes.{room}") / "data" / f"{name}.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def frozen(value: Any) -> Any:
+    """A copy with lists as tuples, all the way down."""
+    if isinstance(value, Mapping):
+        return {name: frozen(one) for name, one in value.items()}
+    return tuple(map(frozen, value)) if isinstance(value, list) else value
+
+
+@cache
+def _read() -> Mapping[str, Any]:
+    """Trait → its nouns, or its nouns with their values."""
+    found: dict[str, Any] = {}
+    for file in list_data("traits"):
+        found |= read_table(f"traits/{file.name.removesuffix('.toml')}")
+    return {
+        trait: {noun: value for key, value in nouns.items() for noun in key.split(", ")}
+        if isinstance(nouns, Mapping) else nouns
+        for trait, nouns in found.items()
+    }  # fmt: skip
+
+
+@cache
+def nouns_with(trait: str) -> frozenset[str]:
+    """Nouns that have a trait.
+
+    Raises:
+        KeyError: no file has the trait.
+    """
+    return frozenset(_read()[trait])
+
+
+def trait_value(trait: str, noun: str) -> Any:
+    """A noun's value of a trait that is a table; None where it has none."""
+    return _read()[trait].get(noun)
+
+
+def trait_values(trait: str) -> Mapping[str, Any]:
+    """Noun → value of a trait that is a table."""
+    values: Mapping[str, Any] = _read()[trait]
+    return values
+
+
+BACKGROUND = 0
+"""Class of what is no object: ground, sky, walls, scenery without an id."""
+UNNAMED = 1000
+"""Class of an object whose name is not known."""
+FIRST_OTHER = 2001
+"""Numbers of names that are no nouns of the embedded generator begin here."""
+
+
+_NAMES: list[str] = read_table("class_ids")["nouns"].split(",")
+CLASS_IDS: Mapping[str, int] = MappingProxyType(
+    {" ".join(name.split()): number for number, name in enumerate(_NAMES, start=1)}
+)
+"""Noun → class id, 1, 2, ..., of nouns that are gone too."""
+
+
+def class_ids_of(names: Iterable[str]) -> dict[str, int]:
+    """The class ids of names; those of no noun are numbered in alphabetical order.
+
+    Args:
+        names: class names, such as "car".
+
+    Returns:
+        Name → class id.
+
+    Example:
+        >>> class_ids_of(["zeppelin", "dirigible"])
+        {'dirigible': 2001, 'zeppelin': 2002}
+    """
+    asked = set(names)
+    others = enumerate(sorted(asked - CLASS_IDS.keys()), start=FIRST_OTHER)
+    known = {name: CLASS_IDS[name] for name in sorted(asked & CLASS_IDS.keys())}
+    return known | {name: number for number, name in others}

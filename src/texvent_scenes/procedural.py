@@ -1,0 +1,379 @@
+"""The embedded generator: prompt → description → scene → frames, at any instant.
+
+Nothing here is learned. The words of the prompt choose and place articulated models made of
+simple shapes, and a ray caster draws them; in return every frame is exact at its own instant and
+comes with exact ground truth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._version import __version__
+from texvent.config import FPS_RANGE, check_range
+from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
+from texvent.generate.subjects import Subject, describe_subject
+from texvent.options.values import plain
+from texvent.prompt_report import REPORT_KEY
+from texvent.runtime.prefetch import prefetch
+from texvent.sensor import SENSORS, SensorSize
+from texvent.transfer import Transfer, encode_srgb, linear_levels
+from texvent.video import (
+    MICROSECONDS,
+    Frame,
+    Motion,
+    NotebookFrames,
+    describe_stream,
+    frame_time_us,
+)
+from texvent_scenes.description import report_of
+from texvent_scenes.scene_input import list_nouns, nouns_of, understand
+
+if TYPE_CHECKING:
+    from texvent.camera import PosedCamera
+    from texvent.ground_truth import GroundTruth
+    from texvent.prompt_report import PromptReport
+    from texvent.runtime.progress import Progress
+    from texvent_scenes.description import SceneDescription
+    from texvent_scenes.models.protocol import Noun
+    from texvent_scenes.raycast.incremental import IncrementalRenderer
+    from texvent_scenes.rendered_scene import RenderedScene
+    from texvent_scenes.staging.compose import ComposedScene
+
+Rendered: TypeAlias = tuple[NDArray[np.float32], NDArray[np.int64]]
+"""Pixels and codes, as of `SceneFrame`."""
+DEFAULT_SIZE = SENSORS["davis346"].size
+"""Image size when none is given."""
+IMAGES_AHEAD = 8
+"""Images between two frames that are drawn while those of the frames before are simulated."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProceduralConfig:
+    """Options of the embedded generator."""
+
+    fps: Fraction = Fraction(24)
+    """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, every part of the image is
+    rendered as often as it changes: the rate decides little."""
+    duration: float = 2.0
+    """Length of the video, in seconds, cut to whole frame intervals: 0.4 s at 24 fps are nine of
+    them, 0.375 s."""
+    samples: int = 2
+    """Fineness of edges: rays per pixel side that look for them; 1 = fast draft, 2 = smooth
+    enough for events."""
+    shadows: bool = True
+    """Whether the sun and the moon cast shadows."""
+    assets: Path | None = None
+    """Folder of models (GLB, OBJ, PLY), which prompts call by their file names; they take the place
+    of embedded ones of the same name. See docs/assets.md."""
+    hdr: bool = False
+    """Render linear light, with lamps, fire and sun as bright as they are; without it frames are
+    gamma-coded, and highlights are compressed below white."""
+    strict: bool = False
+    """Refuse a prompt with a word that is not understood or shown as something else, or with an
+    object that is never in view; without it a warning names them."""
+
+    def __post_init__(self) -> None:
+        check_range("duration", self.duration, 1e-6, 86_400.0)
+        check_range("samples", self.samples, 1, 8)
+        check_range("fps", self.fps, *FPS_RANGE)
+        if self.intervals < 1:
+            raise ConfigError(
+                f"duration is {self.duration:g} s, shorter than one frame interval at "
+                f"{float(self.fps):g} fps; it must be at least {float(1 / self.fps):g} s"
+            )
+
+    @property
+    def intervals(self) -> int:
+        """Frame intervals in the duration; there is one frame more."""
+        return math.floor(Fraction(str(self.duration)) * self.fps)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SceneFrame(Frame):
+    """A frame of a scene."""
+
+    codes: NDArray[np.int64] | None = None
+    """[H, W] what fills its pixels; see `scenes.raycast.adaptive_sampling.render_rows`."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ProceduralVideo(NotebookFrames):
+    """A rendered scene: a stream of frames that can also be rendered at any instant."""
+
+    scene: RenderedScene
+    """The scene that is rendered."""
+    size: SensorSize
+    """Width and height of every frame, pixels."""
+    config: ProceduralConfig = field(default_factory=ProceduralConfig)
+    """Options of the generator."""
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+    """Result of the generator for the prompt (JSON-serialisable)."""
+    flicker_hz: float | None = None
+    """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
+    has_motion: bool = False
+    """Whether frames carry exact motion vectors and depth."""
+    transfer: Transfer = Transfer.GAMMA
+    """Whether frames are gamma-coded or linear."""
+
+    def __repr__(self) -> str:
+        return describe_stream(self)
+
+    @property
+    def fps(self) -> Fraction:
+        """Frame rate, frames per second."""
+        return self.config.fps
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames: events cover the time from the first to the last."""
+        return self.config.intervals + 1
+
+    @property
+    def is_live(self) -> bool:
+        """False: the frames can be rendered again."""
+        return False
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, each rendered on demand."""
+        return self.from_frame(0)
+
+    def from_frame(self, first: int) -> Iterator[Frame]:
+        """The frames from number `first` on; those before it are not rendered."""
+        renderer = self._make_renderer()
+        for index in range(first, self.frame_count):
+            t_us = frame_time_us(index, self.fps)
+            pixels, codes = self._render(renderer, t_us)
+            motion = self._motion(index) if self.has_motion else None
+            yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
+
+    def at(self, t_us: int) -> Frame:
+        """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
+        pixels, _ = self._render(self._renderer, t_us)
+        return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
+
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
+        return renderer.render(t_us / MICROSECONDS)
+
+    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
+        """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
+        # Imported here: the kernels load Numba, which reading options and help must not do.
+        from texvent_scenes.raycast.ground_truth import ground_truth
+
+        return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
+
+    def instances_at(
+        self, t_us: int, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Depth in metres and instance id, [k], at the image points [k, 2] (x, y), pixels."""
+        from texvent_scenes.raycast.ground_truth import visible_instances
+
+        return visible_instances(self.scene, t_us / MICROSECONDS, self.size, points)
+
+    def camera_at(self, t_us: int) -> PosedCamera:
+        """The camera at `t_us`."""
+        return self.scene.camera(t_us / MICROSECONDS)
+
+    @property
+    def class_names(self) -> Mapping[int, str]:
+        """Instance id → noun, such as {1: "car"}."""
+        return self.scene.class_names
+
+    def with_motion(self) -> ProceduralVideo:
+        """The same video, whose frames carry exact motion vectors and depth."""
+        return replace(self, has_motion=True)
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames of luma at times between two frames, each part drawn as often as it changes.
+
+        Light that beats is drawn at every instant: two frames and their middle may all show the
+        same moment of its beat.
+        """
+        if self.flicker_hz is not None:
+            images = (self.at(t_us).float_luma for t_us in times_us)
+        else:
+            images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
+        return (
+            Frame(image, t_us, is_source=False, transfer=self.transfer)
+            for image, t_us in zip(images, times_us, strict=True)
+        )
+
+    def _draw_between(
+        self, first: Frame, second: Frame, times_us: Sequence[int]
+    ) -> Iterator[NDArray[np.float32]]:
+        from texvent_scenes.raycast.incremental import DrawnInstant, block_speeds
+
+        start, stop = first.motion or Motion(), second.motion or Motion()
+        speeds = block_speeds(self.size, start.forward, stop.backward)
+        times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
+        before = DrawnInstant(0, first.float_luma, getattr(first, "codes", None))
+        after = DrawnInstant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
+        return self._renderer.render_between(before, after, speeds, times)
+
+    def _motion(self, index: int) -> Motion:
+        """Motion from a frame to its neighbours."""
+        from texvent_scenes.raycast.ground_truth import frame_motion
+
+        before, now, after = (
+            frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
+        )
+        last = self.frame_count - 1
+        return frame_motion(
+            self.scene, now, before if index else None, after if index < last else None, self.size
+        )
+
+    @cached_property
+    def _renderer(self) -> IncrementalRenderer:
+        """Renderer of single instants and of those between frames."""
+        return self._make_renderer()
+
+    def _make_renderer(self) -> IncrementalRenderer:
+        from texvent_scenes.raycast.incremental import IncrementalRenderer
+
+        samples, shadows, code = self.config.samples, self.config.shadows, self._code
+        return IncrementalRenderer(
+            self.scene, self.size, samples=samples, shadows=shadows, code=code
+        )
+
+    def gamma_coded(self) -> ProceduralVideo:
+        """The same scene in gamma-coded frames, which go above white where it has highlights."""
+        facts = {name: one for name, one in self.metadata.items() if name != "transfer"}
+        return replace(self, transfer=Transfer.GAMMA, metadata=facts)
+
+    @property
+    def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
+        """Light (1 is white) → levels of a frame."""
+        return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
+
+
+class ProceduralGenerator:
+    """Prompts become scenes built from simple shapes. No weights, no downloads."""
+
+    config_type: ClassVar[type] = ProceduralConfig
+    default_interpolate: ClassVar[str] = "motion"
+    has_ground_truth: ClassVar[bool] = True
+    takes_scenes: ClassVar[bool] = True
+
+    def __init__(
+        self, config: ProceduralConfig, *, seed: int = 0, size: SensorSize | None = None
+    ) -> None:
+        self.config = config
+        self.seed = seed
+        self.size = size if size is not None else DEFAULT_SIZE
+
+    def generate(self, prompt: Subject, *, progress: Progress | None = None) -> ProceduralVideo:
+        """The video for `prompt`.
+
+        Args:
+            prompt: English sentences, such as "a red car drives left past two trees at dusk"; or
+                a scene.
+            progress: unused: frames are rendered on demand.
+
+        Returns:
+            A stream of float RGB frames. Its metadata hold the report of the prompt's words, a
+            `texvent.prompt_report.PromptReport` as JSON, under "prompt_report"; and a scene that
+            was given, as plain values, under "scene".
+
+        Raises:
+            InputError: the prompt is empty, nothing in it is understood, or `strict` refuses it.
+            ConfigError: a field of the scene is wrong, or a word of it is not shown.
+
+        Warns:
+            TexventWarning: some of its words are not shown as they say, or objects out of view.
+        """
+        del progress
+        scene, report, files = self._stage(prompt)
+        for fault in report.warnings(MOST_WORDS):
+            warn(fault)
+        metadata = {
+            "generator": "procedural",
+            "version": __version__,
+            **describe_subject(prompt),
+            "seed": self.seed,
+            "options": plain(self.config),
+            REPORT_KEY: report.to_json(),
+        }
+        if files:
+            metadata["files"] = files
+        transfer = Transfer.LINEAR if self.config.hdr else Transfer.GAMMA
+        if self.config.hdr:
+            metadata["transfer"] = transfer.value
+        return ProceduralVideo(
+            scene,
+            self.size,
+            self.config,
+            metadata,
+            flicker_hz=scene.flicker_hz,
+            transfer=transfer,
+        )
+
+    def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
+        """Report of a prompt, as its output would store it.
+
+        Args:
+            prompt: as `generate` takes it.
+            is_staged: whether the scene is built, which takes 0.1 s, so that objects that are
+                never in view are found too; False: the sentence is only read.
+
+        Raises:
+            InputError: as `generate`.
+        """
+        if is_staged:
+            return self._stage(prompt)[1]
+        return self._accepted(report_of(understand(prompt, nouns_of(prompt, self._nouns))))
+
+    def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
+        # Imported here: the vocabulary and all models are only needed to make a scene.
+        from texvent_scenes.assets.nouns import list_files
+        from texvent_scenes.in_view import find_unseen, without_words
+        from texvent_scenes.staging.compose import compose_scene
+
+        named = nouns_of(prompt, self._nouns)
+        description = understand(prompt, named)
+        said = self._accepted(report_of(description))  # before the scene is built
+        duration_s = self.config.duration
+        scene = compose_scene(
+            description,
+            seed=self.seed,
+            size=self.size,
+            duration_s=duration_s,
+            nouns=_shown_nouns(description, named),
+        )
+        unseen = find_unseen(scene, description, self.size, duration_s)
+        report = replace(
+            said,
+            shown=without_words(said.shown, unseen.violations),
+            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.violations))),
+            out_of_view=unseen.out_of_view,
+            too_small=unseen.too_small,
+        )
+        scene = replace(scene, has_highlights=self.config.hdr)
+        return scene, self._accepted(report), list_files(description, named)
+
+    @cached_property
+    def _nouns(self) -> Mapping[str, Noun]:
+        """Nouns that prompts can name."""
+        return list_nouns(self.config.assets)
+
+    def _accepted(self, report: PromptReport) -> PromptReport:
+        """The report, unless `strict` refuses the prompt."""
+        refusal = report.refusal() if self.config.strict else None
+        if refusal is not None:
+            raise InputError(refusal)
+        return report
+
+
+def _shown_nouns(description: SceneDescription, named: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
+    from texvent_scenes.models.nouns import NOUNS
+
+    return {**NOUNS, **{one.noun: named[one.noun] for one in description.objects}}

@@ -1,0 +1,354 @@
+"""Clauses of a prompt: noun groups, one verb, and what is said of both, in all senses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
+
+_HEADS = ("noun", "place", "effect", "pose", "scene")
+"""Senses that a noun group may end with."""
+_MODIFIERS = ("field", "scene", "adverb")
+"""Senses of the words before a head."""
+_STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
+"""Senses of words that no noun group holds."""
+_IS = ("is", "are", "was", "were")
+_PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
+"""Begin phrases that stand alone: "at night"."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Noun group: a head with its determiner, number and adjectives."""
+
+    head: Token | None
+    """None: it is not known."""
+    modifiers: tuple[Token, ...] = ()
+    unknown: tuple[Token, ...] = ()
+    """Tokens without effect: words that are not known, or that another word stands before."""
+    article: str = ""
+    of: Phrase | None = None
+    """Phrase with "of" that follows: "of apples"."""
+
+    @property
+    def is_plural(self) -> bool:
+        """Whether it names several things: "two dogs", "fish"."""
+        fields = [sense.value for one in self.modifiers for sense in one.all("field")]
+        counts = [value for field, value in fields if field == "count"]
+        if counts or self.head is None:
+            return any(count > 1 for count in counts)
+        if self.head.has("effect") and not self.head.has("noun"):
+            return self.head.text.endswith("s")
+        senses = [one.value for one in self.head.all("noun")]
+        is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
+        is_open = is_name and self.article not in ("a", "an")
+        same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
+        return any(one.is_plural for one in same)
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """Preposition with its groups; without any, a pronoun follows: "behind them"."""
+
+    preposition: Token
+    groups: tuple[Group, ...]
+
+
+@dataclass(frozen=True)
+class Clause:
+    """Subjects, a verb and its objects, and what is said of them."""
+
+    subjects: tuple[Group, ...] = ()
+    verb: Token | None = None
+    objects: tuple[Group, ...] = ()
+    after: tuple[Phrase | Token, ...] = ()
+    """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
+    absent: tuple[Group, ...] = ()
+    about: str = ""
+    """Subject that is not named here: "camera"; "same", those of the clause before, or "then",
+    after it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+
+    @property
+    def is_of_effect(self) -> bool:
+        """Whether it is about an effect: "smoke rises"."""
+        return any(one.head is not None and one.head.has("effect") for one in self.subjects)
+
+    @property
+    def has_subject(self) -> bool:
+        """Whether a verb may follow."""
+        return bool(self.subjects or self.about)
+
+    @property
+    def is_plural(self) -> bool:
+        """Whether a verb in its base form agrees with the subject."""
+        is_open = bool(self.about) or len(self.subjects) > 1
+        return is_open or any(one.is_plural for one in self.subjects)
+
+
+def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
+    """Clauses of the tokens, in order."""
+    return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
+
+
+@dataclass
+class _Parser:
+    """Position in the tokens; each method reads on from there."""
+
+    _tokens: Sequence[Token]
+    _at: int = 0
+
+    def clauses(self) -> Iterator[Clause]:
+        """All clauses; each is begun as the one before says."""
+        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
+                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
+        clause = Clause()
+        while self._token() is not NO_TOKEN:
+            following = self._end(clause)
+            if following is not None:
+                yield clause
+                clause = following
+            elif self._token() is not NO_TOKEN:
+                done = next((one for step in steps if (one := step(clause)) is not None), None)
+                clause = self._read_rest(clause) if done is None else done
+        yield clause
+
+    def _token(self, ahead: int = 0) -> Token:
+        at = self._at + ahead
+        return self._tokens[at] if 0 <= at < len(self._tokens) else NO_TOKEN
+
+    def _take(self) -> Token:
+        self._at += 1
+        return self._token(-1)
+
+    def _end(self, clause: Clause) -> Clause | None:
+        """Beginning of the next clause, where this one ends here."""
+        token, word = self._token(), self._token().text
+        if token.is_sign:
+            self._take()
+            is_list = clause.subjects and not (clause.verb or clause.after)
+            goes_on = self._starts_group() and not self._token().has("scene", "shot")
+            return None if word == "," and is_list and goes_on else Clause()
+        if token.has("conjunctions"):
+            self._take()
+            return Clause(about="then") if word == "then" else Clause()
+        phrase = clause.after[-1] if clause.after else None
+        if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
+            is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
+            return Clause(phrase.groups, about="company") if is_next else None
+        if token.has("relatives") and clause != Clause() and not self._starts_group(1):
+            self._take()
+            return Clause(about="nearest")
+        if word != "and":
+            return None
+        self._take()
+        if self._token().has("conjunctions"):  # "and then"
+            return self._end(clause)
+        if clause.verb is not None and self._is_verb(Clause(about="same")):
+            return Clause(about="same")
+        starts = self._starts_group() or self._token().has("camera")
+        return Clause() if starts and (clause.verb or clause.after) else None
+
+    # Parts of a clause: each step gives the clause with what it has read, or None
+
+    def _read_camera(self, clause: Clause) -> Clause | None:
+        """As "the camera", or "zoom in" at the beginning of a clause."""
+        ahead = 1 if self._token().has("articles") else 0
+        if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
+            self._at += ahead + 1
+            return replace(clause, about="camera")
+        is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
+        if clause == Clause() and is_command and not self._token().has("noun"):
+            return Clause(about="camera", verb=self._take())
+        return None
+
+    def _read_absence(self, clause: Clause) -> Clause | None:
+        """As "without cars"; a verb that is denied is not understood."""
+        if not self._token().has("negations"):
+            return None
+        self._take()
+        return replace(clause, absent=(*clause.absent, self._group()))
+
+    def _read_setting(self, clause: Clause) -> Clause | None:
+        """A word of the scene or of the camera, in any place."""
+        token = self._token()
+        is_verb = clause.verb is None and self._is_verb(clause)
+        if not token.has("scene", "shot") or token.has("noun") or is_verb:
+            return None
+        return replace(clause, after=(*clause.after, self._take()))
+
+    def _read_verb(self, clause: Clause) -> Clause | None:
+        if clause.verb is not None or not self._is_verb(clause):
+            return None
+        verb = self._take()
+        is_object = self._starts_group() and not self._token().has("adverb")
+        return replace(clause, verb=verb, objects=self._groups() if is_object else ())
+
+    def _is_verb(self, clause: Clause) -> bool:
+        """Whether the token is a verb of the clause.
+
+        A bare form needs several subjects, and a word that is a noun too needs one right before.
+        """
+        token = self._token()
+        forms = {one.form for one in token.all("verb")}
+        if not forms or (forms == {"base"} and not clause.is_plural):
+            return False
+        if token.has("noun", "effect", "place", "scene", "field"):
+            return clause.has_subject
+        is_ego = "ing" in forms and not self._token(1).has("noun")
+        return clause.has_subject or is_ego
+
+    def _read_phrase(self, clause: Clause) -> Clause | None:
+        token = self._token()
+        is_doing = token.text in _IS and self._token(1).text.endswith("ing")
+        if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
+            return None
+        is_back = token.has("relation") and self._token(1).has("pronouns")
+        if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
+            if token.has("adverb") or not token.has("relation"):
+                return None
+            return replace(clause, after=(*clause.after, self._take()))
+        self._at += 1 + is_back
+        phrase = Phrase(token, () if is_back else self._groups(token))
+        return replace(clause, after=(*clause.after, phrase))
+
+    def _read_adverb(self, clause: Clause) -> Clause | None:
+        token = self._token()
+        if token.has("pronouns"):
+            self._take()
+            is_subject = not clause.has_subject and clause.verb is None
+            return replace(clause, about="same") if is_subject else clause
+        if not token.has("adverb"):
+            return None
+        return replace(clause, after=(*clause.after, self._take()))
+
+    def _read_group(self, clause: Clause) -> Clause | None:
+        is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
+        is_rest = (self._token().is_unknown and is_said) or self._is_no_noun(clause)
+        if is_rest or not self._starts_group():
+            return None
+        if clause.verb is None:
+            return replace(clause, subjects=(*clause.subjects, self._group()))
+        return replace(clause, objects=(*clause.objects, self._group()))
+
+    def _read_rest(self, clause: Clause) -> Clause:
+        """A word that is not known right after the subject is taken to be its verb."""
+        token = replace(self._take(), senses=()) if self._is_no_noun(clause) else self._take()
+        is_verb = clause.subjects and not clause.verb and token.is_unknown
+        if not is_verb or token.text.endswith("ly"):
+            return replace(clause, after=(*clause.after, token))
+        groups = self._groups() if self._starts_group() else ()
+        return replace(clause, verb=token, objects=groups)
+
+    def _is_no_noun(self, clause: Clause) -> bool:
+        """Whether a bare noun follows a finished group: "are building a wall"."""
+        token, before = self._token(), self._token(-1)
+        is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*_MODIFIERS)
+        is_doing = before.text in _IS and token.text.endswith("ing")
+        is_after = before.has("noun", "place") or before.is_unknown
+        return is_noun and ((clause.has_subject and (is_after or is_doing)) or self._has_object())
+
+    # Noun groups
+
+    def _starts_group(self, ahead: int = 0) -> bool:
+        token, after = self._token(ahead), self._token(ahead + 1)
+        if token.has("articles"):
+            return not after.has("camera") and not after.is_sign
+        is_view = token.has("shot") and not token.has("noun", "place")
+        is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
+        if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
+            return False
+        if token.has("noun", "place", "effect", "pose", "field"):
+            return True
+        is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
+        if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
+            return True
+        return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
+
+    def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
+        """Groups with "and" between them, but for one that begins a clause.
+
+        So does one with a like preposition: "a girl with a hat and a boy with a ball".
+        """
+        found = [self._group()]
+        while self._token().text == "and" and self._starts_group(1) and not self._has_object(1):
+            start = self._at
+            self._take()
+            group = self._group()
+            if self._is_verb(Clause((group,))) or self._is_like(preposition):
+                self._at = start
+                break
+            found.append(group)
+        return tuple(found)
+
+    def _is_like(self, preposition: Token) -> bool:
+        """Whether a preposition is here like the one before, or one with a pronoun."""
+        token, positions = self._token(), word_set("things", "positions") - {"between"}
+        kinds = {one.value for each in (preposition, token) for one in each.all("relation")}
+        is_back = preposition.text != "with" and self._token(1).has("pronouns")
+        is_both = token.has("relation") and preposition.has("relation")
+        return is_both and (token.text == preposition.text or is_back or kinds <= positions)
+
+    def _group(self) -> Group:
+        modifiers: list[Token] = []
+        unknown: list[Token] = []
+        head, article = None, self._token().text if self._token().has("articles") else ""
+        while self._token().has("articles"):
+            self._take()
+        first = self._at
+        while head is None and not self._ends_group(first) and self._agrees(article, first):
+            token = self._take()
+            if token.is_unknown:  # the words before it qualify it
+                unknown, modifiers = [*unknown, *modifiers, token], []
+            elif not token.has(*_HEADS) or self._stands_before(token):
+                modifiers.append(token)
+            elif self._is_compound(article, first):
+                unknown.append(token)
+            else:
+                head = token
+        if self._at == first and self._token() is not NO_TOKEN:
+            unknown.append(self._take())
+        of = None
+        if self._token().text == "of" and self._starts_group(1):
+            of = Phrase(self._take(), (self._group(),))
+        return Group(head, tuple(modifiers), tuple(unknown), article, of)
+
+    def _ends_group(self, first: int) -> bool:
+        token = self._token()
+        if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
+            return True
+        if token.has(*_HEADS, *_MODIFIERS):
+            return token.has("relation") and self._at > first
+        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
+
+    def _stands_before(self, token: Token) -> bool:
+        """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
+        after = self._token()
+        is_before = token.has(*_MODIFIERS) and not after.has("relation")
+        return is_before and after.has(*_HEADS, "field")
+
+    def _is_compound(self, article: str, first: int) -> bool:
+        """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
+        after = self._token()
+        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        is_head = is_head and self._agrees(article, first) and not self._has_object()
+        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
+        is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
+        is_word = after.is_unknown and after.text.isalpha() and not is_verb
+        return (is_head or is_word) and not is_many
+
+    def _agrees(self, article: str, first: int) -> bool:
+        """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
+        senses = [one.value for one in self._token().all("noun")]
+        words, is_one = self._tokens[first : self._at], article in ("a", "an")
+        is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
+        said = [sense.value for one in words for sense in one.all("field") if not is_other]
+        counts = [float(value) for field, value in said if field == "count"]
+        if not senses or not (counts or is_one):
+            return True
+        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
+
+    def _has_object(self, ahead: int = 0) -> bool:
+        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
+        token = self._token(ahead)
+        return token.text.endswith("s") and self._token(ahead + 1).has("articles")

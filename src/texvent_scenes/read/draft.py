@@ -1,0 +1,202 @@
+"""Draft of a scene: objects, effects and moves of the camera so far, and the fate of each word."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, get_args
+
+from texvent.prompt_report import Substitution
+from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.clauses import Clause
+from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.spec.data import PLACING, scene_from_data
+from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
+
+_UNTURNED = ("handheld", "static")
+_MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
+            "relation", "camera")  # fmt: skip
+"""Senses of words that a report does not list unless they are lost or shown."""
+
+
+def is_grammar(token: Token) -> bool:
+    """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
+    return token.has(*_GRAMMAR)
+
+
+def split_move(phrase: str) -> dict[str, Any]:
+    """A move of words.toml, such as "zoom in", as fields of `CameraMove`."""
+    kind, _, direction = phrase.partition(" ")
+    is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
+    return {"kind": kind, **({"direction": direction} if is_turned else {})}
+
+
+def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
+    """Set a field of an object, or an adverb of its last motion."""
+    if field == "rate_hz" and "blink_hz" in thing:
+        field, kind = "blink_hz", "field"
+    if kind == "field" or field == "placement":
+        thing[field] = int(value) if field == "count" else value
+        return
+    if not thing["motions"]:
+        thing["motions"].append({"kind": "move"})
+    motion = thing["motions"][-1]
+    motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
+
+
+def add_motion(thing: dict[str, Any], act: VerbSense) -> None:
+    """Add a motion; it takes the place of one of which only the pace is said."""
+    motions, pace = thing["motions"], act.pace
+    if not act.kind:
+        return
+    said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
+    motion = {name: value for name, value in said.items() if value is not None}
+    if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
+        pace *= motions.pop().get("pace", 1.0)
+    motions.append(motion | ({"pace": pace} if pace != 1.0 else {}))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """The scene that a sentence describes, and what became of its words."""
+
+    scene: Scene
+    shown: tuple[str, ...]
+    """Words that the scene shows."""
+    substituted: tuple[Substitution, ...]
+    """Words that are shown as something else."""
+    not_understood: tuple[str, ...]
+    """Words without effect on the scene."""
+
+
+@dataclass
+class SceneDraft:
+    """Scene that is being read; clauses are applied one after the other."""
+
+    tokens: Sequence[Token]
+    things: list[dict[str, Any]] = field(default_factory=list)
+    """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
+    not known."""
+    moves: list[dict[str, Any]] = field(default_factory=list)
+    phase: int = 0
+    """Phase of moves of the camera: those said after "then" follow."""
+    effects: list[dict[str, Any]] = field(default_factory=list)
+    """Effects, each with the index of its source."""
+    absent: list[str] = field(default_factory=list)
+    parts: dict[str, dict[str, Any]] = field(
+        default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
+    )
+    """Fields of the camera, the light and the place."""
+    _fates: dict[int, str] = field(default_factory=dict)
+    """Number of a token → "lost", "shown", or the noun that it is shown as."""
+
+    def show(self, *tokens: Token) -> None:
+        """Count tokens as shown, unless they are lost or shown as something else."""
+        for one in tokens:
+            self._fates.setdefault(one.at, "shown")
+
+    def mark(self, token: Token, fate: str) -> None:
+        """Count a token as "lost", or as shown by a noun."""
+        self._fates[token.at] = fate
+
+    def shows(self, token: Token) -> bool:
+        """Whether a token is shown, as itself or as something else."""
+        return self._fates.get(token.at, "lost") != "lost"
+
+    def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
+        """Add a relation of an object to others; False: it has none, or goes round in a circle."""
+        is_one = self.things[subject]["count"] == 1
+        if not targets or (subject in targets and is_one):
+            return False
+        if kind in PLACING and any(self._stands_by(target, subject) for target in targets):
+            return False
+        self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
+        return True
+
+    def _stands_by(self, subject: int, other: int) -> bool:
+        """Whether where an object stands depends on where another one does."""
+        relations = [one for one in self.things[subject]["relations"] if one["kind"] in PLACING]
+        return subject == other or any(
+            self._stands_by(target, other) for one in relations for target in one["to"]
+        )
+
+    def set_scene(self, token: Token) -> bool:
+        """Apply a word of light, weather, place or camera, wherever it stands."""
+        for sense in token.all("shot"):
+            self.add_move(split_move(sense.value))
+        for part, name, value in (sense.value for sense in token.all("scene")):
+            self.parts[part][name] = value
+        is_said = token.has("shot", "scene")
+        self.show(*([token] if is_said else []))
+        return is_said
+
+    def add_move(self, move: dict[str, Any]) -> None:
+        """Add a move of the camera; what flies is seen from the air."""
+        self.moves.append({**move, **({"phase": self.phase} if self.phase else {})})
+        if move.get("means") == "fly":
+            self.parts["camera"].setdefault("view", "aerial")
+
+    def find_move(self, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
+        """The move of a clause with its direction and pace; these words are counted as shown.
+
+        None where the verb is no move of a camera.
+        """
+        verb = clause.verb
+        senses = [one.value for one in verb.all("verb")] if verb is not None else []
+        moves = [one.kind for one in senses if one.who == "camera"]
+        if verb is None or not moves:
+            return None
+        self.show(verb)
+        move = split_move("travel forward" if is_ego else moves[0])
+        turned = read_table("words", "read")["turned_moves"]
+        for one in (each for each in clause.after if isinstance(each, Token)):
+            name, value = sense.value if (sense := one.first("adverb")) else ("", "")
+            if name == "direction":
+                phrase = f"{move['kind']} {value}"
+                side = split_move(turned.get(phrase, phrase))
+                name, move = ("pace", move | side) if "direction" in side else ("", move)
+            elif name in ("pace", "speed_m_s"):
+                move[name] = move.get("pace", 1.0) * value if name == "pace" else value
+            if name in ("pace", "speed_m_s"):
+                self.show(one)
+        means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
+        if move["kind"] == "travel" and means:
+            move["means"] = means[0]
+        return move
+
+    def reading(self, prompt: str) -> Reading:
+        """The scene, and its words; one that is lost at one place of the prompt is not shown."""
+        fates: dict[str, str] = {}
+        for token in self.tokens:
+            is_open = token.is_sign or is_grammar(token)
+            fate = self._fates.get(token.at, "" if is_open else "lost")
+            if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
+                fates[token.text] = fate
+        others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
+        return Reading(
+            scene=self._build(prompt),
+            shown=tuple(word for word, fate in fates.items() if fate == "shown"),
+            substituted=tuple(Substitution(*one) for one in others),
+            not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
+        )
+
+    def _build(self, prompt: str) -> Scene:
+        """The scene; copies of objects that have most are left out until it holds them all."""
+        while sum(one["count"] for one in self.things) > MAX_BODIES:
+            max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
+        ids = number_nouns([one["noun"] for one in self.things])
+        for one in self.things:
+            done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+            if one.pop("is_lost", False) and not done and not one["motions"]:
+                one["motions"].append({"kind": "stand"})
+            for relation in one["relations"]:
+                relation["to"] = [ids[target] for target in relation["to"]]
+        for each in (self.parts["camera"], *self.effects):
+            named = {name: each.get(name) for name in ("target", "source")}
+            each.update({name: ids[one] for name, one in named.items() if one is not None})
+        camera = {"moves": self.moves, **self.parts["camera"]}
+        return scene_from_data(
+            {"prompt": prompt, "objects": self.things, "effects": self.effects, "camera": camera,
+             "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent}
+        )  # fmt: skip

@@ -1,0 +1,352 @@
+"""Lexicon: phrases in all their forms with their senses; and tokens, the phrases of a prompt."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+from texvent_scenes.colours import SURFACES
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    ANIMAL_ACTIVITIES,
+    DVS_GESTURES,
+    HAND_GESTURES,
+)
+from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import read_table
+from texvent_scenes.words import find_literals, list_plurals, list_verb_forms
+
+_UNSAID = ("parked ", "flying ")
+"""Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
+
+
+@cache
+def word_set(table: str, key: str) -> frozenset[str]:
+    """Words of an entry of words.toml."""
+    return frozenset(read_table("words", "read")[table][key])
+
+
+@dataclass(frozen=True)
+class NounSense:
+    """Noun that a word names."""
+
+    noun: str
+    is_plural: bool = False
+    is_kind: bool = False
+    """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
+
+
+@dataclass(frozen=True)
+class VerbSense:
+    """Verb, and what it asks for of its subject and its object."""
+
+    who: str = "plain"
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
+    "machine" or "plain" (anything)."""
+    kind: str = ""
+    """Motion, activity, camera move or effect."""
+    pace: float = 1.0
+    end_pace: float | None = None
+    direction: str | None = None
+    relation: str | None = None
+    """Relation to its object."""
+    object: str = ""
+    """Motion of its object."""
+    is_near: bool = False
+    """Whether it is reported as shown by another one."""
+
+
+@dataclass(frozen=True)
+class Sense:
+    """Meaning that a phrase may have."""
+
+    kind: str
+    """Part of the grammar: "noun", "place", "verb", "relation", "shot", "pose", "effect"; "field"
+    (of an object), "adverb" (of a motion) and "scene" (of the camera, the light or the place),
+    whose values are names with values; "unit"; "other" (nothing that is shown); or of words.toml's
+    [grammar]."""
+    value: Any
+    form: str = ""
+    """Form of a verb: "base", "s", "ing" or "ed"."""
+
+
+Senses: TypeAlias = tuple[Sense, ...]
+Lexicon: TypeAlias = Mapping[tuple[str, ...], Senses]
+"""Phrases, as words in lower case without articles, and their senses."""
+LONGEST_PHRASE = 8
+"""Most words of a phrase that is read."""
+
+
+def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
+    """Lexicon of nouns; None: the embedded ones, of which it is made once."""
+    return _embedded() if nouns is None or nouns is NOUNS else _make(nouns)
+
+
+@cache
+def _embedded() -> Lexicon:
+    return _make(NOUNS)
+
+
+def _make(nouns: Mapping[str, Noun]) -> Lexicon:
+    found: dict[tuple[str, ...], dict[Sense, None]] = {}
+    articles = word_set("senses", "articles")
+    for text, sense in (*_list_nouns(nouns), *_list_verbs(), *_list_effects(), *_list_words()):
+        words = text.replace("-", " ").split()
+        phrase = tuple(one for one in words if one not in articles) or (text,)
+        found.setdefault(phrase, {})[sense] = None
+    for word in word_set("ambiguous", "words"):
+        for form in (word, *list_plurals(word)):
+            found.pop((form,), None)
+    return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
+
+
+def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
+    said = [
+        one for one in nouns.values()
+        if one.name not in SCENERY_ONLY and not one.name.startswith(_UNSAID)
+    ]  # fmt: skip
+    plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
+    names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
+    for noun, kinds in read_table("kinds", "read").items():
+        for kind in kinds if noun in nouns else ():
+            if kind not in plurals:
+                names.setdefault(kind, NounSense(noun, is_kind=True))
+    for name, one in names.items():
+        yield name, Sense("noun", one)
+    for name, one in names.items():
+        for plural in set(list_plurals(name)) - {name}:
+            yield plural, Sense("noun", replace(one, is_plural=True))
+    for name, sense in plurals.items():
+        yield name, Sense("noun", sense)
+
+
+def _list_verbs() -> Iterator[tuple[str, Sense]]:
+    """Verbs; what only persons, hands or animals can do goes before what anything can."""
+    for phrase, sense in (*_list_activities(), *_list_plain_verbs()):
+        base, _, rest = phrase.replace("-", " ").partition(" ")
+        written = read_table("words", "read")["irregular"].get(base, "")
+        for word, form in list_verb_forms(base, written):
+            yield f"{word} {rest}".strip(), Sense("verb", sense, form)
+
+
+def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
+    words = read_table("words", "read")
+    for who, kinds in words["doing"].items():
+        for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
+            base, _, pace = verb.partition("*")
+            yield base, VerbSense(who, kind, float(pace or 1))
+    for base, fields in words["verbs"].items():
+        yield base, VerbSense(**fields)
+
+
+_SHOWING = ("show", "make", "do", "give")
+_PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
+
+
+def _list_activities() -> Iterator[tuple[str, VerbSense]]:
+    for who, table in _PERFORMERS:
+        for name, activity in table.items():
+            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
+            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for phrase in activity.named:  # "a hand shows a thumbs up"
+                yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
+    for name, activity in ANIMAL_ACTIVITIES.items():
+        yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
+    for name, effect in EFFECTS.items():
+        yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_effects() -> Iterator[tuple[str, Sense]]:
+    """Nouns of effects, and activities and gestures that are named by a noun."""
+    for name, effect in EFFECTS.items():
+        for phrase in effect.nouns:
+            yield from _with_plurals(phrase, Sense("effect", name))
+    for who, table in _PERFORMERS:
+        for name, activity in table.items():
+            yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
+    yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
+
+
+def _list_words() -> Iterator[tuple[str, Sense]]:
+    """Words of places, and those of words.toml: the path to a list of phrases is their sense."""
+    words = read_table("words", "read")
+    for place, one in PLACES.items():
+        for name in one.names:
+            yield from _with_plurals(name, Sense("place", place))
+    yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
+    for field, units in words["units"].items():
+        yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
+    for path, phrases in _walk(words["senses"]):
+        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
+
+
+def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:
+    """Lists of a table of tables, each with the keys that lead there."""
+    for key, value in table.items():
+        if isinstance(value, list):
+            yield (*path, key), value
+        else:
+            yield from _walk(value, (*path, key))
+
+
+def _sense_of(kind: str, *rest: str) -> Sense:
+    """As "scene", "light", "kind", "dusk"; "field", "size", "1.4"; or "relation", "on"."""
+    if kind in ("field", "adverb", "scene"):
+        value = (rest[-1],) if "backdrops" in rest else _plain(rest[-1])
+        return Sense(kind, (*rest[:-1], value))
+    return Sense(kind, rest[0] if rest else kind)
+
+
+def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
+    yield from ((form, sense) for form in {phrase, *list_plurals(phrase)})
+
+
+def _plain(value: str) -> str | float | bool:
+    """As "true" = True, "0.5" = 0.5."""
+    if value in ("true", "false"):
+        return value == "true"
+    return float(value) if value.replace(".", "").isdigit() else value
+
+
+MOST_WORDS = 1000
+"""Words of a prompt that are read; later ones are not understood, all together."""
+MAX_COUNT = 24
+"""Most copies of one object."""
+_RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
+"""Least and most of a quantity of scenes."""
+_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
+_OWNER = re.compile(r"['’]s?$")
+
+
+@dataclass(frozen=True)
+class Token:
+    """Phrase of a prompt, with all its senses."""
+
+    text: str
+    """In lower case; of a picture as the prompt has it."""
+    at: int
+    """Number in the prompt, from 0."""
+    senses: tuple[Sense, ...] = ()
+
+    @property
+    def is_sign(self) -> bool:
+        """Whether it only separates words."""
+        return not self.senses and not any(map(str.isalnum, self.text))
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether it is a word that the reader does not know."""
+        return not self.is_sign and (not self.senses or self.has("other"))
+
+    @property
+    def is_liquid(self) -> bool:
+        """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
+        return self.text in word_set("things", "liquids")
+
+    def all(self, kind: str) -> tuple[Sense, ...]:
+        """Senses of a kind."""
+        return tuple(one for one in self.senses if one.kind == kind)
+
+    def first(self, *kinds: str) -> Sense | None:
+        """The first sense of one of the kinds."""
+        return next((one for one in self.senses if one.kind in kinds), None)
+
+    def has(self, *kinds: str) -> bool:
+        """Whether it may be of one of the kinds."""
+        return any(one.kind in kinds for one in self.senses)
+
+    def verbs(self, *forms: str) -> tuple[Sense, ...]:
+        """Its senses as a verb in one of the forms."""
+        return tuple(one for one in self.senses if one.kind == "verb" and one.form in forms)
+
+
+NO_TOKEN = Token(".", -1)
+"""Stands before the first token and after the last one."""
+
+
+def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
+    """Tokens of a prompt, in order."""
+    text = unicodedata.normalize("NFKC", prompt)
+    found: list[Token] = []
+    start = 0
+    for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
+        words, at = _WORD.findall(text[start:begin]), 0
+        while at < len(words):
+            length, senses = _read_phrase(words, at, lexicon, found)
+            text_of = " ".join(words[at : at + length]).casefold()
+            found.append(Token(text_of, len(found), senses))
+            at += length
+        if picture is not None:
+            sense = Sense("picture", ("picture", picture))
+            found.append(Token(picture.value, len(found), (sense,)))
+        start = end
+    if len(found) > MOST_WORDS:
+        found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
+    return tuple(found)
+
+
+def _read_phrase(
+    words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
+) -> tuple[int, Senses]:
+    """Number of words of the longest phrase at a word, and its senses."""
+    length, senses, phrase = 1, tuple[Sense, ...](), list[str]()
+    for end in range(at, len(words)):
+        word = words[end].casefold()
+        if end > at and word in word_set("senses", "articles"):
+            continue
+        phrase.append(_OWNER.sub("", word))
+        if len(phrase) > LONGEST_PHRASE:
+            break
+        found = lexicon.get(tuple(phrase), ())
+        if end == at and _OWNER.search(word):
+            found = ()  # "the cat's" alone: whose, not what
+        if len(phrase) > 1 and found:
+            found = _without_chance(found, words, end, before)
+        if found:
+            length, senses = end + 1 - at, found
+    is_number = length == 1 and words[at][0].isdecimal()
+    return _read_quantity(words, at, lexicon) if is_number else (length, senses)
+
+
+def _without_chance(
+    senses: Senses, words: Sequence[str], end: int, before: Sequence[Token]
+) -> Senses:
+    """Senses of several words that do not stand together by chance.
+
+    As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
+    (no things), "steps out from behind a car" (no view).
+    """
+    after = words[end + 1].casefold() if end + 1 < len(words) else ""
+    articles = word_set("senses", "articles")
+    is_verb = words[end].endswith("ing") and after in articles
+    is_single = any(one.text in ("a", "an") for one in before[-2:])
+    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
+    return tuple(
+        one for one in senses
+        if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
+        and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
+        and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
+    )  # fmt: skip
+
+
+def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
+    """A number of things, or a speed or frequency with its unit, in the range of scenes."""
+    number = float(words[at].replace(",", ""))
+    for length in (3, 2, 1):
+        unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
+        for sense in lexicon.get(unit, ()):
+            if sense.kind == "unit":
+                field, factor = sense.value
+                least, most = _RANGES[field]
+                is_shown = least <= number * factor <= most
+                said = Sense("adverb", (field, number * factor))
+                return 1 + length, (said,) if is_shown else ()
+    return 1, (Sense("field", ("count", max(1, min(round(number), MAX_COUNT)))),)

@@ -1,0 +1,380 @@
+"""Scenes of clauses: which objects there are, what they do and where."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.places import PLACES, is_room
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
+from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, set_field
+from texvent_scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
+from texvent_scenes.spec.scene import MAX_BODIES
+
+PLURAL_COUNT = 3
+"""Copies that a bare plural means."""
+BLINK_HZ = 2.0
+"""Frequency of a lamp of which only is said that it blinks."""
+
+
+def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
+    """The scene that any text describes, of these nouns; what it leaves open stays open."""
+    tokens = split_prompt(prompt, lexicon_of(nouns))
+    draft = SceneDraft(tokens)
+    reader = _SentenceReader(draft, nouns)
+    for clause in read_clauses(tokens):
+        reader.apply(clause)
+    return draft.reading(prompt)
+
+
+class _SentenceReader:
+    """Applies clauses to a draft."""
+
+    def __init__(self, draft: SceneDraft, nouns: Mapping[str, Noun]) -> None:
+        self._draft = draft
+        self._nouns = nouns
+        self._subjects: list[int] = []
+        """Objects that the last clause was about."""
+        self._nearest: list[int] = []
+        """Objects of the last noun group."""
+        self._was_camera = False
+
+    def apply(self, clause: Clause) -> None:
+        """Add what a clause says."""
+        self._draft.phase += clause.about == "then" and bool(self._draft.moves)
+        for head in (group.head for group in clause.absent):
+            if head is not None and head.has("noun"):
+                self._draft.absent.append(head.all("noun")[0].value.noun)
+                self._draft.show(head)
+        goes_on = self._was_camera and clause.about in ("same", "then")
+        is_camera = goes_on or clause.about == "camera"
+        is_ego = not is_camera and self._is_ego(clause)
+        self._was_camera = is_camera
+        if is_camera or is_ego:
+            self._apply_to_camera(clause, is_ego=is_ego)
+        else:
+            self._apply_to_things(clause)
+
+    def _apply_to_things(self, clause: Clause) -> None:
+        told = subjects = self._find_subjects(clause)
+        first = clause.verb.at if clause.verb is not None else 0
+        before = [one for one in clause.after
+                  if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
+        for phrase in before:
+            told = self._relate(phrase, subjects, subjects) or subjects
+        objects = [index for group in clause.objects for index in self._name(group)]
+        self._subjects, moved = list(subjects), subjects
+        if clause.verb is not None:
+            is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
+            found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
+            kinds = {one.value.kind for one in clause.verb.all("verb")}
+            if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
+                found = []  # "smoke rises from a chimney", as it does by itself
+                self._draft.show(clause.verb)
+            for index in subjects if found is None else ():  # what it does is not made up
+                self._draft.things[index]["is_lost"] = True
+            subjects, moved = ([], []) if found is None else (subjects, found or subjects)
+            told = moved
+        for one in (each for each in clause.after if each not in before):
+            if isinstance(one, Phrase):
+                told = self._relate(one, subjects, moved) or moved
+            elif not self._draft.set_scene(one):
+                adverb = one.first("adverb")
+                if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
+                    self._draft.mark(one, "lost")
+                self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
+
+    def _find_subjects(self, clause: Clause) -> list[int]:
+        """Objects that a clause is about; in company, those that go by themselves."""
+        if clause.about == "company":
+            going = [one for one in self._nearest if self._moves(one)]
+            is_known = all(one.head and self._draft.shows(one.head) for one in clause.subjects)
+            return (going or self._subjects) if is_known and not clause.is_of_effect else []
+        if clause.subjects:
+            return [index for group in clause.subjects for index in self._name(group)]
+        return self._nearest if clause.about == "nearest" else self._subjects
+
+    # Noun groups
+
+    def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
+        """Add what a group names; the indices of its objects, at most one.
+
+        An effect comes from the first of the owners.
+        """
+        head = group.head
+        found: list[int] = []
+        if head is not None and self._is_place(head, relation):
+            self._set_place(group, head, relation)
+        elif head is not None and head.has("noun", "pose"):
+            found = self._name_thing(group, head)
+        else:  # an effect, light, weather, or nothing that is known
+            for token in (*group.modifiers, *([head] if head else [])):
+                effect = token.first("effect")
+                if not self._draft.set_scene(token) and effect is not None:
+                    self._add_effect(token, effect.value, owners)
+        if group.of is not None:
+            self._fill(found, group.of.groups[0])
+        return found
+
+    def _fill(self, vessels: Sequence[int], content: Group) -> None:
+        """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
+        head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
+        if head is not None and self._is_place(head, ""):
+            self._name(content, "in")
+        elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
+            for index in self._name(content):
+                self._draft.relate(index, "in", vessels)
+            self._nearest = list(vessels)
+
+    def _is_place(self, head: Token, relation: str) -> bool:
+        is_thing = head.has("noun", "pose") or head.is_liquid
+        if relation in word_set("things", "outside"):  # "behind a library": where is that?
+            return False
+        return head.has("place") and (bool(relation) or not is_thing)
+
+    def _moves(self, index: int) -> bool:
+        """Whether an object can go from place to place by itself."""
+        return self._nouns[self._draft.things[index]["noun"]].speed_m_s > 0.0
+
+    def _name_thing(self, group: Group, head: Token) -> list[int]:
+        draft, noun = self._draft, head.first("noun")
+        is_owned = group.article in word_set("things", "owners")
+        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        is_part = noun and ((is_owned and noun.value.noun in HAND_NOUNS) or group.article == "its")
+        if len(draft.things) == MAX_BODIES or (is_part and not known):
+            return []  # "his hands", "with its propellers": parts of a body
+        draft.show(head)
+        is_plain = not group.modifiers and not group.unknown
+        is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
+        if is_same and is_plain and group.article in ("the", "its", "his", "her", "their"):
+            self._nearest = known[-1:]  # "the car", where there is one
+            return known[-1:]
+        if noun is not None:
+            thing = {"noun": noun.value.noun, "motions": []}
+            if noun.value.is_kind:
+                draft.mark(head, noun.value.noun)
+        else:
+            who, activity = head.all("pose")[0].value
+            thing = {"noun": who, "motions": [{"kind": activity}]}
+        count = PLURAL_COUNT if group.is_plural else 1
+        draft.things.append({**thing, "count": count, "relations": []})
+        index = len(draft.things) - 1
+        for token in group.modifiers:
+            self._say(token, [index])
+        self._nearest = [index]
+        return [index]
+
+    def _add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
+        self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        self._draft.show(token)
+
+    def _set_place(self, group: Group, head: Token, relation: str) -> None:
+        """As "on a snowy road", "a red sky", "a mountain road"."""
+        draft, place = self._draft, self._draft.parts["place"]
+        name = head.all("place")[0].value
+        for token in group.modifiers:
+            field, value = (token.first("field") or Sense("", ("", ""))).value
+            if token.text == "dark":
+                draft.parts["light"].setdefault("kind", "night")
+                if name == "plain":
+                    place |= {"colour": "black", "sky": "black"}
+            elif field == "colour" and not is_room(name):
+                place["sky" if name == "sky" else "colour"] = value
+            elif not self._draft.set_scene(token):
+                continue
+            draft.show(token)
+        self._draft.set_scene(head)
+        is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
+            draft.show(head)
+
+    # What is said of things
+
+    def _say(self, token: Token, subjects: Sequence[int]) -> None:
+        """Apply an adjective, an adverb, a participle, or a word of the scene."""
+        draft, light = self._draft, self._draft.parts["light"]
+        said = token.first("field", "picture", "adverb")
+        field, value = said.value if said is not None else ("", "")
+        things = [draft.things[index] for index in subjects]
+        is_set = field in word_set("things", "once") and any(field in one for one in things)
+        is_idle = not any(one["motions"] or "blink_hz" in one for one in things)
+        if field == "rate_hz" and "flicker_hz" in light and not things:
+            light["flicker_hz"] = value
+        elif field == "picture" and draft.things:
+            (things or draft.things)[-1]["picture"] = vars(value)
+        elif is_set or (field == "rate_hz" and is_idle):
+            return
+        elif said is not None and things:
+            for thing in things:
+                set_field(thing, said.kind, field, value)
+        else:
+            if not self._draft.set_scene(token) and things and token.verbs("ing", "ed"):
+                self._act(token, subjects, [], has_object=False)
+            return
+        draft.show(token)
+
+    # Verbs
+
+    def _act(
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
+    ) -> list[int] | None:
+        """Apply the first sense that the subjects can do; who moves, or None: there is none."""
+        draft, has_object = self._draft, has_object or bool(objects)
+        acts = (one.value for one in verb.all("verb") if subjects)
+        act = next((one for one in acts if self._fits(one, subjects, objects, has_object)), None)
+        if act is None or (has_object and not objects and act.who == "plain"):
+            return None  # what it is done to is not known
+        draft.show(verb)
+        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
+            draft.mark(verb, act.kind)
+        for index in subjects:
+            self._do(act, verb, index)
+        for index in objects:
+            add_motion(draft.things[index], VerbSense(kind=act.object))
+        if act.relation == "collide" and not objects:
+            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
+        for index in subjects if act.relation is not None else ():
+            draft.relate(index, act.relation or "", objects)
+        return list(objects if act.object and objects else subjects)
+
+    def _do(self, act: VerbSense, verb: Token, index: int) -> None:
+        """Let an object do it; a flame burns and flickers by itself."""
+        thing = self._draft.things[index]
+        if act.who not in ("source", "lamp"):
+            add_motion(thing, act)
+        elif thing["noun"] not in word_set("things", "flames"):
+            if act.who == "lamp":
+                thing["blink_hz"] = BLINK_HZ
+            else:
+                self._add_effect(verb, act.kind, [index])
+
+    def _fits(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool:
+        """Whether the subjects can do it, with an object or without one."""
+        things = [self._draft.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
+        match verb.who:
+            case "person":
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self._draft.things[one]["noun"] in used for one in objects)
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "animal":
+                return all(verb.kind in self._nouns[one].acts for one in names)
+            case "machine":
+                return not has_object and all(self._nouns[one].is_working for one in names)
+            case "source" | "lamp":
+                return not has_object and not is_acting
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
+            return False
+        if has_object:
+            needs_hands = verb.relation in word_set("things", "of_people")
+            return bool(verb.relation) and (is_acting or not needs_hands)
+        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
+        needs_object = verb.object or verb.relation in word_set("things", "doing")
+        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    # Prepositions
+
+    def _relate(self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]) -> list[int]:
+        """Apply a preposition with its groups, and give what they name.
+
+        `moved` are those that the verb moves; "behind them" is said of the nearest group.
+        """
+        draft, token = self._draft, phrase.preposition
+        sense = token.first("relation")
+        kind = sense.value if sense is not None else ""
+        if not phrase.groups:
+            others = [] if set(self._nearest) & set(subjects) or not kind else self._nearest
+            if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
+                draft.mark(token, "lost")
+            return []
+        place, targets = draft.parts["place"].get("name"), list[int]()
+        owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
+        for group in phrase.groups:
+            targets += self._name(group, kind or token.text, owners)
+        if not targets:
+            if draft.parts["place"].get("name") != place:
+                self._go_to_place(token, subjects or self._nearest, moved)
+            elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
+                                                      for one in phrase.groups)):  # fmt: skip
+                draft.mark(token, "lost")  # "over a flame"
+        elif kind == "from" and draft.effects and not subjects:
+            draft.effects[-1]["source"] = targets[0]
+        elif kind and (subjects or kind != "with"):  # "an office with a desk"
+            able = () if kind in ("route", "off") else subjects
+            placed = [self._relate_one(kind, index, targets) for index in able]
+            draft.mark(token, "shown" if any(placed) else "lost")
+        return targets
+
+    def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
+        """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
+        draft = self._draft
+        for index in moved if token.text == "across" else ():
+            for motion in draft.things[index]["motions"][-1:]:
+                motion.setdefault("direction", "across")
+        place = PLACES[draft.parts["place"]["name"]]
+        if token.text == "through" and place.has_shore:
+            draft.mark(token, "lost")
+        is_road = token.text == "on" and place is PLACES["road"]
+        for thing in (draft.things[index] for index in subjects if is_road):
+            if self._nouns[thing["noun"]].motion != "drive":
+                thing.setdefault("placement", "lane")
+
+    def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
+        draft = self._draft
+        thing, target = draft.things[index], draft.things[targets[0]]
+        if kind == "with" and not any(map(self._moves, (index, *targets))):
+            return False  # "a vase with roses", "a disc with a dot"
+        if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
+            if thing["noun"] not in PERSON_NOUNS:
+                return False
+            kind = "wear"
+        elif kind == "at" and target["noun"] not in word_set("things", "tables"):
+            kind = "beside"
+        elif kind == "above" and target["noun"] in word_set("things", "ways"):
+            kind = "on"
+        seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", seats[0]) for one in targets])
+        return draft.relate(index, kind, targets)
+
+    # The camera
+
+    def _is_ego(self, clause: Clause) -> bool:
+        """Whether a camera goes that is not named: "driving through a city"."""
+        verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
+        travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
+        is_place = all(one.head and self._is_place(one.head, "") for one in clause.subjects)
+        is_new = not self._draft.things and clause.about not in ("nearest", "company")
+        return travels and is_place and is_new
+
+    def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
+        draft, targets = self._draft, list[int]()
+        move = draft.find_move(clause, is_ego=is_ego)
+        for group in clause.subjects:
+            self._name(group, "in")
+        for group in clause.objects if not is_ego else ():
+            targets += self._name(group)
+        for one in clause.after:
+            if not isinstance(one, Phrase):
+                self._draft.set_scene(one)
+            elif targets:  # as "orbits a car in front of a house"
+                self._relate(one, targets, targets)
+            else:
+                found, sense = self._relate(one, [], []), one.preposition.first("relation")
+                kind = sense.value if sense else ""
+                targets += found if kind in word_set("things", "aims") else []
+                is_side = bool(found) and kind in word_set("things", "sides")
+                draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
+        if move is not None:
+            self._draft.add_move(move)
+            if targets:
+                draft.parts["camera"].setdefault("target", targets[0])

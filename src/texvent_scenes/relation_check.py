@@ -1,0 +1,190 @@
+"""Relation check: relations and directions of a scene that its bodies do not realise.
+
+Boxes around the bodies at a few instants decide. Left, right, front and behind are those of the
+image.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.camera import PosedCamera
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor
+
+_DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
+                       "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
+                       "fall"})  # fmt: skip
+"""Motions whose direction is that of the displacement."""
+_AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
+         "away": (2, 1)}  # fmt: skip
+"""Direction → axis of the camera (right, down, forward) and sign."""
+_LASTING = ("on", "in")
+"""Relations that hold at half of the instants at least; others hold at one."""
+_LEAST_DISPLACEMENT, _MOST_COPIES = 0.1, 0.75
+"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation."""
+
+
+class Violation(NamedTuple):
+    """A word of a scene that no instant shows."""
+
+    kind: str
+    """"relation", "direction", "motion", "noun", "effect" or a field of light or place."""
+    value: str
+    """Such as "under", "left" or "snow"."""
+    line: str
+    """For the report, such as "the ball under the chair"."""
+
+
+class Body(NamedTuple):
+    """Box around a body at the instants of a clip; arrays [t, 3]."""
+
+    middle: Float64Array
+    """m."""
+    size: Float64Array
+    """Extents, m."""
+    seen: Float64Array
+    """Middle in the image: tangents to the right and downwards, and depth, m."""
+    displacement: Float64Array
+    """[3] from the first place to the last along the camera's axes of mid clip, m."""
+    parts: Float64Array
+    """[k, 2, 3] boxes around its shapes at the first instant, m."""
+
+
+def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> Body:
+    """The body of an actor at instants, s, with the camera at each."""
+    corners = np.array([actor.corners(time) for time in times])
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    middle, shapes = 0.5 * (low + high), actor.place(times[0])
+    seen = np.array([camera.rotation @ (place - camera.position)
+                     for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
+    seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
+    displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
+    parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
+    return Body(middle, high - low, seen, displacement, np.array(parts))
+
+
+def find_violations(
+    description: SceneDescription, copies: Sequence[Sequence[Body]]
+) -> Iterator[Violation]:
+    """Words that the bodies do not realise; without a line where one of them is out of view."""
+    names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
+    sent = {one.subject: one.targets[0] for one in description.relations
+            if one.kind in ("kick", "throw")}  # fmt: skip
+    for one in description.relations:
+        who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
+        own, others = copies[who], [body for t in one.targets for body in copies[t]]
+        side = description.objects[one.subject].placement
+        if one.kind in ("past", "overtake") and side in ("left", "right"):
+            yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
+        nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
+        is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
+        rule = _RULES.get("in" if is_flat else one.kind)
+        if rule is None or one.subject in one.targets:
+            continue
+        least = 0.5 if one.kind in _LASTING else 1e-9
+        held = [any(np.mean(rule(body, other)) >= least for other in others) for body in own]
+        if sum(held) < _MOST_COPIES * len(own) or not own:
+            targets = " and ".join(names[target] for target in one.targets)
+            said = one.kind.replace("front", "in front of")
+            line = f"{names[one.subject]} {said} {targets}"
+            yield Violation("relation", one.kind, line if own and others else "")
+    led = {target for one in description.relations for target in one.targets}
+    for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
+        motion = thing.motion if len(thing.motions) == 1 and index not in led else None
+        if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
+            axis, sign = _AXES[motion.direction]
+            all_moved = [one.displacement for one in own]
+            if not any(sign * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
+                yield Violation("direction", motion.direction, f"{names[index]} going "
+                             f"{motion.direction}")  # fmt: skip
+
+
+_Flags = NDArray[np.bool_]
+_Rule = Callable[[Body, Body], _Flags]
+"""Whether a body is so to another one at each instant, [t]; [1] of relations of a whole way."""
+
+
+def _within(one: Body, other: Body, axes: int, share: float = 0.0) -> _Flags:
+    """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
+    room = 0.55 * other.size + share * one.size + 0.02
+    return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
+
+
+def _clears(one: Body, other: Body, share: float) -> Float64Array:
+    """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
+    level = other.middle[:, 2] + share * other.size[:, 2]
+    return np.asarray(one.middle[:, 2] - 0.5 * one.size[:, 2] - level)
+
+
+def _is_on(one: Body, other: Body) -> _Flags:
+    """Whether it is over its lower half and not above it."""
+    room = 0.5 * one.size[:, 2] + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
+    is_over = (_clears(one, other, 0.5) <= room) & (_clears(one, other, -0.5) >= -0.05)
+    return np.asarray(_within(one, other, 2) & is_over)
+
+
+def _is_under(one: Body, other: Body) -> _Flags:
+    """Whether a part of the other is above it, and none where it is itself."""
+    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
+    slim = 0.4 * one.size[:, None]
+    is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2)
+    is_over = ((low < middle) & (high > middle))[..., :2].all(axis=2)
+    is_roof = is_over & np.asarray(low[:, 2] >= middle[..., 2])
+    return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
+
+
+def _aside(one: Body, other: Body) -> Float64Array:
+    """[t] how far it is to the other's right in the image, in half widths of both."""
+    half = sum(0.5 * body.size[:, :2].max(axis=1) / np.maximum(body.seen[:, 2], 1e-3)
+               for body in (one, other))  # fmt: skip
+    return np.asarray((one.seen - other.seen)[:, 0] / half)
+
+
+def _deeper(one: Body, other: Body, sign: int) -> _Flags:
+    is_near = np.abs(_aside(one, other)) <= 1.5
+    return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
+
+
+def _recedes(one: Body, other: Body, sign: int) -> _Flags:
+    away = np.linalg.norm(one.middle - other.middle, axis=1)
+    return np.asarray(sign * (away - away[0]) > _LEAST_DISPLACEMENT * one.size.max())
+
+
+def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
+    """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
+    off = (one.middle - other.middle)[:, :2]
+    displacement = off[-1] - off[0]
+    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
+    return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
+
+
+def _is_around(one: Body, other: Body) -> _Flags:
+    """Whether it goes half of the way around, or stays, as in a ring."""
+    x, y = (one.middle - other.middle)[:, :2].T
+    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max()
+    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or is_still])
+
+
+_RULES: Mapping[str, _Rule] = {
+    "on": _is_on, "under": _is_under, "around": _is_around,
+    "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
+    "in": lambda one, other: _within(one, other, 3),
+    "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),
+    "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
+    "behind": lambda one, other: _deeper(one, other, 1),
+    "front": lambda one, other: _deeper(one, other, -1),
+    "left of": lambda one, other: _aside(one, other) <= -0.5,
+    "right of": lambda one, other: _aside(one, other) >= 0.5,
+    "towards": lambda one, other: _recedes(one, other, -1),
+    "away from": lambda one, other: _recedes(one, other, 1),
+    "from": lambda one, other: _recedes(one, other, 1),
+}  # fmt: skip
+"""Kind of relation → whether a body is so to another; "between", "with" and acts have none."""

@@ -1,0 +1,204 @@
+"""Input of the embedded generator: a sentence, which is read, or a scene."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
+from texvent.prompt_report import PromptReport
+from texvent_scenes.spec.data import checked_scene, scene_from_data, scene_to_data
+from texvent_scenes.spec.limits import Vocabulary
+from texvent_scenes.spec.scene import Scene
+
+if TYPE_CHECKING:
+    from texvent_scenes.description import SceneDescription
+    from texvent_scenes.models.protocol import Noun
+    from texvent_scenes.read import Reading
+
+SCENE_KEY = "scene"
+"""Name of a scene's plain values in the metadata of videos and events."""
+Subject: TypeAlias = str | Scene
+"""A prompt, or the scene itself."""
+
+
+def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
+    """The scene that a sentence describes.
+
+    What the sentence leaves open stays open: place, motions and light are decided when the scene
+    is generated. Nothing is drawn: what is out of view is not found here.
+
+    Args:
+        prompt: an English sentence, such as "a red car drives left past two trees at dusk".
+        assets: a folder of models of your own.
+
+    Raises:
+        InputError: the prompt is no text or empty, or nothing in it is understood.
+
+    Example:
+        >>> reading = read("a red car drives left")
+        >>> reading.scene.objects[0].colour, reading.not_understood
+        ('red', ())
+    """
+    if not isinstance(prompt, str):
+        raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
+    return _read(prompt, list_nouns(assets))
+
+
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
+    # Imported here and below: the vocabulary and all models are only needed to make a scene.
+    from texvent_scenes import read as reader
+
+    if not prompt.strip() or re.fullmatch(r"\S+\.[A-Za-z]\w{0,4}", prompt.strip()):
+        what = shown(prompt) if prompt.strip() else "empty"
+        raise InputError(
+            f"the prompt is {what}; describe a scene, or name its .toml or .json file (videos: "
+            "texvent simulate, or the column `video` of a list)"
+        )
+    reading = reader.read(prompt, nouns)
+    if reading.scene == Scene(prompt=prompt):
+        raise InputError(
+            f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
+            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
+            "models that take any text"
+        )
+    return reading
+
+
+def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
+    """The nouns that scenes can show, with models of a folder."""
+    from texvent_scenes.assets.index import read_folder
+    from texvent_scenes.assets.nouns import merge_nouns
+    from texvent_scenes.models.nouns import NOUNS
+
+    return NOUNS if assets is None else merge_nouns(read_folder(Path(assets)))
+
+
+def nouns_of(subject: Subject, nouns: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a subject can name: those of a scene's own models too.
+
+    Raises:
+        ConfigError: a field of the scene is wrong.
+        InputError: a model does not exist.
+    """
+    from texvent_scenes.assets.nouns import with_models
+
+    if not isinstance(subject, Scene):
+        return nouns
+    scene = checked_scene(subject, {})
+    models = {one.noun: one.model for one in scene.objects if one.model is not None}
+    return with_models(nouns, models) if models else nouns
+
+
+def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
+    """The scene, if its words are shown by the generator or by models of a folder.
+
+    Raises:
+        ConfigError: a word is not shown.
+        InputError: a model does not exist.
+    """
+    return checked_scene(scene, list_words(nouns_of(scene, list_nouns(assets))))
+
+
+def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
+    """The words of scenes, by kind: nouns, motions and activities, places, effects."""
+    from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES
+    from texvent_scenes.models.effects import EFFECTS
+    from texvent_scenes.models.nouns import MOTIONS
+    from texvent_scenes.models.places import PLACES
+
+    usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}
+    return {
+        "noun": nouns,
+        "motion": sorted({*MOTIONS, *ACTIVITIES, *HAND_GESTURES, *usual}),
+        "place": PLACES,
+        "effect": EFFECTS,
+    }
+
+
+def describe_subject(subject: Subject) -> dict[str, Any]:
+    """A prompt or a scene in the metadata of its video: enough to make it again."""
+    if isinstance(subject, Scene):
+        return {"prompt": subject.prompt or None, SCENE_KEY: scene_to_data(subject)}
+    return {"prompt": subject}
+
+
+def prompt_of(subject: Subject) -> str | None:
+    """The sentence that is stored with the events of a subject; None: a scene without one."""
+    return subject.prompt or None if isinstance(subject, Scene) else subject
+
+
+def check_takes(subject: Subject, generator_class: type, name: str) -> None:
+    """Refuse a scene for a generator that takes sentences only.
+
+    Raises:
+        ConfigError: with the generator's name.
+    """
+    if isinstance(subject, Scene) and not getattr(generator_class, "takes_scenes", False):
+        raise ConfigError(
+            f"generator {shown(name)} takes a prompt, not a scene; leave `generator` out, or give "
+            "a sentence"
+        )
+
+
+def stored_subject(metadata: Mapping[str, Any]) -> Subject | None:
+    """The prompt or the scene that `describe_subject` wrote; None where there is neither.
+
+    Raises:
+        ConfigError: the scene is wrong.
+    """
+    if SCENE_KEY in metadata:
+        return scene_from_data(metadata[SCENE_KEY])
+    prompt = metadata.get("prompt")
+    return prompt if isinstance(prompt, str) else None
+
+
+def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description of a prompt, with the report of its words, or of a scene.
+
+    Raises:
+        InputError: the prompt is empty or not understood, or a picture cannot be shown.
+        ConfigError: a field of the scene is wrong, or a word of it is not shown.
+    """
+    if isinstance(subject, Scene):
+        return describe_scene(subject, nouns)
+    reading = _read(subject, nouns)
+    description = describe_scene(reading.scene, nouns)
+    words = PromptReport(
+        shown=reading.shown,
+        substituted=reading.substituted,
+        not_understood=reading.not_understood,
+    )
+    return replace(description, words=words)
+
+
+def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description of a scene, checked, with what the scene leaves open decided.
+
+    Raises:
+        ConfigError: a field is wrong, or a word is not shown.
+        InputError: a picture cannot be shown.
+    """
+    from texvent_scenes.defaults import complete
+    from texvent_scenes.description import to_description
+
+    scene = checked_scene(scene, list_words(nouns))
+    _check_pictures(scene)
+    return complete(to_description(scene), nouns)
+
+
+def _check_pictures(scene: Scene) -> None:
+    from texvent_scenes.pictures import can_show, check_picture
+
+    for n, one in enumerate(scene.objects):
+        if one.picture is None:
+            continue
+        if not can_show(one.noun):
+            raise ConfigError(f"objects[{n}].picture is given, but a {one.noun} shows none")
+        try:
+            check_picture(one.picture)
+        except InputError as error:
+            raise ConfigError(f"objects[{n}].picture: {error}") from error

@@ -1,0 +1,292 @@
+"""Scenes as plain values, as JSON and TOML hold them: built, checked, read and set by path."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
+from typing import Annotated, Any, get_args, get_origin
+
+from texvent._registry import suggest
+from texvent.errors import MAX_WORD, ConfigError, few, shown
+from texvent.options.values import convert
+from texvent_scenes.spec.limits import Vocabulary
+from texvent_scenes.spec.scene import (
+    MAX_BODIES,
+    MAX_LAMPS,
+    Camera,
+    Scene,
+    SceneObject,
+    object_ids,
+)
+
+PLACING = frozenset(
+    {"on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
+     "between"}
+)  # fmt: skip
+"""Relations that say where their subject stands: a circle of them places nothing."""
+
+SPACED = ("left of", "right of", "front", "behind", "beside")
+"""Relations with a distance."""
+STEEPEST = 0.08
+"""Least metres to the side per metre up or down between a camera and the point it looks at."""
+
+
+def scene_to_data(scene: Scene) -> dict[str, Any]:
+    """Plain values of a scene; fields at their defaults are left out."""
+    data: dict[str, Any] = _plain(scene)
+    return data
+
+
+def scene_from_data(data: Any, words: Vocabulary | None = None) -> Scene:
+    """A scene from plain values, checked.
+
+    Args:
+        data: a table of tables and lists, as `scene_to_data` gives.
+        words: the words that a generator shows; None: words are not checked.
+
+    Raises:
+        ConfigError: a field is unknown, missing, of a wrong type or out of range; a word or a
+            colour is unknown; or relations name objects that are not there, or go round in a
+            circle. The message begins with the path of the field.
+    """
+    scene: Scene = _build(Scene, data, "", words or {})
+    for fault in _faults(scene):
+        raise ConfigError(fault)
+    return scene
+
+
+def checked_scene(scene: Scene, words: Vocabulary) -> Scene:
+    """A scene that a program made, checked as one from a file; errors as `scene_from_data`."""
+    return scene_from_data(scene_to_data(scene), words)
+
+
+@cache
+def field_types(owner: type) -> dict[str, Any]:
+    """Field → its type with its limits, of a class of `spec.scene`."""
+    return typing.get_type_hints(owner, include_extras=True)
+
+
+def inner_type(hint: Any) -> Any:
+    """The type of an optional field when it is given; any other type is its own."""
+    if get_origin(hint) in (typing.Union, types.UnionType):
+        return next(one for one in get_args(hint) if one is not types.NoneType)
+    return hint
+
+
+def plain_type(hint: Any) -> Any:
+    """The type of a field when it is given, without its limits."""
+    inner = inner_type(hint)
+    return get_args(inner)[0] if get_origin(inner) is Annotated else inner
+
+
+def required_fields(owner: type) -> list[str]:
+    """Fields without a default."""
+    return [
+        one.name
+        for one in dataclasses.fields(owner)
+        if one.default is dataclasses.MISSING and one.default_factory is dataclasses.MISSING
+    ]
+
+
+def _plain(value: Any) -> Any:
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        named = {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
+        usual = {one.name: _plain(_default(one)) for one in dataclasses.fields(value)}
+        return {name: one for name, one in named.items() if one != usual[name]}
+    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
+        value = value.tolist()
+    return [_plain(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
+def _default(field: dataclasses.Field[Any]) -> Any:
+    if field.default_factory is not dataclasses.MISSING:
+        return field.default_factory()
+    return field.default
+
+
+def _build(hint: Any, value: Any, where: str, words: Vocabulary) -> Any:
+    """`value` as the type `hint`, whose path is `where`; see `scene_from_data`."""
+    if value is None and inner_type(hint) is not hint:
+        return None
+    hint = inner_type(hint)
+    if get_origin(hint) is Annotated:
+        plain, *limits = get_args(hint)
+        built = _build(plain, value, where, words)
+        for limit in limits:
+            limit.check(built, where, words)
+        return built
+    if get_origin(hint) is tuple:
+        if not isinstance(value, (list, tuple)):
+            raise ConfigError(f"{where} is {shown(value)}; it must be a list")
+        items = get_args(hint)
+        if items[-1] is Ellipsis:
+            items = items[:1] * len(value)
+        if len(items) != len(value):
+            raise ConfigError(f"{where} is {shown(value)}; it must have {len(items)} numbers")
+        return tuple(
+            _build(item, one, f"{where}[{n}]", words)
+            for n, (item, one) in enumerate(zip(items, value, strict=True))
+        )
+    if dataclasses.is_dataclass(hint):
+        return build_table(hint, value, where, words)
+    return convert(value, hint, where)
+
+
+def build_table(owner: Any, value: Any, where: str, words: Vocabulary) -> Any:
+    """An instance of a dataclass from the table of its fields; errors as `scene_from_data`."""
+    kinds, table = field_types(owner), where or "scene"
+    if not isinstance(value, Mapping):
+        raise ConfigError(f"{table} is {shown(value)}; it must be a table of fields")
+    for name in value:
+        if name not in kinds:
+            raise ConfigError(f"{table} has no field {shown(name)}; {suggest(name, tuple(kinds))}")
+    for name in required_fields(owner):
+        if name not in value:
+            raise ConfigError(f"{table} has no {name}, which it must have")
+    prefix = f"{where}." if where else ""
+    return owner(
+        **{name: _build(kinds[name], one, prefix + name, words) for name, one in value.items()}
+    )
+
+
+def _faults(scene: Scene) -> Iterator[str]:
+    """Errors of the scene as a whole, as lines: what no field alone can show."""
+    bodies, ids = sum(one.count for one in scene.objects), object_ids(scene)
+    if bodies > MAX_BODIES:
+        yield f"objects have {bodies:,} copies in all; a scene shows {MAX_BODIES} at most"
+    for n, id in enumerate(ids):
+        if id in ids[:n]:
+            yield (f"objects[{n}].id is {shown(id)}, which is that of objects[{ids.index(id)}]; "
+                   "give it another one")  # fmt: skip
+    for where, id in _references(scene):
+        if id not in ids:
+            known = suggest(id, tuple(one[:MAX_WORD] for one in ids)) if ids else "there are none"
+            yield f"{where} is {shown(id)}, which is no object's id; {known}"
+    first: dict[str, int] = {}
+    for n, one in enumerate(scene.objects):
+        yield from _relation_faults(f"objects[{n}]", ids[n], one)
+        other = first.setdefault(one.noun, n)
+        if one.model != (of := scene.objects[other].model):
+            yield (f"objects[{n}].model is {shown(one.model)}, but objects[{other}] is "
+                   f"{shown(one.noun)} too and has {shown(of)}; give one of them another noun"
+                   )  # fmt: skip
+    yield from _circles(scene, ids)
+    yield from _camera_faults(scene.camera)
+    if (lamps := len(scene.light.lamps)) > MAX_LAMPS:
+        yield f"light.lamps are {lamps}; a scene has {MAX_LAMPS} at most"
+
+
+def _references(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Path of every field that names an object, and the id that it names."""
+    for n, one in enumerate(scene.objects):
+        for m, relation in enumerate(one.relations):
+            yield from ((f"objects[{n}].relations[{m}].to[{k}]", id)
+                        for k, id in enumerate(relation.to))  # fmt: skip
+    for n, effect in enumerate(scene.effects):
+        if effect.source is not None:
+            yield f"effects[{n}].source", effect.source
+    if scene.camera.target is not None:
+        yield "camera.target", scene.camera.target
+
+
+def _relation_faults(where: str, id: str, one: SceneObject) -> Iterator[str]:
+    for m, relation in enumerate(one.relations):
+        if not relation.to:
+            yield f"{where}.relations[{m}].to is empty; name an object's id"
+        if id in relation.to and one.count == 1:
+            yield f"{where}.relations[{m}].to is {shown(id)}, which is the object itself"
+        if relation.distance_m is not None and relation.kind not in SPACED:
+            yield (f"{where}.relations[{m}].distance_m is given, but {shown(relation.kind)} has no "
+                   f"distance; {', '.join(SPACED)} have one")  # fmt: skip
+
+
+def _circles(scene: Scene, ids: tuple[str, ...]) -> Iterator[str]:
+    """Objects of which each stands with respect to the next, and the last to the first."""
+    placed_by = {
+        id: {to for relation in one.relations if relation.kind in PLACING for to in relation.to}
+        - {id}
+        for id, one in zip(ids, scene.objects, strict=True)
+    }
+    try:
+        TopologicalSorter(placed_by).prepare()
+    except CycleError as error:
+        circle = [str(id) for id in error.args[1]]
+        yield (f"objects[{ids.index(circle[-1])}].relations go round in a circle "
+               f"({few([*map(shown, reversed(circle))])}); leave one of them out")  # fmt: skip
+
+
+def _camera_faults(camera: Camera) -> Iterator[str]:
+    """Poses of the camera that have no meaning."""
+    position, goal = camera.position_m, camera.look_at_m
+    if (position is None) != (goal is None):
+        yield "camera.position_m and camera.look_at_m are given together, or neither"
+    elif position is not None and goal is not None:
+        if math.dist(position[:2], goal[:2]) <= STEEPEST * abs(position[2] - goal[2]):
+            yield (f"camera.look_at_m is {shown(goal)}, straight above or below "
+                   "camera.position_m; move one of them aside")  # fmt: skip
+        if camera.target is not None or any(one.kind == "travel" for one in camera.moves):
+            yield ("camera.position_m is given with a target or with travel, which choose the "
+                   "position; leave one of them out")  # fmt: skip
+
+
+_PATH = re.compile(r"[a-z_]+(\[\d+\]|\.[a-z_]+)*")
+_STEP = re.compile(r"\[(\d+)\]|([a-z_]+)")
+
+
+def get_field(scene: Scene, path: str) -> Any:
+    """The value of a field by its path, such as `objects[0].motions[0].speed_m_s`.
+
+    Raises:
+        ConfigError: there is no such field; the message has the nearest one.
+
+    Example:
+        >>> get_field(Scene(), "light.wave")
+        'sine'
+    """
+    value: Any = scene
+    done = ""
+    for step in _steps(path):
+        if isinstance(step, int):
+            count = len(value) if isinstance(value, tuple) else 0
+            if step >= count:
+                raise ConfigError(f"{path} is not there: {done} has {count} items")
+            value, done = value[step], f"{done}[{step}]"
+            continue
+        owner: Any = type(value)
+        names = tuple(field_types(owner)) if dataclasses.is_dataclass(value) else ()
+        if step not in names:
+            of = done or "scene"
+            left = suggest(step, names) if names else f"{of} has no fields or is left out"
+            raise ConfigError(f"{of} has no field {shown(step)}; {left}")
+        value, done = getattr(value, step), f"{done}.{step}" if done else step
+    return value
+
+
+def with_fields(scene: Scene, values: Mapping[str, Any]) -> Scene:
+    """The scene with other values of fields: path → value.
+
+    Raises:
+        ConfigError: there is no such field, or it cannot have that value.
+    """
+    data = scene_to_data(scene)
+    for path, value in values.items():
+        get_field(scene, path)
+        *way, last = _steps(path)
+        place: Any = data
+        for step in way:
+            # A table at its defaults is left out of the data.
+            place = place[step] if isinstance(step, int) else place.setdefault(step, {})
+        place[last] = value
+    return scene_from_data(data)
+
+
+def _steps(path: str) -> list[int | str]:
+    if not _PATH.fullmatch(path):
+        raise ConfigError(f"{shown(path)} is no path of a field, such as 'objects[0].colour'")
+    return [int(number) if number else name for number, name in _STEP.findall(path)]

@@ -1,0 +1,218 @@
+"""The subject: what the camera is about, from where it looks, and what the image must hold."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.places import is_room
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.scene import CameraMove
+from texvent_scenes.staging.actors import Actor, corners_over, seeded
+from texvent_scenes.staging.camera.camera_trajectory import Tie
+from texvent_scenes.staging.trajectories.trajectory import Stationary
+
+INSTANTS = 13
+"""Instants of the clip at which everything must fit."""
+_FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
+"""Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
+along with it, and in a close shot."""
+_FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
+                 "handheld": 0.84, "roll": 0.7}  # fmt: skip
+_WHOLE = 3.5
+"""Other objects must fit as a whole if they are at most this many times as large as the movers."""
+_PIECE = 0.7
+"""Reach of the piece of a larger one that must fit, in sizes of the largest mover."""
+_GOALS = (1.0, 1.0, 0.9, 0.4)
+"""Prominence of the subject for which the image may hold no more than each of the views."""
+_LARGE_IN_WIDE = 0.75
+"""Prominence of the subject in a wide shot, relative to its usual one."""
+KEPT_TOGETHER = frozenset(
+    {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
+     "left of", "right of"}
+)  # fmt: skip
+"""Relations of which both things must be in the picture."""
+_UPPER = {"close": 0.62, "medium": 0.42}
+"""Framing → share of a person's height below which the image may end."""
+_FOREARM = 0.28
+"""Share of a hand with its forearm below which the image may end: it comes from outside."""
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
+"""View → elevation of the camera, rad."""
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
+_ROOM_ELEVATION = 0.24
+_ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
+"""Length over height, and length in m, from which on a subject is seen at an angle to its side."""
+
+
+def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
+    """The object the camera is about: as said, or the first that moves or could."""
+    target = description.index(description.camera.target)
+    asked = [one for one in actors if target is not None and one.object_index == target]
+    able = [one for one in actors if one.is_mover or
+            (one.noun.speed_m_s > 0.0 and one.noun.habitat != "fixed")]  # fmt: skip
+    return [*asked[:1], *able[:1], actors[0]][0]
+
+
+def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
+    """Whether it is a hand that stays, or a person who acts with arms and head all along."""
+    if actor.noun.name in HAND_NOUNS:
+        return isinstance(actor.trajectory, Stationary)
+    activities = {actor.pose(float(time)).activity for time in times}
+    return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
+
+
+def choose_angles(
+    description: SceneDescription,
+    main: Actor,
+    moves: Sequence[CameraMove],
+    place: str,
+    seed: int,
+) -> tuple[float, float]:
+    """Azimuth and elevation of the camera, radians."""
+    wander = float(seeded(seed, "camera").uniform(-0.14, 0.14))
+    yaw = main.trajectory.at(0.0).yaw
+    step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
+    is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+    length = main.model.length  # all of a train or a ship from the side would be a thin line
+    is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
+    follows = any(move.kind == "follow" for move in moves)
+    if is_in_depth:
+        azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
+    elif is_long and main.noun.motion in ("drive", "sail"):
+        azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
+    else:
+        azimuth = wander
+    elevation = ELEVATIONS.get(description.camera.view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, place, is_in_depth)
+    return azimuth, elevation
+
+
+def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
+    """Height of the camera above what it looks at, radians."""
+    model = main.model
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if is_room(place):
+        return _ROOM_ELEVATION
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and model.height > 5.0:
+        return 0.03
+    if model.height < 0.7:
+        return 0.24
+    return 0.2 if is_in_depth else 0.12
+
+
+class FramingChoice(NamedTuple):
+    """Points that the image must hold, and their share of it."""
+
+    points: Float64Array
+    """[n, 3] m."""
+    fill: float
+    """Share of the image that they may fill."""
+    goal: float = 1.0
+    """Prominence of the subject for which the image may hold no more than this."""
+
+
+class _Scope(NamedTuple):
+    """Criteria of the part of each object that must be seen."""
+
+    main: Actor
+    times: Float64Array
+    tie: Tie | None
+    passed: Collection[int]
+    """Objects that something goes past."""
+    cut: Collection[int]
+    """Objects of which the lower part may be out of the image: people who act with their arms."""
+
+
+def list_framing_choices(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor,
+    moves: Sequence[CameraMove], times: Float64Array,
+) -> list[FramingChoice]:  # fmt: skip
+    """Choices of what the image holds, from all objects to the subject alone, at instants, s."""
+    shot, tie = description.camera, Tie.of(moves, main)
+    relations = description.relations
+    passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
+    first = {one.object_index: one for one in reversed(actors)}
+    cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
+    scope = _Scope(main, times, tie, passed, cut)
+    near = [one for one in actors if description.objects[one.object_index].placement != "far"]
+    framing = shot.framing
+    if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
+        boxes = corners_over([main], times if tie is None else times[:1])
+        return [FramingChoice(_upper_part(main, boxes, framing), _NEAR_FILL)]
+    fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
+    fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
+    if shot.framing == "wide":
+        fill = _WIDE_FILL
+    goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
+    tied = [
+        {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
+    ]
+    related = set().union(*tied) - {main.object_index}
+    landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
+    partners = [one for one in near if one.object_index in related - {main.object_index}]
+    # A lighthouse and a swing only work where they are.
+    goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
+    others = goes if main.is_mover else near
+    kept = [one for one in partners if one.object_index in landmarks]
+    copies = [one for one in actors if one.object_index == main.object_index]
+    choices = (near, [*others, *partners], partners, kept)
+    return [
+        FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
+        for some, least in zip(choices, _GOALS, strict=True)
+    ]
+
+
+def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
+    """[n, 3] what must fit, m: movers whole, of much larger things the piece near the subject.
+
+    Where the camera goes along with the subject, places are those relative to it.
+    """
+    main, times = scope.main, scope.times
+    movers = [actor for actor in actors if actor.is_mover or actor is main]
+    largest = max(actor.size_m for actor in movers)
+    points = []
+    for actor in actors:
+        is_mover = actor.is_mover or actor is main
+        if scope.tie is not None and not is_mover:
+            continue
+        is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
+        if is_large and not is_mover:
+            points.append(_near_piece(actor, main, times, _PIECE * largest))
+            continue
+        for time in map(float, times):
+            box = actor.corners(time)
+            if actor.object_index in scope.cut:
+                box = _upper_part(actor, box, "medium")
+            points.append(box if scope.tie is None else scope.tie.relative(box, time))
+    return np.vstack(points)
+
+
+def _upper_part(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
+    """[n, 3] corners of boxes, m, of a person or a hand without what is below the image."""
+    if actor.noun.name not in PERSON_NOUNS | HAND_NOUNS:
+        return points
+    share = _FOREARM if actor.noun.name in HAND_NOUNS else _UPPER[framing]
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    cut = points.copy()
+    cut[:, 2] = np.maximum(cut[:, 2], low + share * (high - low))
+    return cut
+
+
+def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:
+    """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
+    box = actor.corners(float(times[0]))
+    low, high = box.min(axis=0), box.max(axis=0)
+    places = np.array([main.middle(float(time)) for time in times])
+    nearest = np.clip(places, low, high)
+    point = nearest[int(np.argmin(np.linalg.norm(nearest - places, axis=1)))]
+    ends = np.stack([np.maximum(low, point - reach_m), np.minimum(high, point + reach_m)])
+    return np.array([[x, y, z] for x in ends[:, 0] for y in ends[:, 1] for z in ends[:, 2]])

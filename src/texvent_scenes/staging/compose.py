@@ -1,0 +1,223 @@
+"""Scene description to animated 3-D scene: actors, scenery, camera and light."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.camera import PosedCamera
+from texvent.sensor import SensorSize
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
+from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
+from texvent_scenes.staging.actors import Actor, assemble, join_primitives, seeded
+from texvent_scenes.staging.camera.camera_placement import place_camera
+from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.journey import plan_travel
+from texvent_scenes.staging.particles.choose import (
+    Staged,
+    stage_effects,
+)
+from texvent_scenes.staging.particles.effect import Setting
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.staging.surroundings.environment import (
+    AnimatedEnvironment,
+    build_environment,
+    contrasting,
+    find_road,
+    lay_across,
+    water_line,
+)
+from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent_scenes.staging.surroundings.lighting import choose_lighting
+from texvent_scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
+from texvent_scenes.staging.trajectories.phases import left_out
+
+VIEW_INSTANTS = 7
+"""Instants of the clip at which scenery must not hide anything."""
+
+
+_NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
+_OFF_THE_BED = 0.5
+"""Height of swimmers above the bed of the sea, as a multiple of their own."""
+_SUNK = -0.18
+"""Height of the origin of what swims at the surface, in its sizes."""
+
+
+@dataclass(frozen=True)
+class ComposedScene:
+    """A scene as a continuous function of time; implements `rendered_scene.RenderedScene`."""
+
+    actors: tuple[Actor, ...]
+    still: Primitives
+    """Scenery: the same at every instant."""
+    particles: Staged
+    """Weather, smoke, sparks, pieces ..."""
+    camera_path: CameraTrajectory
+    place: PlaceModel
+    animated_environment: AnimatedEnvironment
+    lamps: LampPlan
+    class_names: dict[int, str]
+    """Instance id → noun."""
+    not_shown: tuple[str, ...] = ()
+    """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    has_highlights: bool = False
+    """Whether light above white is kept; see `rendered_scene.Environment`."""
+
+    def primitives(self, time_s: float) -> Primitives:
+        """All shapes at that instant: actors, then scenery, then weather."""
+        acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
+        small = [effect.at(time_s) for effect in self.particles.effects]
+        shapes = join_primitives([acting, self.still, *small])
+        factor = np.float32(self.animated_environment.flicker(time_s))
+        return replace(shapes, emission=shapes.emission * factor)
+
+    def camera(self, time_s: float) -> PosedCamera:
+        """The camera at that instant."""
+        return self.camera_path.at(time_s)
+
+    def environment(self, time_s: float) -> Environment:
+        """Surroundings and light at that instant."""
+        effects = self.particles.effects
+        lamps = np.concatenate([self.lamps.at(time_s), *(one.lamps(time_s) for one in effects)])
+        lamps["light"] *= self.animated_environment.flicker(time_s)
+        media = np.concatenate([_NO_MEDIA, *(one.media(time_s) for one in effects)])
+        surroundings = self.animated_environment.at(time_s)
+        return replace(surroundings, lamps=lamps, media=media, has_highlights=self.has_highlights)
+
+    @property
+    def flicker_hz(self) -> float | None:
+        """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
+        rates = (self.animated_environment.flicker_hz, self.lamps.blink_hz)
+        return max((rate for rate in rates if rate is not None), default=None)
+
+
+def compose_scene(
+    description: SceneDescription,
+    *,
+    seed: int,
+    size: SensorSize,
+    duration_s: float,
+    nouns: Mapping[str, Noun] = NOUNS,
+) -> ComposedScene:
+    """An animated scene from a description; the same arguments give the same scene.
+
+    Args:
+        description: the scene, with what it leaves open decided.
+        seed: decides the layout; another seed gives another one of the same scene.
+        size: image size, pixels, for the framing.
+        duration_s: length of the clip, s; moves are spread over it.
+        nouns: table of models.
+    """
+    missing = [
+        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
+        f"(the clip ends at {duration_s:g} s)"
+        for one in description.objects
+        for motion in left_out(one.motions, duration_s)
+    ]
+    place = description.place.name or "grass"
+    levels = _choose_levels(PLACES[place], description, nouns)
+    travel = plan_travel(description, place, duration_s)
+    placer = ObjectPlacer(
+        description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
+    )
+    actors = placer.place_all()
+    ground = contrasting(PLACES[place], description, actors)
+    camera_path = place_camera(
+        description, actors, place, seed=seed, aspect=size.height / size.width,
+        duration_s=duration_s, travel=travel,
+    )  # fmt: skip
+    view = _describe_view(description, ground, camera_path, actors, duration_s)
+    if ground.has_road:
+        actors = lay_across(actors, view.road)
+    view = view if travel is None else replace(view, road=travel.road, travel=travel)
+    items = _scatter_all(description, view, actors, nouns, seed)
+    names = {one.instance: one.noun.name for one in actors}
+    animated_environment = build_environment(
+        description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
+        room_m=camera_path.room_m,
+    )  # fmt: skip
+    lamps = plan_lamps(
+        description, actors, place=ground,
+        strength=choose_lighting(ground, description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
+    )  # fmt: skip
+    setting = Setting(actors, camera_path, place, duration_s, seed)
+    particles = stage_effects(description, setting)
+    still = assemble([item.place() for item in items])
+    return ComposedScene(
+        tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
+        tuple(dict.fromkeys(missing)),
+    )  # fmt: skip
+
+
+def _describe_view(
+    description: SceneDescription,
+    place: PlaceModel,
+    path: CameraTrajectory,
+    actors: Sequence[Actor],
+    duration_s: float,
+) -> ViewClearance:
+    times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
+    if place.has_shore:
+        road = water_line(place, actors, path)
+    else:
+        road = find_road(description, place, actors, float(path.framing.target[1]))
+    has_strip = place.has_road or place.ground is Ground.RIVER
+    points = [
+        np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
+        for t in times
+    ]
+    return ViewClearance(
+        [path.at(t) for t in times], points, path.framing.distance_m,
+        place.road_m if has_strip else None, road, path.room_m,
+        has_shore=place.ground is Ground.LAKE,
+    )  # fmt: skip
+
+
+def _scatter_all(
+    description: SceneDescription,
+    view: ViewClearance,
+    actors: Sequence[Actor],
+    nouns: Mapping[str, Noun],
+    seed: int,
+) -> list[SceneryItem]:
+    """Scenery of the place.
+
+    Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
+    """
+    said = {*description.absent, *(scene_object.noun for scene_object in description.objects)}
+    unsaid = {name: noun for name, noun in nouns.items() if name not in said}
+    surroundings = description.place
+    place = surroundings.name or "grass"
+    rules = [
+        rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
+    ]
+    for backdrop in surroundings.backdrops:
+        rules.extend(PLACES[backdrop].scenery)
+    return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
+
+
+def _choose_levels(
+    place: PlaceModel, description: SceneDescription, nouns: Mapping[str, Noun]
+) -> dict[str, float]:
+    """Height of origins above the ground: habitat or noun → multiple of an object's size.
+
+    "clear" is in metres, on top of that, for what flies.
+    """
+    if place.ground is Ground.NONE:
+        everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
+        return {"air": 2.0, "water": 0.0, **everything}
+    levels = {"air": 1.5, "water": 0.5, "clear": place.flight_m}
+    if place.ground is Ground.UNDERWATER:
+        swimming = [one for one in description.objects if one.motion and one.motion.kind == "swim"]
+        divers = [one.noun for one in swimming if nouns[one.noun].habitat == "ground"]
+        return {**levels, "water": 0.9, **dict.fromkeys(divers, _OFF_THE_BED)}
+    if place.ground is Ground.SEA or place.has_shore:
+        swimmers = {noun.name: _SUNK for noun in nouns.values() if noun.habitat == "water"}
+        return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
+    return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

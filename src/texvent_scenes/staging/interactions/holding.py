@@ -1,0 +1,247 @@
+"""Holding, wearing, riding and pushing: where bodies are fixed, and where hands are then."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.anchors import find_support, top_heights
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
+from texvent_scenes.models.protocol import Noun, Pose
+from texvent_scenes.models.shapes import Affine, shift
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor, size_of
+from texvent_scenes.staging.trajectories.trajectory import (
+    Attached,
+    Performed,
+    Trajectory,
+    Vector,
+    rotation,
+)
+
+Grips = tuple[tuple[str, Vector], ...]
+
+_STYLES = ("held as a tool", "held upright", "held up high", "held hanging")
+"""Traits that say how a noun is held."""
+_LARGE_M = 0.36
+"""Size above which a thing is held in both arms."""
+_RAISED: Vector = (0.30, -0.24, 1.16)
+"""Right hand of who holds something up, adult's body coordinates, m."""
+_UP_HIGH: Vector = (0.24, -0.24, 1.55)
+_GRIPS = {"held as a tool": _RAISED, "held upright": _RAISED, "held up high": _UP_HIGH}
+"""Style → the right hand, which is else where the arm hangs."""
+_HANDS_FREE = frozenset({"stand", "move", "walk", "run"})
+"""Activities that leave the hands to what they hold."""
+_STRETCH = 0.60
+"""Distance from shoulder to palm of an arm that is nearly straight, m."""
+
+_SEAT_M = 0.42
+"""Height of the hips over the origin of who sits, for an adult, m."""
+
+
+class Hold(NamedTuple):
+    """Attachment of a thing to a body."""
+
+    anchor: str
+    """Place of the holder."""
+    offset: Affine
+    """[3, 4] the thing's body coordinates in the axes of that place."""
+    is_upright: bool = True
+    """Whether the thing stays upright."""
+    grips: Grips = ()
+    """Places of hands, in the holder's body coordinates, m."""
+
+
+def hides_riders(noun: Noun) -> bool:
+    """Whether it is a closed vehicle."""
+    return noun.habitat != "fixed" and noun.name in nouns_with("closed")
+
+
+def is_person(actor: Actor) -> bool:
+    """Whether it has hands."""
+    return actor.noun.name in PERSON_NOUNS
+
+
+def scaled(point: Vector, size: float) -> Vector:
+    """A point of an adult's body on one of that size."""
+    return (size * point[0], size * point[1], size * point[2])
+
+
+def moving(actor: Actor, path: Trajectory) -> Actor:
+    """The actor on another trajectory, with nothing in its hands."""
+    return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())
+
+
+def held_at(
+    holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False, activity: str = "stand"
+) -> Attached:
+    """A trajectory fixed to a named place of a body: `offset` [3, 4] are axes at that place.
+
+    What is upright faces as its holder does.
+    """
+    axes = partial(_upright, holder, anchor) if is_upright else partial(holder.anchor, anchor)
+    return Attached(holder.trajectory, axes, offset, activity)
+
+
+def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
+    yaw = holder.trajectory.at(time_s).yaw
+    return np.column_stack([rotation(yaw, 0.0, 0.0), holder.anchor(anchor, time_s)[:, 3]])
+
+
+def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
+    doing = subject.trajectory.at(0.0).activity
+    named = (style for style in _STYLES if target.noun.name in nouns_with(style))
+    by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
+    hold = place_in_hold(next(named, by_size), subject, target)
+    if is_person(subject) and doing in _HANDS_FREE:
+        subject = replace(subject, trajectory=Performed(subject.trajectory, None, hold.grips))
+    held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
+    return subject, carried(target, held, subject)
+
+
+def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
+    """Both, the thing at its place on the body; None for clothes, which the body has on."""
+    if target.noun.name in CLOTHES:
+        return subject, None
+    worn = trait_value("worn", target.noun.name) or {"place": "crown"}
+    turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)
+    x, y, z = scaled(worn.get("at", (0.0, 0.0, 0.0)), size_of(subject.model))
+    offset = np.column_stack([turn, np.array([x, y, z + target.foot_m])])
+    return subject, carried(target, held_at(subject, worn["place"], offset), subject)
+
+
+def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
+    """The thing on a trajectory that its holder gives it."""
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
+
+
+def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
+    """Place of a thing that is held in a style, and places of the hands."""
+    model, size = thing.model, size_of(holder.model)
+    if style == "in both arms" and holder.trajectory.at(0.0).activity in _HANDS_FREE:
+        return _in_both_arms(thing, size)
+    grips: Grips = ()
+    if style in _GRIPS:
+        grips = (("right hand", scaled(_GRIPS[style], size)),)
+    if style == "held as a tool":
+        return Hold("right hand", along_tool(thing), False, grips)
+    below, x = min(0.35 * model.height, 0.06), 0.0
+    if style == "held hanging":
+        below = model.height - 0.02
+    elif model.height < 1.6 * model.length:
+        x = min(0.5 * model.length, 0.06)
+    if holder.trajectory.at(0.0).activity == "drink":
+        below = 0.8 * model.height  # so that the rim is at the mouth
+    return Hold("right hand", shift(x, 0.0, thing.foot_m - below), grips=grips)
+
+
+def _in_both_arms(thing: Actor, size: float) -> Hold:
+    """Both arms around it; its longer side goes across."""
+    model = thing.model
+    is_long = model.length > 1.2 * model.width
+    deep, wide = (model.width, model.length) if is_long else (model.length, model.width)
+    along = 0.16 * size + 0.5 * deep
+    bottom = max(1.08 * size - 0.5 * model.height, 0.75 * size)
+    z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
+    turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
+    offset = np.column_stack([turn, [along, 0.0, bottom + thing.foot_m]])
+    grips = _both_hands(min(along, 0.42 * size), min(0.5 * wide, 0.34 * size), z)
+    return Hold("ground", offset, grips=grips)
+
+
+def _both_hands(x: float, y: float, z: float) -> Grips:
+    return (("left hand", (x, y, z)), ("right hand", (x, -y, z)))
+
+
+def along_tool(thing: Actor) -> Affine:
+    """The handle in the hand, the rest along what the hand points to."""
+    model = thing.model
+    if model.width > 2.0 * max(model.length, model.height):
+        # It lies along its y.
+        return np.column_stack([rotation(0.0, 0.0, 0.5 * math.pi), [0.0, 0.0, 0.36 * model.width]])
+    if model.length < 2.0 * model.height:
+        return shift(0.0, 0.0, thing.foot_m - 0.12 * model.height)
+    side = -1.0 if thing.noun.name in nouns_with("handle at the rear") else 1.0
+    turn = rotation(0.0, 0.5 * math.pi * side, 0.0)
+    return np.column_stack([turn, [0.0, 0.0, 0.38 * model.length]])
+
+
+def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Hands at the thing's back."""
+    size, model = size_of(subject.model), target.model
+    shoulder = 1.38 * size if is_person(subject) else 0.75 * subject.model.height
+    height = max(min(0.85 * model.height, 0.95 * shoulder), 0.64 * shoulder)
+    reach = 0.5 * subject.model.length
+    if is_person(subject):
+        drop = 1.34 - height / size
+        reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
+        grips = _both_hands(reach, min(0.16 * size, 0.45 * model.width), height)
+        subject = replace(subject, trajectory=Performed(subject.trajectory, "push along", grips))
+    offset = shift(reach + 0.02 + 0.5 * model.length, 0.0, target.foot_m)
+    path = held_at(subject, "ground", offset, is_upright=True, activity="move")
+    return subject, replace(
+        target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover
+    )
+
+
+def board(subject: Actor, ridden: Actor) -> tuple[Actor | None, Actor]:
+    """Both, who rides on its seat.
+
+    A person on a bicycle is the one that its model brings; those in a closed vehicle are not seen.
+    """
+    is_own = is_person(subject) and style_of(ridden) == "built-in"
+    return None if is_own or hides_riders(ridden.noun) else mount(subject, ridden), ridden
+
+
+def style_of(ridden: Actor) -> str:
+    """Style in which something is ridden; most is sat on."""
+    return trait_value("ridden", ridden.noun.name) or "sat on"
+
+
+def mount(rider: Actor, ridden: Actor) -> Actor:
+    """The rider, on what it rides."""
+    style, size = style_of(ridden), size_of(rider.model)
+    doing, up = trait_value("posture of riders", style)
+    own_seat, props = trait_value("seats", ridden.noun.name), rider.props
+    grips: Grips = ()
+    if not is_person(rider):
+        seat: Vector = (0.0, 0.0, find_support(ridden.model).height + rider.foot_m)
+    elif own_seat is not None:
+        x, y, z = scaled(own_seat, size_of(ridden.model))
+        seat, doing = (x, y, z - _SEAT_M * size), "sit"
+    elif style == "astride":
+        seat, grips = _astride_back(ridden, size)
+    else:
+        support = find_support(ridden.model)
+        seat = (*support.middle, support.height + up * size)
+        props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
+    path: Trajectory = Attached.seated(ridden.trajectory, seat, doing)
+    if grips:
+        path = Performed(path, None, grips)
+    return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0, props=props)
+
+
+def _astride_back(ridden: Actor, size: float) -> tuple[Vector, Grips]:
+    """On the back, a leg on each side, hands ahead."""
+    model = ridden.model
+    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    back = float(top_heights(parts, np.zeros(1), np.zeros(1))[0])
+    across = np.linspace(0.0, 0.5 * model.width, 24)
+    inside = across[top_heights(parts, np.zeros_like(across), across) > 0.6 * back]
+    half = float(inside.max()) if inside.size else 0.2
+    side = min(half + 0.07 * size, 0.45 * size)
+    drop = -0.66 * size if half < 0.45 * size else -0.35 * size
+    return (0.0, 0.0, back), (
+        ("hips", (0.0, 0.0, 0.10 * size)),
+        ("left foot", (0.14 * size, side, drop)),
+        ("right foot", (0.14 * size, -side, drop)),
+        ("left hand", (0.40 * size, 0.10 * size, 0.30 * size)),
+        ("right hand", (0.40 * size, -0.10 * size, 0.30 * size)),
+    )

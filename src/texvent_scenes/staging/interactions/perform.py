@@ -1,0 +1,193 @@
+"""Acts of a scene: motions that they imply, then bonds between the placed actors."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import trait_value
+from texvent_scenes.spec.scene import Direction, Motion, SceneObject
+from texvent_scenes.staging.actors import Actor, seeded
+from texvent_scenes.staging.interactions import holding, striking
+from texvent_scenes.staging.interactions.holding import hides_riders
+
+SINGLE = frozenset({"kick", "throw", "collide"})
+"""Acts with one instant of contact."""
+_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
+ACTS: Mapping[str, _Act] = {
+    "push": lambda who, what, _: holding.push(who, what),
+    "ride": lambda who, what, _: holding.board(who, what),
+    "kick": striking.kick,
+    "throw": striking.throw,
+    "collide": striking.collide,
+    "hold": lambda who, what, _: holding.hold(who, what),
+    "wear": lambda who, what, _: holding.wear(who, what),
+}
+"""Relations that are acts of the subject on its first target → the bodies as they leave them. What
+moves bodies comes before what hangs on them."""
+
+
+_IDLE = frozenset({"stand", "sit", "sail", "drive"})
+"""Motions of people that leave it open whether they ride."""
+
+
+def settle_motions(
+    description: SceneDescription, nouns: Mapping[str, Noun], seed: int
+) -> SceneDescription:
+    """The description with the motions that its acts imply.
+
+    Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
+    """
+    objects = list(description.objects)
+    relations = [
+        _mounted(replace(one, targets=targets), objects, nouns)
+        for one in description.relations
+        for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
+    ]
+    relations += _implied_acts(objects, relations)
+    for relation in relations:
+        if relation.kind in ACTS and relation.targets:
+            pair = relation.subject, relation.targets[0]
+            direction = _choose_direction(objects, pair, seed)
+            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
+            for index, one in zip(pair, settled, strict=True):
+                objects[index] = one
+    return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _settle(
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], to: Direction
+) -> tuple[SceneObject, SceneObject]:
+    """Subject and target of an act, with the motions that the act leaves them."""
+    motion, still = subject.motion or STANDING, replace(target, motions=())
+    if kind == "ride":
+        sitting = replace(subject, motions=(Motion("sit"),))
+        return sitting, _give_motion(subject, target, nouns)
+    if kind == "collide":
+        return replace(subject, motions=()), still
+    if kind in SINGLE:
+        return replace(subject, motions=(Motion(kind, to),)), still
+    if kind == "push":
+        if motion.kind in ("push", "stand"):
+            walk = Motion("walk", motion.direction)
+            subject = replace(subject, motions=(walk, *subject.motions[1:]))
+        return subject, still
+    if kind == "wear":
+        return subject, still
+    size = trait_value("carried size", target.noun) or 1.0
+    return subject, replace(still, size=size * target.size)
+
+
+def _mounted(
+    relation: IndexedRelation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
+) -> IndexedRelation:
+    """A person on a horse or a skateboard rides it; so do idle people in a boat or a vehicle."""
+    person, target = objects[relation.subject], objects[relation.targets[0]].noun
+    if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
+        return relation
+    is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
+    is_carrier = trait_value("seats", target) or trait_value("ridden", target)
+    is_closed = relation.kind == "in" and hides_riders(nouns[target])
+    is_idle = (person.motion or STANDING).kind in _IDLE
+    if is_mount or (is_idle and (is_carrier or is_closed)):
+        return replace(relation, kind="ride")
+    return relation
+
+
+def _implied_acts(
+    objects: Sequence[SceneObject], relations: Sequence[IndexedRelation]
+) -> list[IndexedRelation]:
+    """Relations that bind named instruments and tools to their players."""
+    bound = {target for one in relations if one.kind in ACTS for target in one.targets}
+    found: list[IndexedRelation] = []
+    for index, person in enumerate(objects):
+        motions = person.motions if person.noun in PERSON_NOUNS else ()
+        props = [prop for motion in motions for prop in list_props(motion.kind)]
+        for prop in props:
+            free = [n for n, one in enumerate(objects) if one.noun in prop.nouns and n not in bound]
+            if free and prop.anchor != "ground" and not prop.is_own:
+                found.append(IndexedRelation("hold", index, (free[0],)))
+                bound.add(free[0])
+    return found
+
+
+def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
+    """Ridden object with the motion that the prompt gives to it or to its rider."""
+    said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
+    usual = nouns[ridden.noun].motion
+    if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
+        usual = "slide"
+    if said is None:
+        return replace(ridden, motions=(Motion(usual),))
+    if said.kind in ("sit", "stand"):
+        return ridden
+    kind = said.kind if said.kind in ("run", "jump", "turn", "fly", "swim") else usual
+    later = ridden.motions[1:] or rider.motions[1:]
+    return replace(ridden, motions=(replace(said, kind=kind), *later))
+
+
+def _choose_direction(
+    objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
+) -> Direction:
+    """Direction of a single act in the picture."""
+    for motion in (objects[index].motion for index in pair):
+        if motion is not None and motion.direction in ("left", "right", "towards", "away"):
+            return motion.direction
+    return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"
+
+
+def perform_acts(
+    description: SceneDescription, actors: Sequence[Actor], duration_s: float
+) -> list[Actor]:
+    """The actors with every act's bodies bound together.
+
+    Args:
+        description: the prompt, its motions settled.
+        actors: all actors, each where it was placed.
+        duration_s: length of the clip, s.
+
+    Returns:
+        The actors in the same order, numbered anew, without those whose part a model plays itself:
+        the rider of a bicycle, and what that rider has; a piano that comes with an activity.
+    """
+    cast = dict(enumerate(actors))
+    acts = [one for one in description.relations if one.kind in ACTS and one.targets]
+    for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
+        _perform(cast, relation, duration_s)
+    for person in list(cast.values()):
+        nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
+                 for noun in prop.nouns}  # fmt: skip
+        for number, thing in list(cast.items()):
+            if thing.noun.name in nouns and thing.object_index != person.object_index:
+                del cast[number]
+    return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
+
+
+def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: float) -> None:
+    """An act of each subject on a target of its own."""
+    subjects, targets = (
+        [number for number, actor in cast.items() if actor.object_index == index]
+        for index in (relation.subject, relation.targets[0])
+    )
+    if relation.kind == "ride":
+        pairs = zip(subjects, targets, strict=False)
+    elif relation.kind == "collide":
+        met = list(dict.fromkeys([*subjects, *targets]))
+        pairs = zip(met[::2], met[1::2], strict=False)
+    else:
+        for target in targets if not subjects else ():
+            del cast[target]
+        pairs = zip(itertools.cycle(subjects), targets, strict=False)
+    for one, other in pairs:
+        if one != other:
+            bodies = ACTS[relation.kind](cast[one], cast[other], duration_s)
+            for number, body in zip((one, other), bodies, strict=True):
+                if body is None:
+                    del cast[number]
+                else:
+                    cast[number] = body

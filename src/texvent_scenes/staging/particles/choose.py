@@ -1,0 +1,99 @@
+"""Effects of a scene → particle systems at their places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
+from texvent_scenes.models.tables import trait_value
+from texvent_scenes.spec.scene import Effect, object_ids
+from texvent_scenes.staging.actors import Actor, seeded
+from texvent_scenes.staging.particles.effect import (
+    Setting,
+    Source,
+)
+from texvent_scenes.staging.particles.emitter import Emitter
+
+FALLING = ("rain", "snow")
+"""Weather that is an effect."""
+
+
+@dataclass(frozen=True)
+class Staged:
+    """The particle systems of a scene."""
+
+    effects: tuple[Emitter, ...]
+    kinds: tuple[str, ...] = ()
+    """Weather or kind of effect of each particle system."""
+
+
+def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
+    """Weather, all effects of a scene, and those that some nouns always have.
+
+    An effect whose object has several copies is at each of them.
+    """
+    weather = description.place.weather
+    said = [Effect(weather)] if weather in FALLING else []
+    said += description.effects
+    named = {(effect.kind, effect.source) for effect in said}
+    for id, one in zip(object_ids(description), description.objects, strict=True):
+        kind = trait_value("own effect", one.noun)
+        if kind is not None and one.is_lit is not False and (kind, id) not in named:
+            said.append(Effect(kind, id))
+    effects: list[Emitter] = []
+    kinds: list[str] = []
+    for number, effect in enumerate(said):
+        source = description.index(effect.source)
+        copies = [one for one in setting.actors if one.object_index == source]
+        for copy, actor in enumerate(copies or [None]):
+            rng = seeded(setting.seed, "effect", effect.kind, number, copy)
+            effects += _make(effect, actor, setting, rng)
+            kinds += [effect.kind] * (len(effects) - len(kinds))
+    return Staged(tuple(effects), tuple(kinds))
+
+
+def _make(
+    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
+) -> list[Emitter]:
+    """Emitters of an effect at an object, or by itself."""
+    words = EFFECTS[effect.kind]
+    source = _source(effect.kind, actor, setting)
+    return [
+        Emitter.of(
+            _fitted(style, effect.kind, actor), source, setting, rng,
+            start_s=effect.start_s, volley=volley,
+        )
+        for style in words.emitters
+        for volley in range(max(style.salvos, 1))
+    ]  # fmt: skip
+
+
+def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle:
+    """The style for an object: from its spout or mouth, without light where it has a lamp."""
+    if actor is None:
+        return style
+    noun, words = actor.noun.name, EFFECTS[kind]
+    aim = trait_value("spout direction", noun) if "spout" in words.anchor_traits else None
+    if aim is not None and style.body == "drop":
+        style = replace(style, aim=tuple(aim))
+    return replace(style, light=0.0) if noun in LAMPS else style
+
+
+def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
+    """Source of an effect."""
+    words = EFFECTS[kind]
+    if actor is None:
+        size, height, behind = setting.camera.framing.distance_m * np.array(words.alone)
+        target = np.array(setting.camera.framing.target, dtype=np.float64)
+        target[2] = target[2] + height if height else 0.0
+        return Source(float(size), target + behind * setting.away)
+    model, noun = actor.model, actor.noun.name
+    bulk = float(np.cbrt(model.length * model.width * model.height))
+    known = (trait_value(trait, noun) for trait in words.anchor_traits)
+    x, y, z = next((one for one in known if one is not None), words.anchor)
+    height = z * model.height - actor.foot_m
+    point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
+    return Source(words.size * bulk, point, actor)

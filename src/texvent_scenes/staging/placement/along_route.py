@@ -1,0 +1,105 @@
+"""Placement of objects along the route of a camera that travels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import is_centred
+from texvent_scenes.staging.camera.journey import NORTH, TravelPlan
+from texvent_scenes.staging.placement.object_groups import ObjectGroup
+
+_SEEN = 1.8
+"""Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
+_GAP_M = 1.5
+_AHEAD_M = 7.0
+"""From the camera to what moves in front of it."""
+
+
+class RoutePlacer:
+    """Gives each object its place beside the route, ahead on it, or across it."""
+
+    def __init__(self, travel: TravelPlan, duration_s: float, bodies: int) -> None:
+        """For a route, the length of the clip, s, and how many bodies there are in all."""
+        self._travel = travel
+        self._duration_s = duration_s
+        self._bodies = bodies
+        self._taken = {1.0: 0.0, -1.0: 0.0}
+        """Side (1 = right) → how far along it is taken, m."""
+        self._beyond_m = 0.0
+        """Length beyond the end of the route that is taken."""
+
+    def place(self, group: ObjectGroup, height: float, *, is_goal: bool) -> Float64Array:
+        """[3] middle of a group, m, whose copies are placed and turned along the route."""
+        plan, travel = group.plan, self._travel
+        crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
+        if plan.is_path and not crosses and group.noun.habitat != "fixed":
+            return self._place_on_the_way(group, height)
+        is_passage = group.noun.name in nouns_with("passage")
+        if not (is_goal or crosses or is_passage or group.scene_object.placement == "lane"):
+            return self._place_beside(group, height)
+        along = 0.6 * travel.length_m
+        if is_goal or not is_passage:
+            # Just beyond the end of the route, where the camera does not come.
+            along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
+            self._beyond_m += 2.0 * float(group.half[1]) + 0.5
+        if not crosses:
+            group.plan = replace(plan, yaw=-NORTH if is_goal else NORTH)
+        return np.array([*travel.point(along, 0.0), height])
+
+    def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
+        """Ahead of the camera or towards it: vehicles in lanes, others beside the road or aloft."""
+        travel, plan = self._travel, group.plan
+        length = max(model.length for model in group.models)
+        width = max(model.width for model in group.models)
+        walks = group.noun.habitat == "ground" and group.noun.motion != "drive"
+        is_oncoming = plan.motion.direction == "towards" or (
+            plan.motion.direction is None and (walks or len(group.models) > 1)
+        )
+        speed, ahead, aside = plan.speed_m_s, _AHEAD_M + 0.5 * length, 0.0
+        if walks:
+            aside = travel.clear(1.0) + 0.5 * width + 0.4
+            ahead = _SEEN * aside
+        elif is_oncoming:
+            aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
+        elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
+            speed = travel.speed_m_s * plan.motion.pace
+        if is_centred(group.noun):
+            aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
+            height = travel.journey.height_m - travel.journey.pitch_rad * ahead
+        if is_oncoming:
+            ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
+        yaw = -NORTH if is_oncoming else NORTH
+        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
+        spacing = 1.6 * length + 2.0
+        group.offsets = [(0.0, number * spacing, 0.0) for number in range(len(group.models))]
+        group.fit()
+        return np.array([*travel.point(0.5 * travel.length_m + ahead, aside), height])
+
+    def _place_beside(self, group: ObjectGroup, height: float) -> Float64Array:
+        """Each copy on the next free place of the emptier side."""
+        travel, is_square = self._travel, group.noun.motion == "drive"
+        places = []
+        for model in group.models:
+            side = min(self._taken, key=lambda s: self._taken[s])
+            half = 0.5 * (model.width if is_square else max(model.length, model.width))
+            aside = travel.clear(side) + half + (0.2 if is_square else 0.5)
+            aside *= 0.5 if group.noun.habitat == "air" else 1.0
+            # Seen from the beginning of the route, and for most of the clip.
+            share = 0.4 if travel.speed_m_s >= 0.0 else 0.9
+            step = max(model.length, model.width) + _GAP_M
+            spread = (0.7 * travel.length_m + 6.0) / max(0.5 * self._bodies, 1.0)
+            first = _SEEN * aside + share * travel.length_m
+            along = max(self._taken[side], first) + 0.5 * step
+            places.append(travel.point(along, side * aside))
+            self._taken[side] = along + max(0.5 * step, spread - 0.5 * step)
+        spots = np.array(places)
+        middle = spots.mean(axis=0)
+        group.offsets = [(float(x), float(y), 0.0) for x, y in spots - middle]
+        if is_square and group.plan.path is None:
+            group.plan = replace(group.plan, yaw=NORTH)
+        group.fit()
+        return np.array([*middle, height])

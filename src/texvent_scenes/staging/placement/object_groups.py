@@ -1,0 +1,277 @@
+"""All copies of one object: the room they take, their formation, and what they wear and hold."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from texvent_scenes.colours import rgb_of
+from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.anchors import find_support
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
+from texvent_scenes.models.people.person import dress
+from texvent_scenes.models.people.posture import SEAT
+from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.shapes import moved
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.scene import SceneObject
+from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
+from texvent_scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
+from texvent_scenes.staging.trajectories.motion_plan import MotionPlan
+from texvent_scenes.staging.trajectories.steered_path import sample_places
+from texvent_scenes.staging.trajectories.trajectory import Vector
+
+GAP_M = 0.25
+"""Least space between two objects, in units of the smaller one's size."""
+OVERTAKEN = 0.4
+"""Speed of what is overtaken, as a share of what overtakes it."""
+_TURNING = ("spin", "roll", "sway", "dance", "fall")
+"""Motions that need the same room at all sides."""
+
+
+@dataclass
+class ObjectGroup:
+    """All copies of one object, and the room they take."""
+
+    index: int
+    scene_object: SceneObject
+    noun: Noun
+    models: list[Model]
+    plan: MotionPlan
+    offsets: list[Vector]
+    """Places of the copies relative to the group's middle, m."""
+    half: Float64Array
+    """[3] half extents of the room taken over the whole clip, m."""
+    centre: Float64Array = field(default_factory=lambda: np.zeros(3))
+    carrier: ObjectGroup | None = None
+    orbits: ObjectGroup | None = None
+    yaws: list[float] | None = None
+    """Heading of each copy, where they differ."""
+    on_chairs: bool = False
+    """Whether each of its people sits on a chair that comes with them."""
+
+    @property
+    def size_m(self) -> float:
+        """Largest extent of one copy."""
+        model = self.models[0]
+        return max(model.length, model.width, model.height)
+
+    @property
+    def top_m(self) -> float:
+        """Height of its top above its origin."""
+        return self.models[0].height * (0.5 if is_centred(self.noun) else 1.0)
+
+    @property
+    def origin_m(self) -> float:
+        """Height of its origin above what it rests on."""
+        return -lowest_point(self.models[0]) if is_centred(self.noun) else 0.0
+
+    def to_world(self, x: float, y: float, z: float) -> Float64Array:
+        """[3] a place in its body coordinates, where its middle is, in the world, m."""
+        cosine, sine = math.cos(self.plan.yaw), math.sin(self.plan.yaw)
+        offset = np.array([x * cosine - y * sine, x * sine + y * cosine, z])
+        return np.asarray(self.centre + offset)
+
+    def fit(self) -> None:
+        """Work out the room that it takes, after its plan or its copies' places have changed."""
+        self.half = half_extents_over_clip(self.models, self.offsets, self.plan)
+
+    def half_at_rest(self) -> Float64Array:
+        """[3] half extents of all copies where they stand, without their way, m."""
+        plan = replace(self.plan, motion=STANDING, path=None)
+        return half_extents_over_clip(self.models, self.offsets, plan)
+
+
+def half_extents_over_clip(
+    models: list[Model], offsets: list[Vector], plan: MotionPlan
+) -> Float64Array:
+    """[3] half extents of what a group takes up over the clip, m."""
+    model = models[0]
+    cosine, sine = abs(math.cos(plan.yaw)), abs(math.sin(plan.yaw))
+    length, width = model.length, model.width
+    size = max(length, width)
+    if plan.motion.kind in _TURNING:
+        length = width = size
+    half = 0.5 * np.array(
+        [cosine * length + sine * width, sine * length + cosine * width, model.height]
+    )
+    spread = np.abs(np.array(offsets)).max(axis=0)
+    if plan.path is not None:
+        half[:2] = 0.5 * size
+        places = sample_places(plan.path, plan.duration_s)
+        return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
+    travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
+    if plan.motion.kind == "orbit":
+        travel = ORBIT_SIZES * size * np.array([1.0, 1.0, 0.0])
+    return np.asarray(half + spread + travel)
+
+
+def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> bool:
+    """Whether a group with its middle at `centre` would overlap with another at any time."""
+    gap = GAP_M * min(group.size_m, other.size_m)
+    apart = np.abs(centre - other.centre)[:2] - (group.half + other.half)[:2]
+    (low, high), (other_low, other_high) = _vertical(centre, group), _vertical(other.centre, other)
+    above = gap if group.noun.habitat == other.noun.habitat else 0.0
+    return bool(np.all(apart < gap)) and max(low - other_high, other_low - high) < above
+
+
+def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
+    """Lowest and highest point of a group, m."""
+    height = 2.0 * float(group.half[2])
+    low = float(centre[2]) - (0.5 * height if is_centred(group.noun) else 0.0)
+    return low, low + height
+
+
+def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
+    """Give a companion the heading and speed of its partner, where both go somewhere.
+
+    What follows goes behind the partner, which is placed already; what is overtaken or passed goes
+    the same way, slower, unless the scene says how it goes.
+    """
+    motion, other = group.plan.motion, partner.plan
+    if not (other.is_path and group.plan.is_path):
+        return
+    if kind in ("follow", "with"):
+        if kind == "follow" and other.motion.speed_m_s is None:
+            other = replace(other, speed_m_s=max(other.speed_m_s, group.plan.speed_m_s))
+        partner.plan, group.plan = other, replace(other, motion=motion)
+        partner.fit()
+    elif motion.direction is None and motion.speed_m_s is None:
+        speed = OVERTAKEN * other.speed_m_s
+        group.plan = replace(group.plan, yaw=other.yaw, speed_m_s=speed)
+    group.fit()
+
+
+_RESTING = frozenset({"stand", "sit", "lie", "slide"})
+_APART = 0.3
+"""Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
+
+
+def rests(noun: Noun, kind: str) -> bool:
+    """Whether it is on something while it does that."""
+    return kind in _RESTING or kind in noun.acts
+
+
+def stagger(
+    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
+) -> list[Vector]:
+    """Places of the copies about the middle of their group, m, staggered so none hides another."""
+    count, is_driven = len(models), noun.motion == "drive"
+    if count == 1:
+        return [(0.0, 0.0, 0.0)]
+    along, across = _spacing(models, plan, noun)
+    is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
+    is_on_ground = noun.habitat == "air" and rests(noun, plan.motion.kind)
+    is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
+    tall = max(model.height for model in models) if is_deep else 0.0
+    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+    columns = math.ceil(count / 2) if is_driven else columns
+    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
+    offsets: list[Vector] = []
+    for number in range(count):
+        row, column = divmod(number, columns)
+        in_row = min(columns, count - row * columns)
+        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
+        b = (row - 0.5 * ((count - 1) // columns)) * across
+        a += float(rng.uniform(-0.12, 0.12)) * along
+        stray = float(rng.uniform(-0.08, 0.08)) * across
+        if not is_driven:  # vehicles keep to their lanes
+            b = b + 0.6 * across * (number % 2) + stray
+        up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall if is_deep else 0.0
+        offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
+    return offsets
+
+
+def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
+    """Metres from one copy to the next, along the heading and across it."""
+    length = max(model.length for model in models)
+    width = max(model.width for model in models)
+    size = max(length, width)
+    if plan.motion.kind == "orbit":
+        return 4.0 * size, 4.0 * size
+    if noun.motion == "drive":
+        return 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    if plan.is_facing or noun.name in HAND_NOUNS:
+        return 1.6 * width, 0.2 * width  # in one row, as the camera sees them
+    apart = min(0.3, _APART * size)
+    across = 1.4 * width + apart + min(0.1, 0.1 * size)
+    if is_centred(noun):
+        return 0.8 * length + apart, across
+    return 1.2 * (length if plan.is_path else size) + apart, across
+
+
+def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, float, float]]:
+    """Offsets and headings of so many around something, the farthest first; two are at its ends."""
+    first = 0.0 if count == 2 else 0.5 * math.pi
+    found = []
+    for number in range(count):
+        # At alternate sides, so that the camera's side is taken last.
+        turn = (number + 1) // 2 * (1.0 if number % 2 else -1.0)
+        angle = first + 2.0 * math.pi * turn / count
+        x, y = wide_m * math.cos(angle), deep_m * math.sin(angle)
+        found.append((x, y, math.atan2(-y, -x)))
+    return found
+
+
+def part_in_midst(group: ObjectGroup, room_m: float) -> None:
+    """Move every second copy of a group to the left, the others to the right, by that room."""
+    if len(group.models) > 1:
+        group.offsets = [
+            (x + (room_m if number % 2 else -room_m), y, z)
+            for number, (x, y, z) in enumerate(group.offsets)
+        ]
+        group.fit()
+
+
+_SEAT_BACK_M = 0.03
+"""Distance of the middle of a chair behind the hips."""
+
+
+def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
+    """The noun of an object: a person in what it wears."""
+    objects = description.objects
+    noun = nouns[objects[index].noun]
+    worn = [
+        (objects[target].noun, rgb_of(objects[target].colour))
+        for one in description.relations
+        if one.kind == "wear" and one.subject == index
+        for target in one.targets
+        if objects[target].noun in CLOTHES
+    ]
+    return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun
+
+
+def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
+    """Props of a person's activities, or else its usual ones, that the scene does not show."""
+    if group.noun.name not in PERSON_NOUNS:
+        return ()
+    shown = {scene_object.noun for scene_object in description.objects}
+    said = group.scene_object.motions or (STANDING,)
+    kinds = dict.fromkeys(motion.kind for motion in said)
+    size = size_of(group.models[0])
+    props = [prop for kind in kinds for prop in list_props(kind, size)]
+    props = props or list(HOLDS.get(group.noun.name, ()))
+    if group.on_chairs and not shown & nouns_with("seat at a table"):
+        props.append(_draw_chair(size))
+    return tuple(
+        prop
+        for prop in props
+        if prop.anchor == "ground" or prop.is_own or not shown.intersection(prop.nouns)
+    )
+
+
+def _draw_chair(scale: float) -> Prop:
+    """The chair under who sits at a table; `scale` is the body's, relative to an adult."""
+    (name,) = nouns_with("seat at a table")
+    usual_m = find_support(NOUNS[name].build(colour=None, scale=1.0, seed=0), near_m=SEAT).height
+    model = NOUNS[name].build(colour=None, scale=max(scale, 1.0) * SEAT / usual_m, seed=0)
+    low = SEAT * (1.0 - min(scale, 1.0))
+    axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
+    placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
+    return Prop("ground", lambda _: placed)

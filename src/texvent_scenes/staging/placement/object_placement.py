@@ -1,0 +1,300 @@
+"""Placement of objects: relations become positions, and no two objects overlap."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.colours import rgb_of
+from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.models.materials import in_material
+from texvent_scenes.models.protocol import Model, Noun
+from texvent_scenes.models.shapes import point
+from texvent_scenes.pictures import PicturedModel, can_show
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded
+from texvent_scenes.staging.camera.journey import TravelPlan
+from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
+from texvent_scenes.staging.placement.along_route import RoutePlacer
+from texvent_scenes.staging.placement.object_groups import (
+    ObjectGroup,
+    choose_props,
+    dressed,
+    half_extents_over_clip,
+    match_pace,
+    overlap,
+    part_in_midst,
+    rests,
+    stagger,
+)
+from texvent_scenes.staging.placement.relations import (
+    INVERSE,
+    ON_TARGET,
+    Goal,
+    place_at_distance,
+    place_by_subject,
+    place_on_targets,
+)
+from texvent_scenes.staging.trajectories.choose_trajectory import (
+    choose_trajectory,
+    orbit,
+)
+from texvent_scenes.staging.trajectories.motion_plan import plan_motion
+from texvent_scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector
+
+_MUCH_LARGER = 1.3
+"""Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
+_NEARER = 0.35
+"""Approach for each metre to the side."""
+_ATTEMPTS = 400
+_SIDES = {"left": -1.0, "right": 1.0}
+
+
+class ObjectPlacer:
+    """Places groups one after the other, each where the scene wants it or close to it."""
+
+    def __init__(
+        self,
+        description: SceneDescription,
+        nouns: Mapping[str, Noun],
+        *,
+        seed: int,
+        duration_s: float,
+        level_m: Mapping[str, float],
+        travel: TravelPlan | None = None,
+    ) -> None:
+        self._description = settle_motions(description, nouns, seed)
+        self._nouns = nouns
+        self._seed = seed
+        self._duration_s = duration_s
+        self._level_m = level_m
+        """Height of the origin of what lives in the air and in the water, in own sizes."""
+        self.groups: dict[int, ObjectGroup] = {}
+        self._travel = travel
+        bodies = sum(scene_object.count for scene_object in description.objects)
+        self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
+
+    def place_all(self) -> list[Actor]:
+        """Every copy of every object, with its trajectory."""
+        objects = self._description.objects
+        # Objects with positions in metres are placed first; others make way.
+        for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
+            self._place(index, frozenset())
+        actors: list[Actor] = []
+        for index in sorted(self.groups):
+            actors.extend(self._populate(self.groups[index], len(actors)))
+        return perform_acts(self._description, actors, self._duration_s)
+
+    def build_group(self, index: int) -> ObjectGroup:
+        """An object's copies in formation about (0, 0)."""
+        scene_object = self._description.objects[index]
+        noun = dressed(self._description, index, self._nouns)
+        rng = seeded(self._seed, "thing", index, scene_object.noun)
+        colour = rgb_of(scene_object.colour)
+        models: list[Model] = [
+            in_material(
+                noun.build(colour=colour, scale=scene_object.size, seed=int(rng.integers(2**31))),
+                scene_object.material,
+                colour,
+            )
+            for _ in range(scene_object.count)
+        ]
+        if scene_object.picture is not None and can_show(noun.name):
+            models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
+        motions = scene_object.motions or (STANDING,)
+        plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
+        if scene_object.heading_deg is not None:
+            yaw = math.radians(scene_object.heading_deg)
+            path = plan.path and replace(plan.path, yaw=yaw)
+            plan = replace(plan, yaw=yaw, path=path)
+        offsets = stagger(models, plan, noun, rng)
+        half = half_extents_over_clip(models, offsets, plan)
+        return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
+
+    def _place(self, index: int, waiting: frozenset[int]) -> None:
+        """Place an object, after the objects its place depends on."""
+        if index in self.groups or index in waiting:
+            return
+        group = self.build_group(index)
+        related = [r for r in self._description.relations if r.subject == index]
+        for relation in related:
+            for target in relation.targets if relation.kind in ON_TARGET else ():
+                self._place(target, waiting | {index})
+        goal = self._choose_goal(group, related)
+        self._match_paces(group)
+        group.centre = self._find_free_position(group, goal)
+        if group.scene_object.position_m is not None:
+            self._start_at(group, group.scene_object.position_m)
+        self.groups[index] = group
+
+    def _start_at(self, group: ObjectGroup, place: tuple[float, float]) -> None:
+        """Move a group so that its first copy starts at a place on the ground, m."""
+        x, y, z = group.centre + np.array(group.offsets[0])
+        rng = seeded(self._seed, "lead", group.index, group.noun.name)
+        start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
+        group.centre[:2] += np.subtract(place, start[:2])
+
+    def _match_paces(self, group: ObjectGroup) -> None:
+        """Give a follower, a companion or what is overtaken the pace of its partner."""
+        for one in self._description.relations:
+            is_follower = one.kind == "follow" and one.subject == group.index
+            is_led = one.kind in ("with", "overtake", "past") and group.index in one.targets
+            partner = self.groups.get(one.targets[0] if is_follower else one.subject)
+            if partner is not None and (is_follower or is_led):
+                match_pace(group, partner, one.kind)
+
+    def _choose_goal(self, group: ObjectGroup, related: Sequence[IndexedRelation]) -> Goal:
+        """Goal of a group in the scene."""
+        height = self._height(group)
+        for relation in related:
+            targets = [self.groups[t] for t in relation.targets if t in self.groups]
+            if relation.kind in ON_TARGET and targets:
+                shared = self._list_sharing(relation)
+                return place_on_targets(group, relation.kind, targets, height, shared)
+        for relation in related:
+            if relation.kind in INVERSE and relation.targets[0] in self.groups:
+                target = self.groups[relation.targets[0]]
+                goal = place_by_subject(group, INVERSE[relation.kind], target, height)
+                return place_at_distance(goal, relation, target, 1.0)
+        for relation in self._description.relations:
+            if group.index in relation.targets and relation.subject in self.groups:
+                subject = self.groups[relation.subject]
+                goal = place_by_subject(group, relation.kind, subject, height)
+                return place_at_distance(goal, relation, subject, -1.0)
+        if self._along is not None:
+            scene = self._description
+            is_goal = scene.index(scene.camera.target) == group.index
+            return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
+        return self._choose_free_goal(group, height)
+
+    def _list_sharing(self, relation: IndexedRelation) -> list[int]:
+        """Index of each copy that has the same relation to the same objects."""
+        return [
+            other.subject
+            for other in self._description.relations
+            if other.kind == relation.kind and other.targets == relation.targets
+            for _ in range(self._description.objects[other.subject].count)
+        ]
+
+    def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
+        """In the middle, or at the side of the image that the scene says."""
+        side = group.scene_object.placement or ""
+        offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
+        offset += self._spread_apart(group) + self._stagger(group)
+        depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}.get(side, 0.0)
+        wanted = np.array([offset, depth, height])
+        sizes = [other.size_m for other in self.groups.values()]
+        if group.plan.is_path or group.noun.habitat in ("air", "water"):
+            # Smaller objects go nearer to the camera, so that none hides behind a larger one.
+            is_smaller = group.size_m < max(sizes, default=0.0)
+            return Goal(wanted, np.array([0.0, -1.0 if is_smaller else 1.0, 0.0]))
+        is_smaller = _MUCH_LARGER * group.size_m < max(sizes, default=0.0)
+        return Goal(wanted, np.array([1.0, -_NEARER if is_smaller else _NEARER, 0.0]))
+
+    def _spread_apart(self, group: ObjectGroup) -> float:
+        """Metres to the side that leave room for what is to stand between this and another.
+
+        Between the copies of one object the room is in their midst.
+        """
+        for relation in self._description.relations:
+            if relation.kind != "between" or group.index not in relation.targets:
+                continue
+            room = float(self.build_group(relation.subject).half[0]) + 0.4
+            if len(relation.targets) > 1:
+                side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
+                return side * (float(group.half[0]) + room)
+            part_in_midst(group, room)
+        return 0.0
+
+    def _stagger(self, group: ObjectGroup) -> float:
+        """Metres along the path between objects that go side by side, so that both are seen."""
+        others = [other for other in self.groups.values() if other.plan.is_path]
+        if not others or not group.plan.is_path or abs(math.cos(group.plan.yaw)) < 0.5:
+            return 0.0
+        side = -1.0 if len(others) % 2 else 1.0
+        return side * 0.35 * (others[0].models[0].length + group.models[0].length)
+
+    def _height(self, group: ObjectGroup) -> float:
+        """Height of the group's origin, m."""
+        kind, name, habitat = group.plan.motion.kind, group.noun.name, group.noun.habitat
+        levels, air = self._level_m, self._level_m.get("air", 0.0)
+        if group.scene_object.height_m is not None:
+            return group.scene_object.height_m - lowest_point(group.models[0])
+        is_resting = rests(group.noun, kind) and name not in levels
+        lifts = kind in ("rise", "sink") and air > 0.0
+        if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
+            return -lowest_point(group.models[0])
+        if name in levels:
+            return levels[name] * group.models[0].height
+        level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
+        if level == 0.0:
+            return 0.0
+        clear = levels.get("clear", 0.0) if habitat == "air" or kind == "fly" else 0.0
+        return level * max(group.size_m, 1.0) + clear
+
+    def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
+        """The goal, or the nearest free position along its slide, alternating sides.
+
+        The steps are small between small things, which stand close together.
+        """
+        wanted, slide = goal
+        if not slide.any():
+            return wanted
+        largest = max([group.size_m, *(other.size_m for other in self.groups.values())])
+        step = 0.25 * float(np.max(group.half[:2])) + min(0.1, 0.1 * largest)
+        for attempt in range(_ATTEMPTS):
+            reach = step * ((attempt + 1) // 2) * (1.0 if attempt % 2 else -1.0)
+            if slide[0] == 0.0:
+                reach = step * attempt
+            # To either side, but always nearer or always further away.
+            centre = wanted + np.array([reach, abs(reach), reach]) * slide
+            if not any(overlap(centre, group, other) for other in self.groups.values()):
+                return np.asarray(centre)
+        return wanted + _ATTEMPTS * step * np.abs(slide)
+
+    def _populate(self, group: ObjectGroup, before: int) -> list[Actor]:
+        """The copies of a group on their trajectories."""
+        rng = seeded(self._seed, "lead", group.index, group.noun.name)
+        actors = []
+        said = (group.plan.motion, *group.scene_object.motions[1:])
+        for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
+            x, y, z = group.centre + np.array(offset)
+            trajectory = self._choose(group, model, (x, y, z), number, rng)
+            actors.append(
+                Actor(
+                    group.index, group.noun, model, trajectory,
+                    any(motion.is_moving for motion in said),
+                    before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
+                    choose_props(self._description, group),
+                    goes_across=said[0].direction == "across",
+                )
+            )  # fmt: skip
+        return actors
+
+    def _choose(
+        self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
+    ) -> Trajectory:
+        """The trajectory of a copy that is at `home` in the middle of the clip."""
+        if group.orbits is not None:
+            x, y, _ = group.orbits.centre
+            reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
+            return orbit(
+                group.plan, (float(x), float(y), float(group.centre[2])),
+                reach + 0.1 * group.orbits.size_m, number / len(group.models),
+            )  # fmt: skip
+        if group.carrier is not None:
+            return self._ride_on(group, group.carrier, home)
+        plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
+        return choose_trajectory(plan, model, home, rng)
+
+    def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
+        """On what carries it, which moves as a whole."""
+        rng = seeded(self._seed, "lead", below.index, below.noun.name)
+        carrier = self._choose(below, below.models[0], point(below.centre), 0, rng)
+        (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        place = (x * cosine + y * sine, y * cosine - x * sine, z)
+        return Attached.seated(carrier, place, group.plan.gesture or "sit")

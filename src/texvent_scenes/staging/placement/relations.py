@@ -1,0 +1,321 @@
+"""Relations as positions: on, in, at, under, between, beside, past, behind and so on."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent_scenes.description import IndexedRelation
+from texvent_scenes.models.activities import (
+    DONE_SEATED,
+    PERSON_NOUNS,
+    SEATED,
+    TO_AND_FROM_SEATS,
+)
+from texvent_scenes.models.anchors import Support, find_support
+from texvent_scenes.models.people.posture import SEAT
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import is_centred, size_of
+from texvent_scenes.staging.placement.object_groups import (
+    GAP_M,
+    ObjectGroup,
+    list_around,
+)
+from texvent_scenes.staging.trajectories.phases import PATH_KINDS
+
+
+class Goal(NamedTuple):
+    """Goal of a group's placement."""
+
+    position: Float64Array
+    """[3] middle of the group, m."""
+    slide: Float64Array
+    """[3] direction in which it may move from there to find room; zero = it stays."""
+
+
+ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
+"""Relations in which the subject's place follows from the target's; in the others the target's
+follows from the subject's."""
+INVERSE: Mapping[str, str] = {
+    "behind": "front", "front": "behind", "left of": "right of", "right of": "left of",
+    "beside": "beside",
+}  # fmt: skip
+"""Relation of a subject to its target → that of the target to the subject."""
+_FIXED, _AWAY, _ALONG_X = np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+_SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
+          "front": (0.0, -1.0), "beside": (1.0, 0.0)}  # fmt: skip
+"""Relation with a distance → where its subject is, seen from the target, on the ground."""
+_COVERED = 0.55
+"""Share of what stands behind that may be hidden where it stands right behind."""
+_ASIDE_RAD, _CLEAR_M = 0.25, 0.3
+"""Angle by which the camera may see past an edge, and room beside a passed object."""
+
+
+_SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
+"""Share of the height of what is in something that looks out of it; of an animal, whose ears reach
+above its head."""
+_FRONT_M = 0.40
+"""From the front edge of a seat to the hips."""
+_SEATED_M, _STANDING_M = 0.28, 0.35
+"""From the edge of a table to the middle of who sits or stands at it."""
+_PERSON_M = 0.5
+"""Room for one of several people on something."""
+
+
+def place_on_targets(
+    group: ObjectGroup,
+    kind: str,
+    targets: Sequence[ObjectGroup],
+    height: float,
+    neighbours: Sequence[int],
+) -> Goal:
+    """A subject's position with respect to objects that are placed already, by one of `ON_TARGET`.
+
+    What it does may change: it rides or orbits the target. `height` is that of its
+    origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
+    """
+    if kind == "at" and targets[0].noun.name not in nouns_with("table"):
+        return place_by_subject(group, "beside", targets[0], height)
+    if kind == "between":  # where `object_placement` has left room
+        x, y, _ = np.mean([target.centre for target in targets], axis=0)
+        return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
+    rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
+    if rest is not None:
+        return Goal(rest(group, targets[0], neighbours), _FIXED)
+    return _PLACE_BY_KIND[kind](group, targets, height)
+
+
+def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+    """Circle around a target for moving objects; objects at rest stand around it and face it."""
+    target = targets[0]
+    x, y, level = target.centre
+    if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
+        return Goal(place_at(group, target, [group.index] * len(group.models)), _FIXED)
+    group.orbits = target
+    level += 0.8 * target.top_m if group.noun.habitat == "air" else 0.0
+    return Goal(np.array([x, y, max(level, 0.0)]), _FIXED)
+
+
+def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+    target, own = targets[0], group.models[0].height
+    if group.plan.motion.kind == "jump":
+        return place_by_subject(group, "beside", target, height)  # it jumps over nothing
+    clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
+    return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
+
+
+def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+    """Before what holds its target up in its middle, or beside one that is too low for it."""
+    if height + group.models[0].height > targets[0].top_m:
+        beside = targets[0].half[0] + group.half[0] + _CLEAR_M
+        return Goal(_shift(_on_ground(targets[0], height), beside, 0.0), _ALONG_X)
+    nearer = 0.4 * float(targets[0].half[1])
+    return Goal(_shift(_on_ground(targets[0], height), 0.0, -nearer), _FIXED)
+
+
+def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+    """Behind its target, on the same path."""
+    target, own = targets[0], group.models[0]
+    reach = 0.5 * (target.models[0].length + own.length)
+    group.half = 0.5 * np.array([own.length, own.width, own.height])
+    return Goal(target.to_world(-1.6 * reach - 0.4, 0.0, height - target.centre[2]), _FIXED)
+
+
+_PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
+    "around": _place_around,
+    "above": _place_above,
+    "under": _place_under,
+    "follow": _place_follower,
+}
+
+
+def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
+    """A target's position with respect to the subject that the scene relates to it.
+
+    `height` is that of the target's origin, m; the subject is placed already.
+    """
+    if kind == "through" and subject.plan.is_path:
+        return _lead_through(group, subject, height)
+    gap = GAP_M * min(subject.size_m, group.size_m)
+    near = subject.half_at_rest()
+    x, y, _ = subject.half + group.half + gap
+    yaw, here = subject.plan.yaw, _on_ground(subject, height)
+    along = (math.cos(yaw), math.sin(yaw))
+    goes = subject.plan.is_path or subject.plan.path is not None
+    is_aside = goes and abs(along[0]) > 0.5
+    # Beside what goes across the image is behind it; else at its right, and smaller things nearer.
+    beside = (0.0, y + _CLEAR_M, _AWAY) if is_aside else (x + _CLEAR_M, 0.0, _ALONG_X)
+    level = 0.0 if goes else float(group.half[1] - subject.half[1])
+    ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
+    goals = {
+        "from": (-x * along[0], -y * along[1], _AWAY),
+        "away from": (-x * along[0], -y * along[1], _AWAY),
+        "towards": (x * along[0], y * along[1], _AWAY),
+        "overtake": (0.0, y + _CLEAR_M, _AWAY),
+        "past": beside,
+        "beside": beside if is_aside else (x, level, _ALONG_X),
+        "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
+        "left of": (x, level, _ALONG_X),
+        "right of": (-x, level, -_ALONG_X),
+        "behind": (-_look_past(subject, near, y), -y, -_AWAY),
+        "front": (_look_past(group, near, y), y, _AWAY),
+    }
+    right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
+    return Goal(_shift(here, right, back), slide)
+
+
+def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
+    """Along the way of who goes through, who is out at about half of that way."""
+    if group.noun.name in nouns_with("passage"):
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
+        group.fit()
+    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+    back = 0.1 * extent + 0.5 * group.models[0].length
+    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
+    """Metres to the right at which what stands behind is seen past the edge of what is before it.
+
+    0 where enough of it is seen above and beside. `near` are the half extents [3] of what is
+    before it, m, `apart_m` the way from one middle to the other.
+    """
+    covered = np.minimum(1.0, near / rear.half_at_rest())
+    if covered[0] * covered[2] <= _COVERED:
+        return 0.0
+    return float(near[0] + (apart_m + near[1]) * _ASIDE_RAD)
+
+
+def _on_ground(group: ObjectGroup, height: float) -> Float64Array:
+    return np.array([group.centre[0], group.centre[1], height])
+
+
+def _shift(place: Float64Array, x: float, y: float) -> Float64Array:
+    return np.asarray(place + np.array([x, y, 0.0]))
+
+
+def place_at_distance(
+    goal: Goal, relation: IndexedRelation, other: ObjectGroup, sign: float
+) -> Goal:
+    """The goal at the distance of the relation to another group, if it has one.
+
+    `sign` is 1 for the goal of the relation's subject, -1 for that of a target.
+    """
+    if relation.distance_m is None:
+        return goal
+    place = other.centre[:2] + sign * relation.distance_m * np.array(_SIDES[relation.kind])
+    return Goal(np.array([*place, goal.position[2]]), _FIXED)
+
+
+def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """[3] the middle of a group that is put on the supporting surface of another object, m.
+
+    People who sit or lie take that posture and the target's heading; a target that moves carries
+    the group along. `neighbours` are the indices of all objects on the target, one for each copy.
+    """
+    kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
+    if target.plan.motion.is_moving:
+        group.carrier = target
+    if is_person and _sits(group, target):
+        return _seat_on(group, target, neighbours)
+    support = find_support(target.models[0])
+    _line_up(group, target, support, neighbours)
+    if is_person and kind in ("lie", "stand"):
+        body = target.models[0]
+        is_across = kind == "lie" and body.width > body.length
+        yaw = target.plan.yaw + 0.5 * math.pi * is_across
+        group.plan = replace(group.plan, yaw=yaw, gesture=kind)
+    group.fit()
+    return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
+    """Whether a person sits there: on a seat, unless the scene has them stand, lie or jump."""
+    kind = group.plan.motion.kind
+    may_sit = kind in DONE_SEATED or group.scene_object.motion is None
+    is_seated = kind in ("sit", "drive", "sail", *TO_AND_FROM_SEATS)
+    return is_seated or (may_sit and target.noun.name in nouns_with("seat"))
+
+
+def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """People on a seat."""
+    scale = size_of(group.models[0])
+    is_seat = target.noun.name in nouns_with("seat")
+    seat_m = SEAT * size_of(target.models[0])
+    support = find_support(target.models[0], near_m=seat_m if is_seat else None)
+    _line_up(group, target, support, neighbours)
+    x, y = support.middle
+    if support.high[0] > support.low[0] and target.noun.name not in nouns_with("sat on"):
+        x = max(x, support.high[0] - _FRONT_M * scale)
+    kind = group.plan.motion.kind
+    doing = SEATED + kind if kind in DONE_SEATED else "sit"
+    doing = kind if kind in TO_AND_FROM_SEATS else doing
+    group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
+    group.fit()
+    return target.to_world(x, y, support.height - SEAT * scale)
+
+
+def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
+    if target.noun.name in nouns_with("closed") | nouns_with("passage"):
+        if target.plan.motion.is_moving:
+            group.carrier = target
+        low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
+        return target.to_world(0.0, 0.0, low + group.origin_m)
+    place = rest_on(group, target, neighbours)
+    if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
+        return place
+    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
+    rim, tall = find_support(target.models[0]).height, group.models[0].height
+    low = max(rim - (1.0 - seen) * tall, 0.08 * target.models[0].height)
+    return np.array([place[0], place[1], target.centre[2] + low + group.origin_m])
+
+
+def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """As `rest_on`, around a thing and turned to it, the camera's side last.
+
+    People sit on chairs at a table unless what they do is done standing.
+    """
+    kinds = {one.kind for one in group.scene_object.motions if one.kind != "stand"}
+    scale = size_of(group.models[0])
+    is_person = group.noun.name in PERSON_NOUNS
+    may_sit = is_person and target.noun.name in nouns_with("table")
+    group.on_chairs = may_sit and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
+    reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
+    wide, deep, _ = target.half_at_rest() + reach
+    places = list_around(len(neighbours), float(wide), float(deep))
+    first = neighbours.index(group.index)
+    chosen = [places[(first + number) % len(places)] for number in range(len(group.models))]
+    lift = SEAT * (1.0 - min(scale, 1.0)) if group.on_chairs else 0.0
+    group.offsets = [(x, y, lift) for x, y, _ in chosen]
+    group.yaws = [yaw for _, _, yaw in chosen]
+    if group.on_chairs:
+        done = sorted(kinds & DONE_SEATED)
+        group.plan = replace(group.plan, gesture=SEATED + done[0] if done else "sit", path=None)
+    group.fit()
+    return np.array([target.centre[0], target.centre[1], group.origin_m])
+
+
+def _line_up(
+    group: ObjectGroup, target: ObjectGroup, support: Support, neighbours: Sequence[int]
+) -> None:
+    """Spread the copies along the longer side of the surface; several carriers share them out."""
+    body, own, several = target.models[0], len(group.offsets), len(target.offsets)
+    first = neighbours.index(group.index)
+    axis = 1 if body.width > body.length else 0
+    extent = support.high[axis] - support.low[axis]
+    if extent <= 0.0:
+        extent = 0.8 * max(body.width, body.length)
+    is_person = group.noun.name in PERSON_NOUNS
+    size = _PERSON_M if is_person else max(group.models[0].width, group.models[0].length)
+    count = math.ceil(len(neighbours) / several)
+    spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
+    yaw = target.plan.yaw + 0.5 * math.pi * axis
+    group.offsets = []
+    for number in range(first, first + own):
+        x, y, z = target.offsets[number % several] if several > 1 else (0.0, 0.0, 0.0)
+        along = spacing * (number // several - 0.5 * (count - 1))
+        group.offsets.append((x + along * math.cos(yaw), y + along * math.sin(yaw), z))

@@ -1,0 +1,359 @@
+"""Surroundings of each place and light as functions of time: ground, road, shore, rain, snow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent_scenes.colours import rgb_of
+from texvent_scenes.defaults import NO_PLACE
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.materials import mix
+from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import (
+    LAMP_RECORD,
+    Colour,
+    Environment,
+    Float32Array,
+    Float64Array,
+    Ground,
+    Texture,
+)
+from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.surroundings.lighting import (
+    DEPTHS,
+    Lighting,
+    choose_lighting,
+    wave_level,
+)
+from texvent_scenes.staging.trajectories.steered_path import SteeredPath
+from texvent_scenes.staging.trajectories.trajectory import Attached, Stationary
+
+_LEAST_TURN = 0.9
+"""Least change of heading, radians, after which a road goes off there."""
+_PAVEMENT_M, _VERGE_M = 1.4, 0.5
+"""Distances from the edge of the road to pedestrians and to standing objects beside it."""
+_ROADSIDE = 1.4
+"""Distance of walkers from the middle of a road without pavement, in lanes."""
+_USUAL_S = 2.0
+_CROSSING_AHEAD_M = 7.0
+_AFLOAT = ("swim", "surf")
+"""Motions of people in water, or on it."""
+_BANK, _LEAST_BANK_M = 0.22, 1.0
+"""Land between what the camera looks at and the water: a share of the camera's distance, and m."""
+_NEARER = 0.45
+"""Distance of a lake's shore before things afloat, as a share of the camera's distance."""
+
+
+@dataclass(frozen=True)
+class RoadLine:
+    """Centre lines of the roads of a scene; lengths in metres, angles in radians."""
+
+    angle: float = 0.0
+    """Direction at `offset`, from x towards y."""
+    offset: tuple[float, float] = (0.0, 0.0)
+    """A point (x, y) on the main road's centre line."""
+    crossings: tuple[tuple[float, float, float], ...] = ()
+    """Straight roads that cross the main one: a point (x, y) on the centre line, and direction."""
+
+    def at(self, along_m: float) -> tuple[float, float, float]:
+        """Point (x, y) and direction of the main road at that distance from `offset`."""
+        x, y = self.offset
+        x, y = x + along_m * math.cos(self.angle), y + along_m * math.sin(self.angle)
+        return x, y, self.angle
+
+    def across(self, spots: Float64Array) -> Float64Array:
+        """[n] metres from the main road's line to ground points [n, 2], positive on its left."""
+        x, y = (np.asarray(spots, dtype=np.float64) - self.offset).T
+        return np.asarray(y * math.cos(self.angle) - x * math.sin(self.angle))
+
+    def distance(self, spots: Float64Array) -> Float64Array:
+        """[n] metres from each ground point [n, 2] to the nearest centre line."""
+        lines = [self, *(RoadLine(angle, (x, y)) for x, y, angle in self.crossings)]
+        return np.asarray(np.min([np.abs(line.across(spots)) for line in lines], axis=0))
+
+
+def find_road(
+    description: SceneDescription, place: PlaceModel, actors: Sequence[Actor], usual_y: float
+) -> RoadLine:
+    """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
+    lane_m = 0.5 * place.road_m
+    has_pavement = place.ground is Ground.CITY and all(
+        one.placement != "lane" for one in description.objects
+    )
+    road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
+    if description.place.road == "crossing" and not road.crossings:
+        x, y, angle = road.at(_CROSSING_AHEAD_M)
+        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+    return road
+
+
+def _straight_road(
+    actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
+) -> RoadLine:
+    grounded = [one for one in actors if one.noun.habitat == "ground"]
+    # Ducks cross a road too.
+    movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
+    drivers = [one for one in movers if one.noun.motion == "drive"]
+    if drivers or (movers and not movers[0].goes_across):
+        return _road_of(drivers or movers, lane_m, has_pavement=has_pavement)
+    if movers:
+        crossing = [one for one in movers if one.goes_across]
+        middle = crossing[len(crossing) // 2]
+        x, y, _ = middle.middle(0.5 * _USUAL_S)
+        return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
+    nouns = {one.noun.name for one in actors}
+    drive = any(one.noun.motion == "drive" for one in actors)
+    may_be_beside = not drive and (has_pavement or nouns & nouns_with("beside a road"))
+    if nouns and may_be_beside and not nouns & nouns_with("on a road"):
+        farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
+        return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
+    y = grounded[0].trajectory.at(0.0).position[1] if grounded else usual_y
+    return RoadLine(offset=(0.0, float(y)))
+
+
+def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
+    """The road whose right lane, or whose edge, the first mover keeps to, also where it turns."""
+    first = movers[0]
+    is_alone = len(movers) == 1 and lane_m > 0.6 * first.model.width
+    lane = lane_m if is_alone else 0.0
+    if first.noun.motion != "drive":
+        lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
+
+    def centre_line(time_s: float) -> tuple[float, float, float]:
+        state = first.trajectory.at(time_s)
+        x, y, _ = state.position
+        # Traffic keeps to the right: the centre line is on its left.
+        return x - lane * math.sin(state.yaw), y + lane * math.cos(state.yaw), state.yaw
+
+    x, y, yaw = centre_line(0.0)
+    crossings: list[tuple[float, float, float]] = []
+    if isinstance(first.trajectory, SteeredPath):
+        ends = (0.5 * first.trajectory.duration_s, first.trajectory.duration_s)
+        crossings = [
+            line
+            for line in map(centre_line, ends)
+            if abs(math.remainder(line[2] - yaw, math.pi)) > _LEAST_TURN
+        ]
+    return RoadLine(yaw % math.pi if lane == 0.0 else yaw, (x, y), crossings=tuple(crossings[:1]))
+
+
+def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
+    """The actors, with what is painted across a road turned to it."""
+    painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
+    return [
+        replace(one, trajectory=Stationary(one.trajectory.at(0.0).position, yaw))
+        if one.noun.name in painted else one
+        for one in actors
+    ]  # fmt: skip
+
+
+def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrajectory) -> RoadLine:
+    """The middle of a river, or the shore of a lake with the water on its left.
+
+    It runs through objects that float or swim, and behind those on land.
+    """
+    forward = path.at(0.0).rotation[2, :2]
+    angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
+    x, y = float(path.framing.target[0]), float(path.framing.target[1])
+    half = place.road_m if place.ground is Ground.RIVER else 0.0
+    swimmers = [
+        one for one in actors if one.trajectory.at(0.0).activity in _AFLOAT
+        or (one.noun.habitat == "water" and not isinstance(one.trajectory, Attached))
+    ]  # fmt: skip
+    gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
+    if not actors:
+        gap = half
+    elif swimmers and place.ground is Ground.RIVER:
+        gap, state = 0.0, swimmers[0].trajectory.at(0.0)
+        angle = state.yaw if swimmers[0].is_mover else angle
+        x, y = float(state.position[0]), float(state.position[1])
+    elif swimmers:
+        gap = -_NEARER * path.framing.distance_m
+    return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
+
+
+NO_ROOM_M = 9.0
+"""Half the side of a room where there is none, m; nothing shows it."""
+_BLACK: Colour = (0.0, 0.0, 0.0)
+SNOW: Colour = (0.78, 0.82, 0.88)
+_SNOWED_OVER = (
+    Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE, Ground.CITY,
+    Ground.PLAIN, Ground.SAND,
+)  # fmt: skip
+"""Grounds whose grass or paving is white when snow lies on it."""
+_WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
+_DARKER, _LEAST_CONTRAST = 0.1, 1.0
+"""Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
+keeps the usual one: edges cross a threshold of 0.25 four times."""
+_LUMA = np.array([0.2126, 0.7152, 0.0722])
+"""Luma weights of linear RGB, Rec. 709."""
+_UNDERWATER_SIGHT_M = 16.0
+_FOG_SIGHT = 3.0
+"""In fog, sight (to 37 %) in camera distances."""
+
+
+@dataclass(frozen=True)
+class AnimatedEnvironment:
+    """The surroundings as a function of time: all fixed, but for flicker, waves and clouds."""
+
+    base: Environment
+    flicker_hz: float | None
+    wave: str = "sine"
+    """As `Light.wave`."""
+
+    def at(self, time_s: float) -> Environment:
+        """The surroundings at that instant."""
+        factor = np.float32(self.flicker(time_s))
+        return replace(
+            self.base,
+            time_s=time_s,
+            sun_colour=self.base.sun_colour * factor,
+            ambient=self.base.ambient * factor,
+        )
+
+    def flicker(self, time_s: float) -> float:
+        """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
+        if self.flicker_hz is None:
+            return 1.0
+        level = wave_level(self.wave, self.flicker_hz * time_s)
+        return 1.0 - DEPTHS[self.wave] * (1.0 - level)
+
+
+def contrasting(
+    place: PlaceModel, description: SceneDescription, actors: Sequence[Actor]
+) -> PlaceModel:
+    """The place, dark where it is an open backdrop too near in brightness to an object."""
+    is_open = any(one.startswith(NO_PLACE) for one in description.notes)
+    if not (is_open and place.is_backdrop and actors) or description.place.colour:
+        return place
+    first, second = place.colours
+    dark = (mix(_BLACK, first, _DARKER), mix(_BLACK, second, _DARKER))
+    lumas = [np.array([part.colour for part in one.place(0.0).parts]) @ _LUMA for one in actors]
+
+    def contrast(colours: tuple[Colour, Colour]) -> float:
+        ground = float(np.array(mix(*colours, 0.5)) @ _LUMA)
+        return min(float(np.abs(np.log((one + 0.01) / ground)).mean()) for one in lumas)
+
+    usual = contrast(place.colours)
+    is_lost = usual < min(_LEAST_CONTRAST, contrast(dark))
+    return replace(place, colours=dark) if is_lost else place
+
+
+def build_environment(
+    description: SceneDescription,
+    *,
+    place: PlaceModel,
+    road: RoadLine,
+    distance_m: float,
+    room_m: float,
+) -> AnimatedEnvironment:
+    """The surroundings of a scene.
+
+    Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
+    the room, where the place is one.
+    """
+    lighting, said = choose_lighting(place, description.light), description.place
+    colour, second = _ground_colours(place, said)
+    sky_top, horizon = _sky_colours(place, lighting, said)
+    fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    is_white = said.has_snow and place.ground in _SNOWED_OVER
+    is_dim = said.weather in ("rain", "snow")
+    base = Environment(
+        ground=_ground_under(description, place),
+        ground_colour=_array(colour),
+        ground_second_colour=_array(second),
+        road_angle=road.angle,
+        road_half_width=place.road_m,
+        road_offset=np.array(road.offset, dtype=np.float64),
+        sky_top=_array(sky_top),
+        sky_horizon=_array(horizon),
+        clouds=_cloud_share(description, place, lighting),
+        wave_height=said.wave_height,
+        sun_direction=_unit(lighting.sun_direction),
+        sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
+        ambient=_array(lighting.ambient),
+        shadows=lighting.shadows,
+        fog_distance=fog_distance,
+        fog_colour=_array(fog_colour),
+        exposure=lighting.exposure,
+        lamps=np.zeros(0, LAMP_RECORD),
+        time_s=0.0,
+        room_half_size=room_m if place.is_room else NO_ROOM_M,
+        ground_surface=Texture.SNOW if is_white else place.surface,
+        has_stars=not place.is_backdrop,
+        wall_surface=place.walls,
+        wall_colour=place.wall_colour,
+        road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
+    )
+    return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
+
+
+def _ground_under(description: SceneDescription, place: PlaceModel) -> Ground:
+    """The ground; none under flat patterns before a backdrop."""
+    nouns = {one.noun for one in description.objects}
+    is_flat = bool(nouns) and nouns <= nouns_with("flat pattern")
+    is_bare = place.is_backdrop and description.place.sky is None
+    return Ground.NONE if is_flat and is_bare else place.ground
+
+
+def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Colour, Colour]:
+    """Colours of the zenith and of the horizon: of a backdrop the same all around."""
+    sky = rgb_of(said.sky)
+    if sky is not None:
+        return sky, mix(sky, lighting.sky_horizon, 0.5)
+    average = mix(*_ground_colours(place, said), 0.5)
+    return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
+
+
+def _cloud_share(description: SceneDescription, place: PlaceModel, lighting: Lighting) -> float:
+    """Share of the sky that clouds cover."""
+    said = description.place
+    usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
+    least = [usual if said.clouds is None else said.clouds]
+    least += [0.8] * (said.weather in ("rain", "snow"))
+    return max(least)
+
+
+def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
+    """Both colours of the ground, under snow or painted as the scene says."""
+    colour, second = place.colours
+    if said.has_snow and place.ground in _SNOWED_OVER:
+        colour = SNOW
+        second = SNOW if place.ground is Ground.GRASS else second
+    paint = rgb_of(said.colour)
+    if paint is not None:
+        # Grass is darker than paint: blades shade one another.
+        depth = 0.45 if place.ground is Ground.GRASS else 0.8
+        colour = mix(_BLACK, paint, depth)
+        second = mix(_BLACK, paint, min(1.5 * depth, 1.0))
+    return colour, second
+
+
+def _choose_fog(
+    place: PlaceModel, weather: str | None, horizon: Colour, distance_m: float
+) -> tuple[float, Colour]:
+    """Sight to 37 %, m, and the colour that all fades into."""
+    if place.ground is Ground.UNDERWATER:
+        return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
+    if weather == "fog":
+        grey = sum(horizon) / 3.0
+        return _FOG_SIGHT * distance_m, mix(horizon, (grey, grey, grey), 0.7)
+    if weather in ("rain", "snow"):
+        return 14.0 * distance_m, horizon
+    return math.inf, horizon
+
+
+def _array(colour: Colour) -> Float32Array:
+    return np.array(colour, dtype=np.float32)
+
+
+def _unit(direction: tuple[float, float, float]) -> Float64Array:
+    unit: Float64Array = np.array(direction) / np.linalg.norm(direction)
+    return unit

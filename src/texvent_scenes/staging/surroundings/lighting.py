@@ -1,0 +1,140 @@
+"""Light of a place at its time of day, and its modulation over time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.rendered_scene import LAMP_RECORD, Colour, Float64Array, Ground
+from texvent_scenes.spec.scene import Light
+
+_WARM: Colour = (1.0, 0.72, 0.40)
+_LAMP_OFFSET = np.array([-0.25, -0.25, 0.55])
+"""From what the camera looks at to a lamp out of sight, in distances of the camera."""
+
+
+@dataclass(frozen=True)
+class Lighting:
+    """Direct and ambient light, sky, and exposure."""
+
+    sun_direction: tuple[float, float, float]
+    sun: Colour
+    ambient: Colour
+    sky_top: Colour
+    sky_horizon: Colour
+    clouds: float
+    exposure: float = 1.0
+    shadows: bool = True
+    lamps: float = 0.0
+    """Strength of artificial light where a place has lamps, 0..1."""
+
+
+_DAY = Lighting(
+    (-0.45, -0.55, 0.70), (1.0, 0.94, 0.82), (0.30, 0.34, 0.41), (0.10, 0.28, 0.72),
+    (0.55, 0.71, 0.88), 0.22,
+)  # fmt: skip
+LIGHTINGS: dict[str, Lighting] = {
+    "day": _DAY,
+    "sunny": replace(_DAY, sun=(1.18, 1.08, 0.88), clouds=0.08, ambient=(0.27, 0.31, 0.38)),
+    "overcast": Lighting(
+        (-0.3, -0.4, 0.86), (0.22, 0.22, 0.22), (0.56, 0.58, 0.61), (0.42, 0.46, 0.52),
+        (0.60, 0.63, 0.66), 0.85, shadows=False,
+    ),
+    "dusk": Lighting(
+        (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.045, 0.06, 0.20),
+        (0.62, 0.27, 0.105), 0.34, 1.75, lamps=0.5,
+    ),
+    "dawn": Lighting(
+        (-0.80, -0.42, 0.28), (1.0, 0.62, 0.42), (0.26, 0.25, 0.33), (0.20, 0.30, 0.62),
+        (0.98, 0.66, 0.52), 0.30, 1.05,
+    ),
+    "night": Lighting(
+        (-0.45, -0.50, 0.74), (0.055, 0.07, 0.11), (0.030, 0.038, 0.068), (0.004, 0.006, 0.020),
+        (0.016, 0.020, 0.042), 0.0, 2.1, lamps=1.0,
+    ),
+    "moonlight": Lighting(
+        (-0.45, -0.50, 0.74), (0.15, 0.18, 0.25), (0.040, 0.050, 0.085), (0.005, 0.008, 0.026),
+        (0.022, 0.028, 0.060), 0.0, 1.6, lamps=0.4,
+    ),
+    "lamp": Lighting(
+        (-0.45, -0.50, 0.74), (0.03, 0.03, 0.035), (0.05, 0.045, 0.04), (0.004, 0.006, 0.02),
+        (0.016, 0.02, 0.04), 0.0, 1.5, lamps=1.0,
+    ),
+}  # fmt: skip
+"""Lighting of every light the grammar knows."""
+
+_ROOM = Lighting(
+    (-0.35, -0.45, 0.82), (0.55, 0.53, 0.48), (0.46, 0.45, 0.43), (0.8, 0.8, 0.8),
+    (0.8, 0.8, 0.8), 0.0,
+)  # fmt: skip
+_UNDERWATER = Lighting(
+    (0.12, -0.30, 0.95), (0.55, 0.78, 0.80), (0.14, 0.30, 0.38), (0.10, 0.42, 0.55),
+    (0.03, 0.19, 0.30), 0.0, 1.1,
+)  # fmt: skip
+_SPACE = Lighting(
+    (-0.75, -0.55, 0.35), (1.3, 1.25, 1.15), (0.05, 0.055, 0.07), (0.0, 0.0, 0.003),
+    (0.0, 0.0, 0.003), 0.0,
+)  # fmt: skip
+_DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
+"""Daylight of places that are not in the open air."""
+_DARK = ("night", "moonlight", "lamp")
+
+
+def choose_lighting(place: PlaceModel, light: Light) -> Lighting:
+    """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
+    kind = light.kind or "day"
+    if place.light == "underwater":
+        return _UNDERWATER
+    if place.light == "space" or (place.light and kind not in _DARK):
+        return _DAYLIGHTS[place.light]
+    if place.ground is Ground.NONE and kind == "night":
+        return LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
+    chosen = LIGHTINGS[kind]
+    return replace(chosen, lamps=0.3 * chosen.lamps) if place.ground is Ground.SNOW else chosen
+
+
+def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> NDArray[Any]:
+    """[1] `LAMP_RECORD`: a lamp out of sight that lights the ground below it.
+
+    It stands off the target [3] by shares of `reach_m`.
+    """
+    place = target + reach_m * _LAMP_OFFSET
+    height = max(float(place[2]), 0.7)
+    return point_lamp(place, 1.1 * strength * height**2 * np.array(_WARM), 5.0 * height, 0.3)
+
+
+def point_lamp(place: ArrayLike, light: ArrayLike, reach_m: float, radius_m: float) -> NDArray[Any]:
+    """[1] `LAMP_RECORD`: a lamp that shines to all sides, without shadows or glow."""
+    lamp = np.zeros(1, LAMP_RECORD)
+    lamp["place"], lamp["light"], lamp["reach"] = place, light, reach_m
+    lamp["full"], lamp["dark"], lamp["radius"] = -2.0, -2.0, radius_m
+    return lamp
+
+
+ON_SHARES = {"square": 0.5, "switch": 0.5, "strobe": 0.35}
+"""Wave that goes on and off → share of a period that it is on."""
+DEPTHS = {"sine": 0.8, "switch": 0.9, "strobe": 0.96}
+"""Wave of the light of a place → share of it that is gone at its darkest."""
+FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
+"""Sines that make a flame flicker: multiple of its frequency, and amplitude."""
+
+
+def wave_level(wave: str, cycles: float, *, phase: float = 0.0) -> float:
+    """Share of full light after so many periods since t = 0; 1 at their beginning.
+
+    `phase`, 0..1, is that of a flame.
+    """
+    turn = 2.0 * math.pi
+    if wave in ON_SHARES:
+        return float(cycles % 1.0 < ON_SHARES[wave])
+    if wave == "flame":
+        return 1.0 + sum(
+            share * math.sin(turn * (multiple * cycles + phase * (1.0 + multiple)))
+            for multiple, share in FLAME_SHARES
+        )
+    return 0.5 + 0.5 * math.cos(turn * cycles)

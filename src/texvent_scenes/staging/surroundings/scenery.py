@@ -1,0 +1,289 @@
+"""Scenery: trees along a road, houses in a city, pines on a mountain.
+
+It stands where the camera looks, or on both sides of the route of a camera that travels; never
+between the camera and the objects of the scene, on the road, or in another's place.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.camera import PosedCamera
+from texvent_scenes.models.places import Scenery
+from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor, PlacedModel
+from texvent_scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
+from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.trajectories.trajectory import BodyState
+
+_BANK_M = 1.0
+"""Land that scenery leaves free beside water, m."""
+_FAR_SHORE_M = 100.0
+"""Distance from which on scenery may stand beyond the water."""
+_USUAL_DISTANCE_M = 16.0
+_ATTEMPTS = 40
+"""Places tried for each piece before it is left out."""
+_SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
+"""Along a route: usually from one to the next, and least and most from the free strip."""
+_BEFORE_M, _MOST_ITEMS = 4.0, 90
+"""Start of scenery before a route's beginning, and greatest number of pieces."""
+
+
+@dataclass(frozen=True)
+class ViewClearance:
+    """Space that scenery must keep clear."""
+
+    cameras: Sequence[PosedCamera]
+    """The camera at some instants."""
+    points: Sequence[Float64Array]
+    """[n, 3] what it must see at those instants, m."""
+    distance_m: float
+    road_half_width: float | None
+    """Half width of the strip to keep free, m; None = no road."""
+    road: RoadLine
+    room_m: float = math.inf
+    travel: TravelPlan | None = None
+    """The route of a camera that travels."""
+    has_shore: bool = False
+    """Whether water lies to the left of the road's line."""
+
+
+@dataclass(frozen=True)
+class SceneryItem:
+    """One piece of scenery; it stands still."""
+
+    rule: Scenery
+    model: Model
+    position: tuple[float, float]
+    yaw: float
+    height_m: float = 0.0
+    """Height of its origin, m."""
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether others may stand on it: paint on the ground."""
+        return self.rule.where == "under"
+
+    @property
+    def radius_m(self) -> float:
+        """Radius of the ground it stands on."""
+        return 0.5 * max(self.model.length, self.model.width)
+
+    def place(self) -> PlacedModel:
+        """Its parts in the world."""
+        state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
+        parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+        return PlacedModel(parts, state.to_world(), 0)
+
+
+def scatter(
+    rules: Sequence[Scenery],
+    view: ViewClearance,
+    actors: Sequence[Actor],
+    nouns: Mapping[str, Noun],
+    *,
+    rng: np.random.Generator,
+) -> list[SceneryItem]:
+    """Scatter scenery where the camera sees it and it hides and blocks nothing.
+
+    Args:
+        rules: what, how many and how far.
+        view: the camera over the clip, its route, and what it must see.
+        actors: the objects of the scene.
+        nouns: table of models; a noun that is missing is left out.
+        rng: decides places, sizes and turns.
+
+    Returns:
+        The pieces that found a place; fewer than wanted where it is crowded.
+    """
+    rules = [rule for rule in rules if rule.noun in nouns]
+    work = _Scatterer(view, actors, nouns, rng)
+    beside: list[Scenery] = []
+    if view.travel is not None:
+        beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
+        work.line_route(beside, view.travel)
+    for rule in rules:
+        if rule.where == "under":
+            work.lay_under(rule)
+        elif rule.where != "route" and rule not in beside:
+            work.stand_in_view(rule)
+    return work.items
+
+
+class _Scatterer:
+    """Puts up one piece after the other, clear of the view, the objects and the other pieces."""
+
+    def __init__(
+        self,
+        view: ViewClearance,
+        actors: Sequence[Actor],
+        nouns: Mapping[str, Noun],
+        rng: np.random.Generator,
+    ) -> None:
+        self.items: list[SceneryItem] = []
+        self._view, self._nouns, self._rng = view, nouns, rng
+        self._yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
+        """Heading of the first object."""
+        rows = [
+            (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
+            for one in actors
+            for time_s in np.linspace(0.0, 2.0, 5)
+        ]
+        self._bodies = np.array(rows, dtype=np.float64).reshape(-1, 3)
+        """[n, 3]: x, y and radius of the objects at some instants, m."""
+
+    def _build(self, rule: Scenery, copy: int, scale: float = 1.0) -> Model:
+        """A copy of a piece, with its own size and seed."""
+        return self._nouns[rule.noun].build(
+            colour=rule.colours[copy % len(rule.colours)],
+            scale=float(self._rng.uniform(*rule.scale)) * scale,
+            seed=int(self._rng.integers(2**31)),
+        )
+
+    def stand_in_view(self, rule: Scenery) -> None:
+        """Pieces somewhere in what the camera sees."""
+        fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
+        for copy in range(rule.count):
+            model = self._build(rule, copy, fit)
+            for _ in range(_ATTEMPTS):
+                camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
+                stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
+                item = stand(rule, model, camera)
+                if self._is_free(item):
+                    self.items.append(item)
+                    break
+
+    def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
+        """Pieces on both sides of a route, from behind its beginning to beyond its end."""
+        length = travel.length_m + VIEW_M + _BEFORE_M
+        spacing = {
+            rule: float(trait_value("spacing along a road", rule.noun) or _SPACING_M)
+            for rule in rules
+        }
+        stretch = max(1.0, sum(2.0 * length / one for one in spacing.values()) / _MOST_ITEMS)
+        for rule, side in itertools.product(spacing, (1.0, -1.0)):
+            step = stretch * spacing[rule]
+            for number in range(math.ceil(length / step)):
+                along = step * (number + float(self._rng.uniform(0.1, 0.9))) - _BEFORE_M
+                item = self._stand_beside(rule, number, travel, along, side)
+                if self._is_free(item):
+                    self.items.append(item)
+
+    def _stand_beside(
+        self, rule: Scenery, copy: int, travel: TravelPlan, along_m: float, side: float
+    ) -> SceneryItem:
+        """At the side of a route, 1 = right, so far along it."""
+        model = self._build(rule, copy)
+        near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
+        aside = travel.clear(side) + 0.5 * max(model.length, model.width)
+        aside += near + (far - near) * float(self._rng.uniform()) ** 2
+        height = 0.0
+        if self._nouns[rule.noun].habitat == "air":
+            height = travel.journey.height_m + float(self._rng.uniform(-5.0, 4.0))
+        yaw = self._turn(rule, NORTH + side * 0.5 * math.pi)
+        return SceneryItem(rule, model, travel.point(along_m, side * aside), yaw, height)
+
+    def _turn(self, rule: Scenery, along_road: float) -> float:
+        """Heading of a piece: along the road, or any."""
+        is_parallel = rule.noun in nouns_with("parallel to road")
+        return along_road if is_parallel else float(self._rng.uniform(0.0, 2.0 * math.pi))
+
+    def lay_under(self, rule: Scenery) -> None:
+        """Under the middle of all, along the road, so far on as the first of them looks."""
+        x, y = self._bodies[:, :2].mean(axis=0) if len(self._bodies) else (0.0, 0.0)
+        ahead, angle = rule.reach[0], self._view.road.angle
+        spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
+        self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
+
+    def _stand_around(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem:
+        """Somewhere in what the camera sees, as far off as the rule says."""
+        share = float(self._rng.uniform(-0.62, 0.62))
+        reach = self._draw_reach(rule, camera)
+        forward, right = _axes(camera)
+        x, y = camera.position[:2] + reach * (forward + share / camera.focal * right)
+        if rule.faces:
+            yaw = math.atan2(-float(forward[1]), -float(forward[0]))
+            yaw += float(self._rng.uniform(-0.2, 0.2))
+        else:
+            yaw = self._turn(rule, self._view.road.angle - 0.5 * math.pi)
+        return SceneryItem(rule, model, (float(x), float(y)), yaw)
+
+    def _draw_reach(self, rule: Scenery, camera: PosedCamera) -> float:
+        """Metres from the camera."""
+        near, far = rule.reach
+        if rule.where == "far":
+            return float(self._rng.uniform(near, far))
+        pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
+        flat = self._view.distance_m * math.cos(pitch)
+        return flat * (1.0 + float(self._rng.uniform(near, far)))
+
+    def _stand_at_wall(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem:
+        """Somewhere along a wall that the camera sees, with its back to it."""
+        forward, room = camera.rotation[2, :2], self._view.room_m
+        shares = np.abs(forward) / max(float(np.abs(forward).sum()), 1e-9)
+        axis = 0 if self._rng.uniform() < shares[0] else 1
+        side = 1.0 if forward[axis] >= 0.0 else -1.0
+        spot = [0.0, 0.0]
+        spot[axis] = side * (room - 0.5 * model.length - 0.04)
+        spot[1 - axis] = float(self._rng.uniform(-0.9, 0.9)) * (room - 0.5 * model.width)
+        yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
+        return SceneryItem(rule, model, (spot[0], spot[1]), yaw)
+
+    def _is_free(self, item: SceneryItem) -> bool:
+        """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
+        spot, radius, view = np.array(item.position), item.radius_m, self._view
+        if view.road_half_width is not None:
+            clear = view.road_half_width + radius + 0.4
+            if float(view.road.distance(spot[None])[0]) < clear:
+                return False
+        is_at_wall = item.rule.where == "walls"
+        room = view.room_m + (radius if is_at_wall else 0.0)
+        if np.max(np.abs(spot)) + radius > room or not _is_on_its_side(item, view):
+            return False
+        # What stands at a wall is as deep as it is long, not as it is wide.
+        deep = min(0.5 * item.model.length + 0.3, radius) if is_at_wall else radius
+        apart = np.hypot(*(self._bodies[:, :2] - spot).T)
+        if np.any(apart < self._bodies[:, 2] + deep + 0.4):
+            return False
+        others = (one for one in self.items if not one.is_flat)
+        if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):
+            return False
+        return not _hides(spot, radius, deep, view)
+
+
+def _axes(camera: PosedCamera) -> tuple[Float64Array, Float64Array]:
+    """[2] which way a camera looks over the ground, and [2] to its right."""
+    forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
+    forward = forward / max(float(np.hypot(*forward)), 1e-9)
+    return forward, np.array([forward[1], -forward[0]])
+
+
+def _is_on_its_side(item: SceneryItem, view: ViewClearance) -> bool:
+    """Whether what floats is in the water, and what stands is on land or far beyond the water."""
+    rule, ashore = item.rule, -float(view.road.across(np.array([item.position]))[0])
+    if rule.where == "water":
+        return view.has_shore and -ashore > item.radius_m + 0.5
+    is_beyond = rule.where == "far" and rule.reach[0] >= _FAR_SHORE_M
+    return not view.has_shore or is_beyond or ashore >= item.radius_m + _BANK_M
+
+
+def _hides(spot: Float64Array, radius_m: float, deep_m: float, view: ViewClearance) -> bool:
+    """Whether an object there stands before something the camera must see, or at the camera."""
+    for camera, points in zip(view.cameras, view.points, strict=True):
+        start = camera.position[:2]
+        if np.hypot(*(spot - start)) < radius_m + 1.0:
+            return True
+        rays = points[:, :2] - start
+        lengths = np.maximum(np.hypot(rays[:, 0], rays[:, 1]), 1e-9)
+        along = np.clip((rays @ (spot - start)) / lengths**2, 0.0, 1.0)
+        nearest = start + along[:, None] * rays
+        if np.any(np.hypot(*(nearest - spot).T) < deep_m + 0.15):
+            return True
+    return False

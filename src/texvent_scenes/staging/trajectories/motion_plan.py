@@ -1,0 +1,215 @@
+"""Plan of an object's motion: heading, speed, gesture and the room it takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    ON_GROUND,
+    PERSON_NOUNS,
+)
+from texvent_scenes.models.protocol import Model, Noun
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.trajectories.action_trajectories import Axis
+from texvent_scenes.staging.trajectories.phases import (
+    GOING,
+    PATH_KINDS,
+    YAWS,
+    build_path,
+    needs_steering,
+)
+from texvent_scenes.staging.trajectories.steered_path import SteeredPath
+
+MAX_LENGTHS_PER_S = 0.95
+"""A usual speed is kept below this many of the object's own lengths per second, so that it stays
+in view and large; a speed stated in numbers is not."""
+MIN_LENGTHS_PER_S = 0.35
+"""A usual speed of small things is at least this many lengths per second: a snail gets on."""
+LEAST_SAILED = 0.15
+"""The same of ships, at 24 knots for 80 m: others are seen to rest."""
+SMALL_M = 2.5
+RUN_FACTOR = 2.2
+"""Running over walking speed."""
+FLAT, _WIDE = 0.62, 0.7
+"""Objects whose length is below this share of their width show their front to the camera; the
+second is for what slides: a board, a mirror."""
+
+
+@dataclass(frozen=True)
+class MotionPlan:
+    """Heading, speed and room of an object's motion."""
+
+    motion: Motion
+    yaw: float
+    speed_m_s: float
+    duration_s: float
+    path: SteeredPath | None = None
+    """Its path about (0, 0), where it does more than one simple movement."""
+    gesture: str | None = None
+    """Activity of a person or a hand in place: a name of `models.activities`."""
+    radius_m: float = 0.0
+    """Rolling radius; 0 = it goes on wheels or feet."""
+    spin_axis: Axis = "yaw"
+    is_facing: bool = False
+    """Whether it shows its front to the camera while it moves: a board with a pattern."""
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it goes from one place to another along a straight line."""
+        is_straight = self.motion.direction not in ("to and fro", "up and down")
+        return self.path is None and self.motion.kind in PATH_KINDS and is_straight
+
+    @property
+    def travel_m(self) -> float:
+        """Metres covered in the clip along the heading."""
+        if self.is_path:
+            return self.speed_m_s * self.duration_s
+        if self.motion.direction == "to and fro":
+            return 0.6 * self.speed_m_s * self.duration_s
+        return 0.0
+
+    @property
+    def climb(self) -> float:
+        """Metres up per metre along."""
+        is_free = self.motion.kind in ("fly", "swim") and not self.is_facing
+        return {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0) if is_free else 0.0
+
+
+def plan_motion(
+    motions: Sequence[Motion],
+    noun: Noun,
+    model: Model,
+    duration_s: float,
+    rng: np.random.Generator,
+) -> MotionPlan:
+    """Heading and speed of a motion: said by the prompt, or usual for the noun.
+
+    Args:
+        motions: what the prompt says, in order; the first decides the heading.
+        noun: the object.
+        model: its model, for its size.
+        duration_s: length of the clip, s.
+        rng: decides between left and right where nothing is said.
+    """
+    motions = [_as_it_does(noun, one) for one in motions]
+    motion, toss = motions[0], rng.random()
+    yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
+    is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
+    is_facing = _faces_camera(noun, model, motion)
+    axle: Axis = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
+    plan = MotionPlan(
+        motion, yaw, speed, duration_s, is_facing=is_facing,
+        radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
+        spin_axis="roll" if is_facing else axle,
+    )  # fmt: skip
+    if needs_steering(motions):
+        path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
+        return replace(plan, yaw=path.yaw, path=path)
+    pace = 1.0 if motion.speed_m_s is not None else motion.pace
+    return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _as_it_does(noun: Noun, motion: Motion) -> Motion:
+    """Motion kind that suits a noun: only hands rotate, other nouns spin; narrow ones topple."""
+    if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
+        return replace(motion, kind="spin")
+    is_falling_over = motion.kind == "fall" and noun.name in nouns_with("falls over")
+    return replace(motion, kind="topple") if is_falling_over else motion
+
+
+def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float) -> float:
+    motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
+    later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
+    direction = motion.direction or next(later, None) or ""
+    goes = motion.kind in PATH_KINDS or any(m.kind in GOING | {"turn"} for m in motions)
+    is_toppling = motion.kind == "topple" or any(one.kind == "fall" for one in motions[1:])
+    if motion.kind == "turn":
+        return default  # "turns left" is to its own left
+    if noun.habitat == "fixed" and is_toppling:
+        return default  # what falls over does so to a side of the picture
+    if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
+        return _face_camera(noun, model, motion, toss)
+    if motion.kind in ("fly", "swim") and direction in ("up", "down"):
+        return default  # up or down in the picture, and to a side only as it likes
+    return YAWS.get(direction, default)
+
+
+def _faces_camera(noun: Noun, model: Model, motion: Motion) -> bool:
+    """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
+    if noun.name in nouns_with("flat pattern"):
+        return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
+    if motion.kind == "spin":
+        return noun.name in nouns_with("flat picture")
+    is_wide = model.length < _WIDE * model.width
+    return noun.habitat == "fixed" and is_wide and motion.kind == "slide"
+
+
+def choose_gesture(noun: Noun, motion: Motion) -> str | None:
+    """The activity of a person or hand that stays in its place; None = it is no such thing."""
+    kinds = {**dict.fromkeys(PERSON_NOUNS, ACTIVITIES), **dict.fromkeys(HAND_NOUNS, HAND_GESTURES)}
+    known = kinds.get(noun.name)
+    if known is None or motion.kind in PATH_KINDS or motion.kind in ("jump", "spin", "fall"):
+        return None
+    handed = f"{motion.kind} {motion.direction}"
+    if handed in known:
+        return handed
+    if motion.kind in ON_GROUND and noun.name in PERSON_NOUNS:
+        return ON_GROUND[motion.kind]
+    return motion.kind if motion.kind in known else None
+
+
+def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
+    """Whether its direction says which hand, or where it leans, not which way the body faces."""
+    if motion.kind in ("sway", "work"):
+        return True
+    gesture = choose_gesture(noun, motion)
+    return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
+
+
+def _choose_speed(motions: Sequence[Motion], noun: Noun, model: Model) -> float:
+    """Speed at pace 1, or as stated, m/s."""
+    motion = motions[0]
+    stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
+    if stated is not None:
+        return stated
+    speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    if motion.kind == "run" and noun.motion == "walk":
+        speed *= RUN_FACTOR
+    # What flies has no road to be compared with: slower, it can be shown larger.
+    most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
+    size = max(model.length, model.height)
+    if noun.motion == "sail":
+        speed = max(speed, LEAST_SAILED * size)
+    if size < SMALL_M and noun.speed_m_s > 0.0:
+        speed = max(speed, MIN_LENGTHS_PER_S * size)
+    return min(speed, most * size)
+
+
+def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
+    """Heading of what stays in place: animals from the side, the rest facing the camera.
+
+    Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
+    """
+    tilt = 0.5 * (2.0 * toss - 1.0)
+    front, side = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0
+    is_person = noun.name in PERSON_NOUNS
+    if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
+        return side + 0.5 * tilt
+    turned = trait_value("side view", noun.name)
+    if turned is not None:
+        return turned * tilt if motion.direction != "left" else math.pi
+    if noun.name in nouns_with("flat pattern"):
+        return front
+    if model.length < FLAT * model.width or is_person:
+        return front + 0.5 * tilt
+    if noun.habitat == "fixed":
+        return front + math.copysign(0.45, tilt) + 0.3 * tilt
+    return side + tilt

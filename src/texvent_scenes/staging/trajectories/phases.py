@@ -1,0 +1,348 @@
+"""Phases of an object's motion: their times, and the pieces of one continuous path."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent_scenes.description import SPIN_RATE_HZ, STANDING
+from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
+from texvent_scenes.models.protocol import Model, Noun
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.trajectories.steered_path import (
+    HOP_PAUSE_S,
+    Piece,
+    SteeredPath,
+    arc,
+    centred,
+    flight_s,
+)
+
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
+"""Motions from one place to another."""
+GOING = PATH_KINDS | {"reverse"}
+"""Those with a direction of travel."""
+_STEERED = GOING | {"turn"}
+_PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
+
+YAWS = {
+    "right": 0.0,
+    "left": math.pi,
+    "away": 0.5 * math.pi,
+    "up": 0.5 * math.pi,
+    "towards": -0.5 * math.pi,
+    "down": -0.5 * math.pi,
+}
+"""Direction → heading; up and down are along a slope for what moves on the ground."""
+_STEERED_DIRECTIONS = frozenset({"backward", "around"})
+NO_FLOOR_M = -1e4
+"""Floor of a path that is not yet placed above the ground, m."""
+QUARTER = 0.5 * math.pi
+_TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
+"""Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
+that the turn to another direction takes."""
+MOST_HASTE = 2.5
+"""Most multiple of its usual speed at which an object does what its time is short for."""
+_RAMP_S = 0.3
+_BRAKING_M_S2 = 6.0
+_CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
+"""Metres up or down per metre along: in general, from a runway, and to it."""
+_LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
+"""Shares of a phase after which wheels leave a runway, or meet it."""
+_CLOCKWISE = frozenset({"clockwise", "right"})
+_REACHED = {"sit down": "sit", "stand up": "stand"}
+"""Getting up and down after something else: the posture that the body goes over to."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """One motion and when it happens, s."""
+
+    motion: Motion
+    start_s: float
+    end_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the phase, s."""
+        return self.end_s - self.start_s
+
+
+def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
+    """Times of motions: those that the prompt says, else even shares of the clip.
+
+    Motions that would begin at the end of the clip or later are left out.
+    """
+    motions = list(motions)
+    if motions[0].start_s:
+        motions.insert(0, STANDING)
+    known = {0: 0.0, len(motions): duration_s}
+    for number, motion in enumerate(motions):
+        if number and motion.start_s is not None:
+            known[number] = min(motion.start_s, duration_s)
+    numbers = sorted(known)
+    shares = np.interp(range(len(motions) + 1), numbers, [known[number] for number in numbers])
+    times = [float(time) for time in np.maximum.accumulate(shares)]
+    shown = [
+        Phase(motion, begin, max(end, begin))
+        for motion, begin, end in zip(motions, times, times[1:], strict=False)
+    ]
+    return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
+
+
+def left_out(motions: Sequence[Motion], duration_s: float) -> list[Motion]:
+    """Motions that would begin when the clip is over."""
+    return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
+
+
+def needs_steering(motions: Sequence[Motion]) -> bool:
+    """Whether these motions are a path of pieces, not one simple movement."""
+    first = motions[0]
+    return (
+        len(motions) > 1
+        or (first.end_pace is not None and first.kind not in ("spin", "work"))
+        or bool(first.start_s)
+        or first.kind in _PIECED
+        or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
+    )
+
+
+def least_radius(model: Model, noun: Noun) -> float:
+    """The tightest curve, m: people turn on their heel, cars do not."""
+    is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
+    return 0.9 * model.length if is_steered else 0.0
+
+
+def build_path(
+    motions: Sequence[Motion],
+    noun: Noun,
+    model: Model,
+    *,
+    yaw: float,
+    usual_m_s: float,
+    duration_s: float,
+) -> SteeredPath:
+    """The path of several motions, its box centred over (0, 0).
+
+    Args:
+        motions: what it does, in order.
+        noun: the object.
+        model: its model, for its size.
+        yaw: where it heads at first, radians.
+        usual_m_s: speed at pace 1, m/s.
+        duration_s: length of the clip, s.
+    """
+    phases = schedule(motions, duration_s)
+    usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
+    builder = _TrajectoryBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
+    for phase in phases:
+        builder.add(phase)
+    path = SteeredPath(
+        (0.0, 0.0, builder.initial_height),
+        yaw,
+        tuple(builder.pieces),
+        builder.initial_speed,
+        builder.initial_turn,
+        usual_speed_m_s=usual_m_s,
+        floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
+    )
+    return centred(path, duration_s)
+
+
+def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
+    """A usual speed at which every turn is a quarter circle of a plausible radius."""
+    needed = usual_m_s
+    radius = max(least_radius(model, noun), 0.3 * model.length)
+    for phase in phases:
+        motion = phase.motion
+        if motion.speed_m_s is not None:
+            continue
+        if motion.kind == "turn" or motion.direction == "around":
+            turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
+            angle = math.pi if motion.direction == "around" else QUARTER
+            needed = max(needed, radius * angle / turning)
+    return min(needed, MOST_HASTE * usual_m_s)
+
+
+class _TrajectoryBuilder:
+    """Collects pieces; knows the heading and height at the end of the last one."""
+
+    def __init__(
+        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
+    ) -> None:
+        self._noun, self._model, self._usual = noun, model, usual_m_s
+        self._is_single = is_single
+        self._is_free = noun.habitat in ("air", "water")
+        self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
+        self._height = 0.0
+        self._heading = yaw
+        self.pieces: list[Piece] = []
+        self.initial_speed = self.initial_turn = self.initial_height = 0.0
+
+    def add(self, phase: Phase) -> None:
+        """Append the pieces of one phase."""
+        motion, span = phase.motion, phase.duration_s
+        if motion.kind in _STEERED:
+            self._travel(motion, span)
+        elif motion.kind in ("rise", "sink"):
+            self._climb(motion, span)
+        elif motion.kind == "spin":
+            turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
+            turn = -turn if motion.direction in _CLOCKWISE else turn
+            self._start(0.0, turn)
+            self._append(Piece(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
+        elif motion.kind in ("jump", "bounce"):
+            self._hop(motion, span)
+        elif motion.kind in ("fall", "topple"):
+            self._fall(motion.kind, span)
+        else:
+            self._rest(motion, span)
+
+    @property
+    def _last(self) -> Piece:
+        return self.pieces[-1] if self.pieces else Piece(0.0)
+
+    def _start(self, speed: float, turn: float = 0.0) -> None:
+        """Let the clip begin in full motion."""
+        if not self.pieces:
+            self.initial_speed, self.initial_turn = speed, turn
+
+    def _append(self, piece: Piece) -> None:
+        before = self._last.turn_rad_s if self.pieces else self.initial_turn
+        span, turn, ramp = piece.duration_s, piece.turn_rad_s, piece.ramp_s
+        self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
+        self._height += piece.climb_m_s * span
+        self.pieces.append(piece)
+
+    def _speed(self, motion: Motion) -> float:
+        """Signed speed at the beginning of a motion, m/s."""
+        speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
+        if motion.kind == "turn" and not self._is_mobile:
+            return 0.0
+        is_back = motion.direction == "backward" or motion.kind == "reverse"
+        return -speed if is_back else speed
+
+    def _end_speed(self, motion: Motion, speed: float) -> float | None:
+        if motion.end_pace is None:
+            return None
+        if motion.speed_m_s is not None:
+            return speed * motion.end_pace / max(motion.pace, 1e-6)
+        return math.copysign(self._usual * motion.end_pace, speed)
+
+    def _travel(self, motion: Motion, span: float) -> None:
+        """Along segments, straight or turning, at the end of which it may change its speed."""
+        speed, activity = self._speed(motion), activity_of(motion.kind)
+        end = self._end_speed(motion, speed)
+        slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
+        climb = slope * abs(speed) if self._is_free else 0.0
+        segments = self._choose_segments(motion)
+        self._start(speed)
+        if end is not None and segments[-1][1]:
+            segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
+        last_s = segments.pop()[0] * span if end is not None else 0.0
+        for share, turn in segments:
+            if turn:
+                for one in arc(share * span, speed, turn, least_radius(self._model, self._noun)):
+                    self._append(replace(one, activity=activity))
+            else:
+                ramp = min(_RAMP_S, 0.35 * share * span)
+                self._append(Piece(share * span, speed, 0.0, climb, ramp, activity))
+        if end is not None:
+            # What brakes is seen going, and at rest or slow for a while.
+            lead, ramp = (0.3, 0.4) if abs(end) < abs(speed) else (0.12, 0.88)
+            first_ramp = min(_RAMP_S, 0.35 * lead * last_s)
+            self._append(Piece(lead * last_s, speed, 0.0, climb, first_ramp, activity))
+            rest_s = (1.0 - lead) * last_s
+            self._append(Piece(rest_s, end, 0.0, climb, ramp * last_s, activity))
+
+    def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
+        """Shares of the time, and by what angle each one turns, rad."""
+        direction = motion.direction or ""
+        angle = math.pi if direction == "around" else QUARTER
+        angle = -angle if direction in _CLOCKWISE else angle
+        if motion.kind == "turn" or direction == "around":
+            lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
+            return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
+        target = YAWS.get(direction)
+        if not self.pieces or target is None or direction in ("up", "down"):
+            return [(1.0, 0.0)]
+        turn = math.remainder(target - self._heading, 2.0 * math.pi)
+        if abs(turn) < 0.05:
+            return [(1.0, 0.0)]
+        return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
+
+    def _climb(self, motion: Motion, span: float) -> None:
+        """Straight up or down; from a runway, along it first, or last."""
+        is_up = motion.kind == "rise"
+        if self._is_single and self._noun.name in nouns_with("takes off"):
+            speed = self._speed(motion)
+            climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
+            first_s = span * (_LIFT_SHARE if is_up else _LANDING_SHARE)
+            self._start(speed)
+            self._append(Piece(first_s, speed, 0.0, 0.0 if is_up else climb, 0.0))
+            self._append(Piece(span - first_s, speed, 0.0, climb if is_up else 0.0, 0.6))
+            self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
+            return
+        size = max(self._model.length, self._model.height)
+        climb = min(max(self._usual, 0.3 * size), size) * motion.pace
+        if not is_up and self._is_single:
+            self.initial_height = climb * 0.85 * span
+            climb = -climb
+        elif not is_up:
+            climb = -climb if self._is_free else -min(climb, self._height / span)
+        # What rises alone starts slowly and gets faster all along.
+        is_slow = is_up and self._is_single
+        ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
+        self._append(Piece(span, climb_m_s=factor * climb, ramp_s=ramp))
+
+    def _hop(self, motion: Motion, span: float) -> None:
+        """Jump or bounce."""
+        model, speed = self._model, self._last.speed_m_s
+        height = max(1.5 * model.height, 0.4)
+        if motion.kind == "jump":
+            height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace
+            if self._noun.habitat == "water":
+                height = max(height, 0.7 * model.length)
+            if not self.pieces and motion.direction is not None:
+                speed = model.length / (flight_s(height) + HOP_PAUSE_S)
+                self._start(speed)
+        activity = "jump" if motion.kind == "jump" and not speed else "move"
+        ramp = min(_RAMP_S, 0.35 * span)
+        self._append(Piece(span, speed, 0.0, 0.0, ramp, activity, height))
+
+    def _fall(self, kind: str, span: float) -> None:
+        """Drop to the floor; or what stands there falls over."""
+        is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
+        if kind == "topple" and not self.pieces:
+            self._append(Piece(0.15 * span, ramp_s=0.05 * span, activity="stand"))
+            span *= 0.85
+        piece = Piece(span, activity="stand", is_dropped=True)
+        if kind == "topple" or is_standing:
+            piece = Piece(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
+        self._append(piece)
+        self._height = 0.0
+
+    def _rest(self, motion: Motion, span: float) -> None:
+        """Come to rest, and act in place."""
+        last = self._last
+        activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
+        if self.pieces:
+            activity = _REACHED.get(activity, activity)
+        if self._noun.name in PERSON_NOUNS:
+            activity = ON_GROUND.get(activity, activity)
+        if self.pieces and motion.kind == "stand":
+            activity = last.activity  # wheels and legs go on until it stands
+        braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
+        ramp = min(braking, 0.9 * span)
+        self._append(Piece(span, ramp_s=ramp, activity=activity, pitch_rad=last.pitch_rad))
+
+
+def activity_of(kind: str) -> str:
+    """Activity of the body in a travelling motion."""
+    if kind in TRAVELLING or kind == "fly":
+        return kind
+    return "stand" if kind == "slide" else "move"
