@@ -9,7 +9,7 @@ from texvent.errors import ConfigError
 
 @pytest.mark.parametrize("kind", REGISTRIES)
 def test_every_name_that_ships_leads_to_something(kind):
-    for target in REGISTRIES[kind].builtin.values():
+    for target in REGISTRIES[kind].shipped().values():
         assert load_object(target) is not None
 
 

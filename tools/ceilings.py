@@ -1,7 +1,6 @@
 """Sizes of rooms against their ceilings, as a table; `make lint` runs it.
 
-`ceilings.toml` has a table for each room: its paths, those in them that belong to other rooms
-(`without`), and the most lines of Python, lines of data
+`ceilings.toml` has a table for each room: its paths, and the most lines of Python, lines of data
 and modules that it may have; what it does not name has no ceiling.
 
 Example:
@@ -34,20 +33,17 @@ class Size(NamedTuple):
     """Files of Python."""
 
 
-def measure(paths: list[str], root: Path = ROOT, without: tuple[str, ...] = ()) -> Size:
-    """Size of the files below some paths, less those below others.
+def measure(paths: list[str], root: Path = ROOT) -> Size:
+    """Size of the files below some paths.
 
     Raises:
         ValueError: a path is not there.
     """
     python = data = modules = 0
-    others = [root / one for one in without]
     for path in (root / one for one in paths):
         if not path.exists():
             raise ValueError(f"{TABLE} names {path.relative_to(root)}, which is not there")
         for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-            if any(file.is_relative_to(other) for other in others):
-                continue
             if file.suffix == ".py":
                 modules += 1
                 python += _lines(file)
@@ -60,7 +56,7 @@ def faults(ceilings: Ceilings, root: Path = ROOT) -> list[str]:
     """Rooms above their ceilings."""
     found = []
     for room, limits in ceilings.items():
-        size = measure(limits["paths"], root, tuple(limits.get("without", ())))
+        size = measure(limits["paths"], root)
         for name, now in size._asdict().items():
             most = limits.get(name, now)
             if now > most:
@@ -72,7 +68,7 @@ def table(ceilings: Ceilings, root: Path = ROOT) -> str:
     """Sizes beside their ceilings, a line for each room."""
     lines = [f"{'room':30}{'lines of Python':>20}{'lines of data':>18}{'modules':>14}"]
     for room, limits in ceilings.items():
-        size = measure(limits["paths"], root, tuple(limits.get("without", ())))._asdict()
+        size = measure(limits["paths"], root)._asdict()
         cells = {
             name: f"{now:,} / {limits[name]:,}" if name in limits else f"{now:,}"
             for name, now in size.items()

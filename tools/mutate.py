@@ -29,7 +29,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tools.wrong_changes import SOURCES, Change, draw, near_tests
+from tools.wrong_changes import SOURCES, Change, draw, file_of, near_tests, source_path
 
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "tools" / "mutations.toml"
@@ -52,7 +52,7 @@ class Mutation(NamedTuple):
     name: str
     """Area, and what is wrong then."""
     file: str
-    """Below `SOURCES`, or `lab/` and below lab/src/texvent_lab."""
+    """As `source_path` takes it, or `lab/` and below lab/src/texvent_lab."""
     old: str
     """Text that is there once."""
     new: str
@@ -60,12 +60,12 @@ class Mutation(NamedTuple):
     """Those that should notice, as pytest names them; below `tests`, or `lab/` and below that."""
 
 
-def source_path(file: str) -> Path:
+def path_of_source(file: str) -> Path:
     """Path of a file of the table."""
     inner = Path(file)
     if inner.parts[0] == LAB.name:
         return LAB / "src" / "texvent_lab" / inner.relative_to(LAB)
-    return SOURCES / inner
+    return source_path(file)
 
 
 def path_of_test(test: str) -> Path:
@@ -87,7 +87,7 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
     found = []
     for area, changes in tomllib.loads(path.read_text("utf-8")).items():
         for what, (file, old, new, *tests) in changes.items():
-            count = (root / source_path(file)).read_text("utf-8").count(old)
+            count = (root / path_of_source(file)).read_text("utf-8").count(old)
             if count != 1:
                 raise ValueError(f"{area}, {what}: {file} has {old!r} {count} times, not once")
             found.append(Mutation(f"{area}: {what}", file, old, new, tuple(tests)))
@@ -140,7 +140,7 @@ def changed(path: Path, text: str) -> Iterator[None]:
 
 def judge(tree: Path, mutation: Mutation) -> str:
     """Change a copy of the tree, run the tests that should notice, change it back."""
-    path = tree / source_path(mutation.file)
+    path = tree / path_of_source(mutation.file)
     with changed(path, path.read_text("utf-8").replace(mutation.old, mutation.new)):
         return run_tests(tree, [path_of_test(one) for one in mutation.tests])[0]
 
@@ -150,7 +150,7 @@ def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str
 
     A test that fails without the change too is added to `failing` and judges nothing.
     """
-    path = tree / SOURCES / change.file
+    path = tree / source_path(change.file)
     while True:
         tests = [*near_tests(change.file, tree), *(f"--deselect={one}" for one in failing)]
         with changed(path, change.applied(path.read_text("utf-8"))):
@@ -171,13 +171,13 @@ def wilson_interval(count: int, total: int) -> tuple[float, float]:
 
 
 def lines_changed_since(commit: str) -> dict[str, set[int]]:
-    """Numbers of the lines that were changed after a commit, by files below `SOURCES`."""
-    words = ["git", "diff", "-U0", "--no-prefix", f"--relative={SOURCES}", commit]
+    """Numbers of the lines that were changed after a commit, by files as of `source_path`."""
+    words = ["git", "diff", "-U0", "--no-prefix", "--relative=src", commit]
     found: dict[str, set[int]] = {}
     file = ""
     for line in subprocess.check_output(words, cwd=ROOT, text=True).splitlines():
         if line.startswith("+++ "):
-            file = line.removeprefix("+++ ")
+            file = file_of(SOURCES.parent / line.removeprefix("+++ "))
         elif match := re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line):
             first, count = int(match[1]), int(match[2] or 1)
             found.setdefault(file, set()).update(range(first, first + count))
@@ -192,7 +192,7 @@ def judge_draw(tree: Path, options: argparse.Namespace) -> int:
     for number, one in enumerate(draw(options.draw, options.seed, tree, options.rooms, lines), 1):
         if options.only and number not in options.only:
             continue
-        text = (tree / SOURCES / one.file).read_text("utf-8")
+        text = (tree / source_path(one.file)).read_text("utf-8")
         old, new = (each.splitlines()[one.line - 1].strip() for each in (text, one.applied(text)))
         began = time.monotonic()
         verdict, test = judge_drawn(tree, one, failing)

@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 SOURCES = Path("src", "texvent")
+SCENES = "texvent_scenes"
+"""The package beside it, whose tests are in tests/scenes."""
 ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
 """Tests of every file, after those that are near it."""
 MOST_TESTS = 60
@@ -45,7 +47,7 @@ class Change(NamedTuple):
     """A wrong change: bytes `start` to `end` of a file become `new`."""
 
     file: str
-    """Below `SOURCES`."""
+    """As `source_path` takes it."""
     line: int
     kind: str
     start: int
@@ -56,6 +58,16 @@ class Change(NamedTuple):
         """The text of the file with the change."""
         data = text.encode()
         return (data[: self.start] + self.new.encode() + data[self.end :]).decode()
+
+
+def source_path(file: str) -> Path:
+    """Path of a file that is named below `SOURCES`, or `texvent_scenes/` and below that."""
+    return SOURCES.parent / file if Path(file).parts[0] == SCENES else SOURCES / file
+
+
+def file_of(path: Path) -> str:
+    """The name that `source_path` takes."""
+    return path.relative_to(SOURCES if path.is_relative_to(SOURCES) else SOURCES.parent).as_posix()
 
 
 Found = tuple[str, int, int, str]
@@ -254,8 +266,8 @@ def draw(
     """
     rng = random.Random(seed)
     found, weights = {}, {}
-    for path in sorted((root / SOURCES).rglob("*.py")):
-        file = path.relative_to(root / SOURCES).as_posix()
+    for path in sorted((root / SOURCES.parent).rglob("*.py")):
+        file = file_of(path.relative_to(root))
         if rooms and file.partition("/")[0] not in rooms:
             continue
         allowed = None if lines is None else lines.get(file, ())
@@ -266,7 +278,7 @@ def draw(
             weights[file] = len({one.line for one in changes})
     drawn: list[Change] = []
     for file in _spread(rng, weights, count):
-        text = (root / SOURCES / file).read_text("utf-8")
+        text = (root / source_path(file)).read_text("utf-8")
         kinds = sorted({one.kind for one in found[file]})
         for _ in range(100):
             kind = rng.choice(kinds)
@@ -293,7 +305,7 @@ def _spread(rng: random.Random, weights: Mapping[str, int], count: int) -> Itera
 def _imports(root: Path) -> dict[Path, frozenset[str]]:
     """The modules, and perhaps names in them, that each file imports, by paths below `root`."""
     found = {}
-    for folder in (SOURCES, Path("tests")):
+    for folder in (SOURCES.parent, Path("tests")):
         for path in (root / folder).rglob("*.py"):
             names = set()
             for node in ast.walk(ast.parse(path.read_text("utf-8"))):
@@ -307,7 +319,8 @@ def _imports(root: Path) -> dict[Path, frozenset[str]]:
 
 def _mirrors(file: Path, root: Path) -> list[Path]:
     """Files of tests with the name of a source file, then all of the nearest folder."""
-    folder = root / "tests" / file.parent
+    parts = ["scenes" if one == SCENES else one for one in file.parent.parts]
+    folder = root.joinpath("tests", *parts)
     while not folder.is_dir():
         folder = folder.parent
     tests = sorted(folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*"))
@@ -321,16 +334,18 @@ def near_tests(file: str, root: Path) -> list[str]:
     importing: list[Path] = []
     modules = [inner]
     for one in modules:  # grows by packages that hand on a name
-        name = ".".join(("texvent", *one.with_suffix("").parts)).removesuffix(".__init__")
+        inside = source_path(str(one)).relative_to(SOURCES.parent).with_suffix("")
+        name = ".".join(inside.parts).removesuffix(".__init__")
         for path in sorted(path for path, names in imports.items() if name in names):
             importing.append(path)
-            source = path.relative_to(SOURCES) if path.is_relative_to(SOURCES) else one
+            is_source = path.is_relative_to(SOURCES.parent)
+            source = Path(file_of(path)) if is_source else one
             if path.name == "__init__.py" and source not in modules:
                 modules.append(source)
     chosen = [one.relative_to(root) for one in _mirrors(inner, root)]
     chosen += [one for one in importing if one.name.startswith("test_")]
     for one in importing:
-        if one.is_relative_to(SOURCES):
-            chosen += [near.relative_to(root) for near in _mirrors(one.relative_to(SOURCES), root)]
+        if one.is_relative_to(SOURCES.parent):
+            chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
     near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
     return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]

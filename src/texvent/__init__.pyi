@@ -1,6 +1,5 @@
 from texvent import dataset as dataset
 from texvent import pixel_models as pixel_models
-from texvent import rig as rig
 from texvent._version import __version__ as __version__
 from texvent.api import compare as compare
 from texvent.api import generate as generate
@@ -35,4 +34,5 @@ from texvent.truth.recorder import save_truth as save_truth
 from texvent.video import Frame as Frame
 from texvent.video import FrameStream as FrameStream
 from texvent.video import Video as Video
+from texvent_scenes import rig as rig
 from texvent_scenes.scene_input import read as read

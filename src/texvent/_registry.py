@@ -27,9 +27,10 @@ LONGEST_LISTING, FIRST_NAMES = 160, 8
 
 
 def load_object(target: str) -> Any:
-    """Import and return the object named by a `"module:attribute"` string."""
+    """Import and return the object that a `"module:attribute"` string names, or a module."""
     module, _, attribute = target.partition(":")
-    return getattr(importlib.import_module(module), attribute)
+    home = importlib.import_module(module)
+    return getattr(home, attribute) if attribute else home
 
 
 def nearest(word: str, names: Sequence[str]) -> str | None:
@@ -76,10 +77,19 @@ class Registry:
     """Module of parts that are rows of data, not classes: `names()` to list and to suggest, and
     `find(name)`, which gives a part or None, also for names that are not listed (paths)."""
 
+    @property
+    def group(self) -> str:
+        """Group of the entry points that add parts."""
+        return f"texvent.{self.kind.replace(' ', '_')}s"
+
+    def shipped(self) -> dict[str, str]:
+        """Name → target of the parts of texvent's own distribution."""
+        return {**_plugged_in(self.group, is_own=True), **self.builtin}
+
     def entries(self) -> dict[str, str]:
-        """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
-        others = _plugged_in(f"texvent.{self.kind.replace(' ', '_')}s")
-        return {**self.builtin, **others, **self.builtin}
+        """Name → target of shipped and plugged-in parts; shipped names cannot be replaced."""
+        shipped = self.shipped()
+        return {**shipped, **_plugged_in(self.group, is_own=False), **shipped}
 
     def names(self) -> tuple[str, ...]:
         """All names, in table order."""
@@ -126,19 +136,34 @@ class Registry:
 
 
 @functools.cache
-def _plugged_in(group: str) -> Mapping[str, str]:
-    """Name → target of the parts that other packages add; what is installed does not change."""
-    return {point.name: point.value for point in metadata.entry_points(group=group)}
+def _plugged_in(group: str, *, is_own: bool) -> Mapping[str, str]:
+    """Name → target of the entry points of a group; what is installed does not change.
+
+    Args:
+        group: its name.
+        is_own: those of the distribution that texvent is in; False: of all others.
+    """
+    points = metadata.entry_points(group=group)
+    return {point.name: point.value for point in points if is_own_point(point) is is_own}
+
+
+def is_own_point(point: metadata.EntryPoint) -> bool:
+    """Whether an entry point is of the distribution that texvent is in."""
+    return point.dist is not None and point.dist.name == "texvent"
+
+
+DEFAULT_GENERATOR = "procedural"
+"""Generator of prompts where none is named."""
 
 
 GENERATORS = Registry(
     "generator",
     {
-        "procedural": "texvent_scenes.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora:OpenSoraGenerator",
     },
     table="texvent.generate.video_models.known_models",
 )
+SCENES = Registry("scene package", {})
 INTERPOLATORS = Registry(
     "interpolator",
     {

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.generate.subjects import Subject
 from texvent.io.files import load
 from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
@@ -26,7 +27,6 @@ from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
-from texvent_scenes.spec.scene import Scene
 
 if TYPE_CHECKING:
     from texvent.metrics.protocol import Metric
@@ -39,7 +39,7 @@ __all__ = ["compare", "generate", "load", "open", "simulate", "video"]
 
 @overload
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: Literal[False] = False,
     config: str | Path | None = None,
@@ -49,7 +49,7 @@ def generate(
 ) -> EventStream: ...
 @overload
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: Literal[True],
     config: str | Path | None = None,
@@ -59,7 +59,7 @@ def generate(
 ) -> EventPackets: ...
 @naming_options(GenerateOptions)
 def generate(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     as_packets: bool = False,
     config: str | Path | None = None,
@@ -195,7 +195,7 @@ def simulate(
 
 @naming_options(GenerateOptions)
 def video(
-    prompt: str | Scene,
+    prompt: Subject,
     *,
     config: str | Path | None = None,
     progress: ProgressOption = None,

@@ -15,7 +15,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from texvent._registry import GENERATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
@@ -52,7 +52,7 @@ def text_to_video(
     prompt: Subject, settings: Settings, *, progress: Progress | None = None
 ) -> FrameStream:
     """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
-    generator_class = GENERATORS.load(settings.generator or "procedural")
+    generator_class = GENERATORS.load(settings.generator or DEFAULT_GENERATOR)
     check_takes(prompt, generator_class, str(settings.generator))
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
     return fit_to_sensor(generator.generate(prompt, progress=progress), settings)

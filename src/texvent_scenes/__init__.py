@@ -11,6 +11,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from texvent_scenes import rig
     from texvent_scenes.spec.files import load_scene, save_scene
     from texvent_scenes.spec.scene import (
         Camera,
@@ -39,6 +40,7 @@ __all__ = [
     "Scene",
     "SceneObject",
     "load_scene",
+    "rig",
     "save_scene",
 ]
 
@@ -47,6 +49,8 @@ def __getattr__(name: str) -> Any:
     """Load a public name on first use (PEP 562)."""
     if name not in __all__:
         raise AttributeError(f"module 'texvent_scenes' has no attribute {name!r}")
+    if name == "rig":
+        return importlib.import_module("texvent_scenes.rig")
     home = "files" if name in ("load_scene", "save_scene") else "scene"
     return getattr(importlib.import_module(f"texvent_scenes.spec.{home}"), name)
 

@@ -11,9 +11,9 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +40,7 @@ from texvent_scenes.scene_input import list_nouns, nouns_of, understand
 
 if TYPE_CHECKING:
     from texvent.camera import PosedCamera
+    from texvent.generate.kept_frames import KeptFrames
     from texvent.ground_truth import GroundTruth
     from texvent.prompt_report import PromptReport
     from texvent.runtime.progress import Progress
@@ -124,6 +125,8 @@ class ProceduralVideo(NotebookFrames):
     """Whether frames carry exact motion vectors and depth."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
+    kept: KeptFrames | None = None
+    """Store of what was rendered, for several simulations; None: nothing is kept."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -162,14 +165,17 @@ class ProceduralVideo(NotebookFrames):
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
     def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
-        return renderer.render(t_us / MICROSECONDS)
+        make = partial(renderer.render, t_us / MICROSECONDS)
+        return cast(Rendered, self._once("frame", t_us, make=make))
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
         # Imported here: the kernels load Numba, which reading options and help must not do.
         from texvent_scenes.raycast.ground_truth import ground_truth
 
-        return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
+        times = t0_us / MICROSECONDS, t1_us / MICROSECONDS
+        make = partial(ground_truth, self.scene, *times, self.size)
+        return cast("GroundTruth", self._once("truth", t0_us, t1_us, make=make))
 
     def instances_at(
         self, t_us: int, points: NDArray[np.float64]
@@ -192,6 +198,16 @@ class ProceduralVideo(NotebookFrames):
         """The same video, whose frames carry exact motion vectors and depth."""
         return replace(self, has_motion=True)
 
+    def keeping(self, kept: KeptFrames) -> ProceduralVideo:
+        """The same video; what is kept of it is not rendered again."""
+        return replace(self, kept=kept)
+
+    def _once(self, *key: Any, make: Callable[[], Any], bytes_per_pixel: int = 24) -> Any:
+        if self.kept is None:
+            return make()
+        key = (*key, self.size, self.transfer)
+        return self.kept.once(key, make, bytes_per_pixel * self.size.width * self.size.height)
+
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames of luma at times between two frames, each part drawn as often as it changes.
 
@@ -202,10 +218,15 @@ class ProceduralVideo(NotebookFrames):
             images = (self.at(t_us).float_luma for t_us in times_us)
         else:
             images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
-        return (
+        frames = (
             Frame(image, t_us, is_source=False, transfer=self.transfer)
             for image, t_us in zip(images, times_us, strict=True)
         )
+        if self.kept is None:
+            return frames
+        key = "between", first.t_us, *times_us, second.t_us
+        make = partial(tuple, frames)
+        return iter(self._once(*key, make=make, bytes_per_pixel=4 * len(times_us)))
 
     def _draw_between(
         self, first: Frame, second: Frame, times_us: Sequence[int]
@@ -227,9 +248,9 @@ class ProceduralVideo(NotebookFrames):
             frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
         )
         last = self.frame_count - 1
-        return frame_motion(
-            self.scene, now, before if index else None, after if index < last else None, self.size
-        )
+        neighbours = before if index else None, after if index < last else None
+        make = partial(frame_motion, self.scene, now, *neighbours, self.size)
+        return cast(Motion, self._once("motion", index, make=make))
 
     @cached_property
     def _renderer(self) -> IncrementalRenderer:

@@ -6,11 +6,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
+from texvent.generate.subjects import Subject
 from texvent.prompt_report import PromptReport
-from texvent_scenes.spec.data import checked_scene, scene_from_data, scene_to_data
+from texvent_scenes.spec.data import checked_scene
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Scene
 
@@ -18,11 +19,6 @@ if TYPE_CHECKING:
     from texvent_scenes.description import SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
-
-SCENE_KEY = "scene"
-"""Name of a scene's plain values in the metadata of videos and events."""
-Subject: TypeAlias = str | Scene
-"""A prompt, or the scene itself."""
 
 
 def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
@@ -119,43 +115,6 @@ def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     }
 
 
-def describe_subject(subject: Subject) -> dict[str, Any]:
-    """A prompt or a scene in the metadata of its video: enough to make it again."""
-    if isinstance(subject, Scene):
-        return {"prompt": subject.prompt or None, SCENE_KEY: scene_to_data(subject)}
-    return {"prompt": subject}
-
-
-def prompt_of(subject: Subject) -> str | None:
-    """The sentence that is stored with the events of a subject; None: a scene without one."""
-    return subject.prompt or None if isinstance(subject, Scene) else subject
-
-
-def check_takes(subject: Subject, generator_class: type, name: str) -> None:
-    """Refuse a scene for a generator that takes sentences only.
-
-    Raises:
-        ConfigError: with the generator's name.
-    """
-    if isinstance(subject, Scene) and not getattr(generator_class, "takes_scenes", False):
-        raise ConfigError(
-            f"generator {shown(name)} takes a prompt, not a scene; leave `generator` out, or give "
-            "a sentence"
-        )
-
-
-def stored_subject(metadata: Mapping[str, Any]) -> Subject | None:
-    """The prompt or the scene that `describe_subject` wrote; None where there is neither.
-
-    Raises:
-        ConfigError: the scene is wrong.
-    """
-    if SCENE_KEY in metadata:
-        return scene_from_data(metadata[SCENE_KEY])
-    prompt = metadata.get("prompt")
-    return prompt if isinstance(prompt, str) else None
-
-
 def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """The description of a prompt, with the report of its words, or of a scene.
 
@@ -165,7 +124,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading = _read(subject, nouns)
+    reading = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
     words = PromptReport(
         shown=reading.shown,

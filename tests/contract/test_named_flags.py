@@ -47,7 +47,7 @@ LABORATORY = {
     for path in (ROOT / "lab/src").rglob("*.py")
     for name in re.findall(r"^    (\w+): ", path.read_text(encoding="utf-8"), re.MULTILINE)
 } | {"--no-oracle", "--no-match-rate"}
-PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.builtin)]
+PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.shipped())]
 OF_PARTS = {
     flag_of(name)
     for config in (*(part.config_type for part in PARTS), DiffusersConfig)
@@ -79,7 +79,7 @@ def files(*patterns: str) -> list[Path]:
 
 
 PAGES = files("README.md", "CONTRIBUTING.md", "docs/**/*.md", "ros/**/*.md", "comfyui/**/*.md")
-SOURCES = files("src/texvent/**/*.py", "ros/**/*.py", "comfyui/**/*.py")
+SOURCES = files("src/**/*.py", "ros/**/*.py", "comfyui/**/*.py")
 
 
 @pytest.mark.parametrize("kind", ["pages", "sources"])

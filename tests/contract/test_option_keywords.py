@@ -14,7 +14,7 @@ from texvent.options import keywords
 from texvent.options.values import option_names
 
 SIMULATOR_CONFIGS = [SIMULATORS.load(name).config_type for name in SIMULATORS.builtin]
-GENERATOR_CONFIGS = [GENERATORS.load(name).config_type for name in GENERATORS.builtin]
+GENERATOR_CONFIGS = [GENERATORS.load(name).config_type for name in GENERATORS.shipped()]
 
 
 def literals(hint: Any) -> set[Any]:

@@ -35,7 +35,7 @@ Case: TypeAlias = tuple[str, Any, Any]
 
 def configs_of(part: str) -> list[Any]:
     """Configs whose options a simulator or generator has; the first simulator's, all of a run."""
-    if part in GENERATORS.builtin:
+    if part in GENERATORS.shipped():
         return [resolve("generate", {"generator": part}).source]
     settings = resolve("simulate", {"simulator": part})
     is_first = part == next(iter(SIMULATORS.builtin))
@@ -77,7 +77,7 @@ def settle(
     folder: Path, part: str, preset: str | None = None, **places: Mapping[str, Any]
 ) -> Settings:
     """Settings where places hold options."""
-    is_prompt = part in GENERATORS.builtin
+    is_prompt = part in GENERATORS.shipped()
     command = "generate" if is_prompt else "simulate"
     options: dict[str, Any] = {"generator" if is_prompt else "simulator": part}
     options |= {} if preset is None else {"preset": preset}
@@ -132,7 +132,7 @@ def _quiet():
         yield
 
 
-@pytest.mark.parametrize("part", [*SIMULATORS.builtin, *GENERATORS.builtin])
+@pytest.mark.parametrize("part", [*SIMULATORS.builtin, *GENERATORS.shipped()])
 def test_of_two_places_the_stronger_wins_and_the_weaker_beats_defaults(tmp_path, part):
     for both in zip(*cases_of(part), strict=True):
         for tried in apart(tmp_path, part, both):

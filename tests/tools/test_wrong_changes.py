@@ -64,9 +64,11 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent/big/part.py": "def seen(): return 2\n" + "UNSEEN = 3\n" * 20,
         "src/texvent/user.py": "from texvent.big import seen\n",
         "src/texvent/small/part.py": "A = 1\n",
+        "src/texvent_scenes/read/part.py": "B = 1\n",
         "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
         "tests/big/test_part.py": "",
         "tests/small/test_small.py": "",
+        "tests/scenes/read/test_read.py": "",
         "tests/test_user.py": "from texvent.user import seen\ndef test_it(): assert seen() == 2\n",
     }
     for name, text in files.items():
@@ -87,6 +89,7 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
 def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: Path) -> None:
     near = ["tests/big/test_part.py", "tests/big/test_other.py", "tests/test_user.py"]
     assert near_tests("big/part.py", tree) == near
+    assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
 
 
 def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None:

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from importlib import metadata
 
-from texvent._registry import suggest
+from texvent._registry import is_own_point, suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
 from texvent.cli.standard_streams import (
@@ -31,10 +31,6 @@ COMMANDS = {
     "simulate": (
         "texvent.cli.simulation.simulate",
         "Events from a video, an image folder or a camera.",
-    ),
-    "rig": (
-        "texvent_scenes.commands.rig",
-        "Several cameras with lenses, frames and an IMU, from a prompt.",
     ),
     "render": (
         "texvent.cli.event_files.show:run_render",
@@ -87,10 +83,6 @@ COMMANDS = {
     "generators": (
         "texvent.cli.setup.generators",
         "Text-to-video generators: which there are, which are ready.",
-    ),
-    "scenes": (
-        "texvent_scenes.commands.scenes",
-        "Nouns of embedded scenes: list them, see one.",
     ),
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
@@ -178,11 +170,11 @@ def _dispatch(words: list[str]) -> int:
 
 
 def all_commands() -> dict[str, tuple[str, str]]:
-    """`COMMANDS`, and those of installed packages; built-in names cannot be replaced."""
-    commands = {}
+    """`COMMANDS`, and those of entry points; no other package replaces one of texvent's."""
+    own, others = dict(COMMANDS), dict[str, tuple[str, str]]()
     for point in metadata.entry_points(group=COMMAND_GROUP):
-        commands.update(point.load())
-    return {**COMMANDS, **{name: one for name, one in commands.items() if name not in COMMANDS}}
+        (own if is_own_point(point) else others).update(point.load())
+    return {**own, **others, **own}
 
 
 def _show_help() -> None:

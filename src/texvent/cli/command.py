@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import ConfigError
-from texvent.generate.subjects import Subject
+from texvent.generate.subjects import Subject, scenes
 from texvent.io.atomic import protect_inputs
 from texvent.options.values import option_names
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
 from texvent.settings.resolution import DECIDING, Settings, read_basis
-from texvent_scenes.scene_input import check_words
-from texvent_scenes.spec.files import is_scene_file, load_scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,16 +113,16 @@ def read_subject(prompt: str, assets: Path | None = None) -> Subject:
         ConfigError: a field is wrong or a word is not shown, also with models of `assets`; the
             message begins with the name of the file.
     """
-    if not is_scene_file(prompt):
+    if not scenes().is_scene_file(prompt):
         return prompt
     protect_inputs([prompt])
-    scene = load_scene(prompt)
+    scene = scenes().load_scene(prompt)
     try:
-        return check_words(scene, assets)
+        return cast(Subject, scenes().check_words(scene, assets))
     except ConfigError as error:
         raise ConfigError(f"{prompt}: {error}") from None
 
 
 def subject_name(prompt: str) -> str:
     """Base of file names: the words of a prompt, or the name of a scene file."""
-    return Path(prompt).stem if is_scene_file(prompt) else prompt
+    return Path(prompt).stem if scenes().is_scene_file(prompt) else prompt

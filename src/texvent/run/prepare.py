@@ -10,9 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError, warn
-from texvent.generate.subjects import Subject, check_takes
+from texvent.generate.subjects import SceneValue, Subject, check_takes, scenes
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.prompt_report import PromptReport
 from texvent.run.rate_search import reach_target_rate
@@ -22,8 +22,6 @@ from texvent.sensor import SensorSize
 from texvent.settings.provenance import describe_weights
 from texvent.settings.resolution import Settings
 from texvent.video import FrameStream
-from texvent_scenes.scene_input import read
-from texvent_scenes.spec.scene import Scene
 
 UNMEASURED = 200
 """Bytes per pixel of a part that declares none."""
@@ -111,7 +109,7 @@ def report_prompt(
     Raises:
         InputError: the generator refuses the prompt.
     """
-    generator_class = GENERATORS.load(settings.generator or "procedural")
+    generator_class = GENERATORS.load(settings.generator or DEFAULT_GENERATOR)
     check_takes(prompt, generator_class, str(settings.generator))
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
     report: Callable[..., PromptReport] | None = getattr(generator, "report", None)
@@ -134,18 +132,18 @@ def make_video(
     return text_to_video(prompt, settings, progress=progress)
 
 
-def make_scene(prompt: Subject, settings: Settings) -> Scene:
+def make_scene(prompt: Subject, settings: Settings) -> SceneValue:
     """The scene of a prompt; arguments and errors as `prepare_prompt`.
 
     Warns:
         TexventWarning: some of its words are not shown as they say.
     """
-    name = settings.generator or "procedural"
-    check_takes(Scene(), GENERATORS.load(name), name)
+    name = settings.generator or DEFAULT_GENERATOR
+    check_takes(None, GENERATORS.load(name), name)
     _check_prompt(prompt)
-    if isinstance(prompt, Scene):
+    if not isinstance(prompt, str):
         return prompt
-    reading = read(prompt, assets=getattr(settings.source, "assets", None))
+    reading = scenes().read(prompt, assets=getattr(settings.source, "assets", None))
     report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
     for fault in report.warnings():
         warn(fault)
@@ -229,7 +227,7 @@ def _stored_video(source: Any) -> FrameStream | None:
 
 
 def _check_prompt(prompt: Any) -> None:
-    if not isinstance(prompt, str | Scene):
+    if not isinstance(prompt, str) and not scenes().is_scene(prompt):
         raise InputError(
             f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
             "left', or a texvent_scenes.Scene"

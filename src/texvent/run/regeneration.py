@@ -9,10 +9,9 @@ from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import InputError, shown, warn
 from texvent.generate.protocol import renders_instants
-from texvent.generate.subjects import stored_subject
+from texvent.generate.subjects import scenes, stored_subject
 from texvent.settings.resolution import Settings, resolve
 from texvent.video import FrameStream, RenderableStream
-from texvent_scenes.named_files import check_files, files_of
 
 
 def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> FrameStream | None:
@@ -41,7 +40,7 @@ def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> Fr
         return None
     if "rig" in metadata:  # seen from another place, through another lens
         return None
-    if name not in GENERATORS.builtin:
+    if name not in GENERATORS.shipped():
         return None
     generator_class = GENERATORS.load(name)
     if not renders_instants(generator_class):
@@ -51,7 +50,7 @@ def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> Fr
         subject = stored_subject(metadata)
         if subject is None:
             return None
-        files = files_of(subject, getattr(settings.source, "assets", None))
+        files = scenes().files_of(subject, getattr(settings.source, "assets", None))
         if files and not with_files:
             warn(
                 f"the scene is not drawn beside the events: it shows {shown(files[0])} of this "
@@ -59,7 +58,7 @@ def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> Fr
             )
             return None
         listed = facts.get("files") if isinstance(facts, Mapping) else None
-        check_files(listed)
+        scenes().check_files(listed)
         generator = generator_class(
             settings.source, seed=_video_seed(facts, settings), size=settings.size
         )

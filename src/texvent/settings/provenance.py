@@ -13,11 +13,10 @@ from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
-from texvent.generate.subjects import SCENE_KEY
+from texvent.generate.subjects import SCENE_KEY, Subject, scenes
 from texvent.prompt_report import REPORT_KEY
 from texvent.runtime.file_names import IMAGE_EXTENSIONS
 from texvent.settings.resolution import Settings
-from texvent_scenes.spec.scene import Scene
 
 END_BYTES = 8 * 2**20
 """Bytes that are read of the beginning and of the end of a larger file."""
@@ -116,14 +115,12 @@ def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
     return digest.hexdigest()
 
 
-def files_read(settings: Settings, subject: str | Scene = "") -> list[str]:
+def files_read(settings: Settings, subject: Subject = "") -> list[str]:
     """Files and folders that options and a scene name, which the events depend on."""
-    from texvent_scenes.named_files import files_of  # brings OpenCV
-
     configs = settings.groups().values()
     values = (getattr(config, one.name) for config in configs for one in fields(config))
     named = [str(value) for value in values if isinstance(value, Path)]
-    return [*named, *files_of(subject)]
+    return [*named, *([] if isinstance(subject, str) else scenes().files_of(subject))]
 
 
 def describe_state(source: str | Path) -> dict[str, str] | None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import (
     CaptureConfig,
     InterpolateConfig,
@@ -171,7 +171,7 @@ def _default_settings(
     run = RunConfig(simulator=simulator_name, preset=preset_name)
     generator_name, source, parts = None, CaptureConfig(), [simulator_class]
     if command == "generate":
-        generator_name = next(iter(GENERATORS.builtin)) if generator is None else generator
+        generator_name = DEFAULT_GENERATOR if generator is None else generator
         generator_class = GENERATORS.load(generator_name)
         size = getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
         run = dataclasses.replace(run, sensor=size)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError, shown
+from texvent.errors import InputError, shown
 from texvent_scenes.assets.index import ENDINGS, Asset
 from texvent_scenes.assets.model_file import KEPT_FILES, load_mesh, painted
 from texvent_scenes.description import SceneDescription
@@ -20,8 +18,8 @@ from texvent_scenes.mesh import Colour, Float64Array, Mesh
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
+from texvent_scenes.named_files import describe_file
 from texvent_scenes.rendered_scene import Shape
-from texvent_scenes.spec.scene import Scene
 
 _UNITS = ((20.0, 0.01), (1000.0, 0.001))
 """Longest side of a file above which its unit is taken to be this many metres: cm, mm."""
@@ -223,16 +221,6 @@ def assets_of(noun: Noun) -> tuple[Asset, ...]:
     return noun.build.assets if isinstance(noun.build, _ModelBuilder) else ()
 
 
-def describe_file(path: Path) -> dict[str, str]:
-    """A file's path and SHA-256 as JSON."""
-    try:
-        with path.open("rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
-    return {"file": str(path), "sha256": digest}
-
-
 def list_files(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[dict[str, str]]:
     """The files of assets and pictures that a scene is made of, each once."""
     files = {asset.path for one in description.objects for asset in assets_of(nouns[one.noun])}
@@ -240,35 +228,3 @@ def list_files(description: SceneDescription, nouns: Mapping[str, Noun]) -> list
         if one.picture is not None and one.picture.kind == "file":
             files.add(Path(one.picture.value))
     return [describe_file(path) for path in sorted(files)]
-
-
-def files_of(subject: str | Scene, assets: Path | None = None) -> list[str]:
-    """Pictures and models that a scene names, and the folder of its models; nothing is read."""
-    objects = subject.objects if isinstance(subject, Scene) else ()
-    pictures = [
-        one.picture.value
-        for one in objects
-        if one.picture is not None and one.picture.kind == "file"
-    ]
-    models = [one.model for one in objects if one.model is not None]
-    return [*map(str, (*pictures, *models)), *([] if assets is None else [str(assets)])]
-
-
-def check_files(described: Any) -> None:
-    """Refuse files that are gone or not as they were.
-
-    Args:
-        described: the list that `list_files` gave, from an event file; anything else is passed.
-
-    Raises:
-        InputError: a file is gone.
-        FileFormatError: a file was changed.
-    """
-    for one in described if isinstance(described, list) else ():
-        if not isinstance(one, Mapping) or not isinstance(one.get("file"), str):
-            continue
-        path = Path(one["file"])
-        if not path.is_file():
-            raise InputError(f"{path}, which the events were made with, is not here")
-        if describe_file(path)["sha256"] != one.get("sha256"):
-            raise FileFormatError(f"{path} was changed since the events were made with it")

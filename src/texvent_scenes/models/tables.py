@@ -7,11 +7,10 @@ nouns are added at the end of `data/class_ids.toml`, and no number is given to a
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from types import MappingProxyType
 from typing import Any
 
 
@@ -67,37 +66,3 @@ def trait_values(trait: str) -> Mapping[str, Any]:
     """Noun → value of a trait that is a table."""
     values: Mapping[str, Any] = _read()[trait]
     return values
-
-
-BACKGROUND = 0
-"""Class of what is no object: ground, sky, walls, scenery without an id."""
-UNNAMED = 1000
-"""Class of an object whose name is not known."""
-FIRST_OTHER = 2001
-"""Numbers of names that are no nouns of the embedded generator begin here."""
-
-
-_NAMES: list[str] = read_table("class_ids")["nouns"].split(",")
-CLASS_IDS: Mapping[str, int] = MappingProxyType(
-    {" ".join(name.split()): number for number, name in enumerate(_NAMES, start=1)}
-)
-"""Noun → class id, 1, 2, ..., of nouns that are gone too."""
-
-
-def class_ids_of(names: Iterable[str]) -> dict[str, int]:
-    """The class ids of names; those of no noun are numbered in alphabetical order.
-
-    Args:
-        names: class names, such as "car".
-
-    Returns:
-        Name → class id.
-
-    Example:
-        >>> class_ids_of(["zeppelin", "dirigible"])
-        {'dirigible': 2001, 'zeppelin': 2002}
-    """
-    asked = set(names)
-    others = enumerate(sorted(asked - CLASS_IDS.keys()), start=FIRST_OTHER)
-    known = {name: CLASS_IDS[name] for name in sorted(asked & CLASS_IDS.keys())}
-    return known | {name: number for number, name in others}

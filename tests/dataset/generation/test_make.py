@@ -26,6 +26,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
 from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
+from texvent.generate import kept_frames
 from texvent.pipeline import text_to_events
 from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance
@@ -96,11 +97,11 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) 
     assert len(thresholds) == 2
 
 
-@pytest.mark.parametrize("most_bytes", [40_000, make_sample.MOST_BYTES])
+@pytest.mark.parametrize("most_bytes", [40_000, kept_frames.MOST_BYTES])
 def test_variants_that_share_frames_are_what_each_is_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
 ) -> None:
-    monkeypatch.setattr(make_sample, "MOST_BYTES", most_bytes)
+    monkeypatch.setattr(kept_frames, "MOST_BYTES", most_bytes)
     rendered, render = [], ProceduralVideo._render
 
     def count(self: ProceduralVideo, memory: Any, t_us: int) -> Any:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent._registry import GENERATORS
+from texvent._registry import DEFAULT_GENERATOR
 from texvent.cli.command import resolve_command
 from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, say_warning, write_out
@@ -66,7 +66,7 @@ class BatchOptions:
 class PromptBatchOptions(BatchOptions):
     """Samples, and processes that make them."""
 
-    generator: str = next(iter(GENERATORS.builtin))
+    generator: str = DEFAULT_GENERATOR
     """Text-to-video generator, as in texvent generate."""
 
 

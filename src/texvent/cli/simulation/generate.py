@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
-from texvent._registry import GENERATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent.cli.command import read_subject, resolve_command, subject_name
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
@@ -15,7 +15,7 @@ from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import describe_scene, execute, print_settings
 from texvent.config import IdleOptions
 from texvent.errors import ConfigError, InputError, warn
-from texvent.generate.subjects import Subject, check_takes
+from texvent.generate.subjects import SceneValue, Subject, check_takes, scenes
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
@@ -23,9 +23,6 @@ from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 from texvent.video import frame_time_us
-from texvent_scenes.procedural import ProceduralGenerator
-from texvent_scenes.spec.files import is_scene_file, save_scene
-from texvent_scenes.spec.scene import Scene
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -54,7 +51,7 @@ class PromptOptions:
 
     prompt: str = REQUIRED
     """Scene: a quoted sentence, or a scene file. See docs/scenes.md."""
-    generator: str = next(iter(GENERATORS.builtin))
+    generator: str = DEFAULT_GENERATOR
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
     video_only: bool = False
@@ -121,7 +118,7 @@ def _refuse_two_results(own: PromptOptions, output: OutputOptions) -> None:
         raise ConfigError(f"{' and '.join(given)} exclude each other; give one of them")
 
 
-def _written(own: PromptOptions, settings: Settings) -> Scene:
+def _written(own: PromptOptions, settings: Settings) -> SceneValue:
     """The scene that a language model writes for the prompt.
 
     Raises:
@@ -130,19 +127,17 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent_scenes.llm import write_scene  # most runs do not need it
-
-    if is_scene_file(own.prompt):
+    if scenes().is_scene_file(own.prompt):
         raise ConfigError(f"--llm-url reads a sentence, and {own.prompt} is a scene file")
     name = str(settings.generator)
-    check_takes(Scene(), GENERATORS.load(name), name)
-    scene, report = write_scene(own.prompt, own.llm_url or "", own.llm_model or "default")
+    check_takes(None, GENERATORS.load(name), name)
+    scene, report = scenes().write_scene(own.prompt, own.llm_url or "", own.llm_model or "default")
     refusal = report.refusal() if is_strict(settings) else None
     if refusal is not None:
         raise InputError(refusal)
     for line in (*report.faults(), *report.notes):
         warn(f"prompt {line}")
-    return scene
+    return cast(SceneValue, scene)
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:
@@ -159,7 +154,7 @@ def _write_scene(
     """Write the scene of a prompt and print its path."""
     path = own.write_scene or Path()
     scene = make_scene(prompt, settings)
-    save_scene(path, scene, overwrite=output.overwrite)
+    scenes().save_scene(path, scene, overwrite=output.overwrite)
     if not output.quiet:
         write_out(f"{path}\n")
     return 0
@@ -201,7 +196,7 @@ def _write_preview(prompt: Subject, settings: Settings, path: Path, output: Outp
 
     if path.suffix.lower() != STILLS_EXTENSION:
         raise ConfigError(f"preview is {path}; its name must end in {STILLS_EXTENSION}")
-    if GENERATORS.load(str(settings.generator)) is not ProceduralGenerator:
+    if not getattr(GENERATORS.load(str(settings.generator)), "takes_scenes", False):
         raise ConfigError(
             "--preview shows scenes of the embedded generator; a learned model must make its whole "
             "video first: use --video-only"

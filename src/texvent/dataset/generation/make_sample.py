@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ from texvent.dataset.specification.clips import Clip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
+from texvent.generate.kept_frames import KeepingStream, KeptFrames
+from texvent.ground_truth import Box
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
@@ -27,63 +29,13 @@ from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
-from texvent.video import Frame, Motion
+from texvent.video import Frame
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
-from texvent_scenes.procedural import ProceduralVideo, Rendered
 
 if TYPE_CHECKING:
-    from texvent.ground_truth import Box, GroundTruth
     from texvent.truth.recorder import TruthRecorder
     from texvent.truth.sinks import SampleSink
-    from texvent_scenes.raycast.incremental import IncrementalRenderer
-
-
-MOST_BYTES = 2**29
-"""Size of kept frames: .5 s at 304×240 pixels take 60 MB, 2 s at 346×260 about 300 MB. What comes
-after that is rendered again."""
-
-
-class KeptFrames:
-    """Frames rendered of a clip; rendered again, they would be equal to the last bit."""
-
-    def __init__(self) -> None:
-        self.clear()
-
-    def clear(self) -> None:
-        """Forget the clip."""
-        self.values, self.bytes = dict[Any, Any](), 0
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class _SharedVideo(ProceduralVideo):
-    kept: KeptFrames = field(default_factory=KeptFrames)
-
-    def _once(self, *key: Any, make: Callable[[], Any], bytes_per_pixel: int = 24) -> Any:
-        kept, key = self.kept, (*key, self.size, self.transfer)
-        if key in kept.values:
-            return kept.values[key]
-        value, size = make(), bytes_per_pixel * self.size.width * self.size.height
-        if kept.bytes + size <= MOST_BYTES:
-            kept.bytes += size
-            kept.values[key] = value
-        return value
-
-    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
-        make = partial(super()._render, renderer, t_us)
-        return cast(Rendered, self._once("frame", t_us, make=make))
-
-    def _motion(self, index: int) -> Motion:
-        return cast(Motion, self._once("motion", index, make=partial(super()._motion, index)))
-
-    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
-        make = partial(super().ground_truth, t0_us, t1_us)
-        return cast("GroundTruth", self._once("truth", t0_us, t1_us, make=make))
-
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        key = "between", first.t_us, *times_us, second.t_us
-        make = partial(tuple, super().between(first, second, times_us))
-        yield from self._once(*key, make=make, bytes_per_pixel=4 * len(times_us))
 
 
 def prepare_clip(
@@ -104,9 +56,8 @@ def prepare_clip(
     if recipe.items.are_videos:
         return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
     video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
-    if isinstance(video, ProceduralVideo) and frames is not None:
-        parts = {one.name: getattr(video, one.name) for one in fields(video)}
-        video = _SharedVideo(**parts, kept=frames)
+    if isinstance(video, KeepingStream) and frames is not None:
+        video = video.keeping(frames)
     return prepare_video(video, settings, prompt=prompt)
 
 
@@ -290,8 +241,6 @@ def preview_png(events: EventStream, truth: ClipTruth) -> bytes:
 
 def _boxes_near(truth: ClipTruth, t_us: int) -> tuple[Box, ...]:
     """Boxes at the time nearest to an instant, µs, of those at which they are known."""
-    from texvent.ground_truth import Box  # brings Numba
-
     times = truth.box_times_us
     near = truth.boxes[truth.boxes["t"] == times[np.abs(times - t_us).argmin()]]
     target = detection_target(near)

@@ -17,7 +17,6 @@ import numpy as np
 
 from texvent._version import full_version
 from texvent.dataset.generation.make_sample import (
-    KeptFrames,
     count_boxes,
     prepare_clip,
     record_truth,
@@ -40,6 +39,8 @@ from texvent.dataset.generation.shards import (
 from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
 from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
+from texvent.generate.kept_frames import KeptFrames
+from texvent.generate.subjects import scenes
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
@@ -52,7 +53,6 @@ from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
-from texvent_scenes.named_files import files_of
 
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]
@@ -166,7 +166,7 @@ def _inputs_of(recipe: Recipe, shard: Shard, without: Collection[str] = ()) -> l
     items = [clip.item for clip in recipe.clips_of(shard) if clip.key not in without]
     for item in items:
         found += [name for name in (item.video, item.boxes) if name]
-        found += files_of(item.subject) if item.scene is not None else ()
+        found += scenes().files_of(item.subject) if item.scene is not None else ()
     return list(dict.fromkeys(found))
 
 

@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent._version import full_version
 from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shards import EXTENSION, read_json
@@ -120,7 +120,7 @@ class Recipe:
             return False
         if self.specification.store_videos is not None:
             return self.specification.store_videos
-        name = self.specification.options.get("generator", next(iter(GENERATORS.builtin)))
+        name = self.specification.options.get("generator", DEFAULT_GENERATOR)
         return not renders_instants(GENERATORS.load(name))
 
     @functools.cached_property

@@ -18,10 +18,9 @@ from texvent.dataset.specification.list_files import (
     scene_entry,
 )
 from texvent.errors import ConfigError, InputError, shown, warn
+from texvent.generate.subjects import scenes
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.runtime.identity import derived_seed, digest
-from texvent_scenes.spec.data import scene_to_data
-from texvent_scenes.spec.files import is_scene_file
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""
@@ -86,7 +85,7 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
         yield from _folder_stills(path) if of_stills else _folder_entries(path)
     elif path.suffix.lower() in LIST_EXTENSIONS:
         yield from read_list(path)
-    elif is_scene_file(source) and (path.exists() or not glob.has_magic(source)):
+    elif scenes().is_scene_file(source) and (path.exists() or not glob.has_magic(source)):
         yield scene_entry(source, path)
     elif path.exists():
         yield ListEntry(where=source, video=path)
@@ -152,7 +151,7 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
         video = moved_together(entry.video)
         what: list[object] = [entry.prompt, video, entry.name, entry.seed]
         if entry.scene is not None:
-            what.append(scene_to_data(entry.scene))
+            what.append(scenes().scene_to_data(entry.scene))
         same = json.dumps([*what, entry.video and str(entry.video.absolute())])
         seen[same] += 1
         key = digest([*what, seen[same]])

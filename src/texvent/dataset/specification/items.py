@@ -9,7 +9,7 @@ import string
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from texvent.dataset.specification.entries import entries_of, moved_together
 from texvent.dataset.specification.list_files import ListEntry
@@ -20,10 +20,9 @@ from texvent.dataset.specification.specification import (
     is_range,
 )
 from texvent.errors import ConfigError, InputError, shown
+from texvent.generate.subjects import SceneValue, Subject, scenes
 from texvent.runtime.identity import derived_seed, digest
 from texvent.settings.provenance import describe_state
-from texvent_scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
-from texvent_scenes.spec.scene import Scene
 
 MAX_ITEMS = 10_000_000
 KEY_DIGITS = 16
@@ -51,9 +50,11 @@ class Item:
     """Boxes per second of the label clock, as 30 or 30000/1001."""
 
     @property
-    def subject(self) -> str | Scene:
+    def subject(self) -> Subject:
         """Its scene, or else its prompt."""
-        return (self.prompt or "") if self.scene is None else scene_from_data(self.scene)
+        if self.scene is None:
+            return self.prompt or ""
+        return cast(Subject, scenes().scene_from_data(self.scene))
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -156,10 +157,10 @@ def _item(
     label: str | None,
     split: str | None,
     seed: int | None = None,
-    scene: Scene | None = None,
+    scene: SceneValue | None = None,
 ) -> Item:
     what: list[object] = [prompt, moved_together(video), label, seed]
-    data = None if scene is None else scene_to_data(scene)
+    data = None if scene is None else scenes().scene_to_data(scene)
     if data is not None:
         what.append(data)
     key = digest(what)[:KEY_DIGITS]
@@ -236,7 +237,7 @@ def _filled(template: str, words: dict[str, str], what: str) -> str:
     return template
 
 
-def read_scenes(source: SampleSource, seed: int) -> Iterator[tuple[Scene, str | None]]:
+def read_scenes(source: SampleSource, seed: int) -> Iterator[tuple[SceneValue, str | None]]:
     """The scenes of a source, in order, each with its label.
 
     What is drawn depends on the seed, the file's name, the field and the number of the draw.
@@ -257,16 +258,18 @@ def read_scenes(source: SampleSource, seed: int) -> Iterator[tuple[Scene, str | 
                 raise ConfigError(f"{entry.where}: {error}") from error
 
 
-def _varied_scenes(scene: Scene, name: str, source: SampleSource, seed: int) -> Iterator[Scene]:
+def _varied_scenes(
+    scene: SceneValue, name: str, source: SampleSource, seed: int
+) -> Iterator[SceneValue]:
     """A scene with the values of its varied fields; its sentence with the fields that it names."""
     if not source.vary:
         yield scene
         return
     for path in source.vary:
-        get_field(scene, path)  # before any value: the nearest right field is named
+        scenes().get_field(scene, path)  # before any value: the nearest right field is named
     ranges = {path: values for path, values in source.vary.items() if is_range(values)}
     for number, chosen in enumerate(_combinations(name, source, bool(ranges), seed)):
-        varied = with_fields(scene, chosen | draw_options(ranges, seed, name, number))
+        varied = scenes().with_fields(scene, chosen | draw_options(ranges, seed, name, number))
         yield replace(varied, prompt=_with_scene_fields(varied.prompt, varied, name) or "")
 
 
@@ -293,12 +296,12 @@ def _combinations(
     yield from itertools.islice(drawn, source.count)
 
 
-def _with_scene_fields(text: str | None, scene: Scene, name: str) -> str | None:
+def _with_scene_fields(text: str | None, scene: SceneValue, name: str) -> str | None:
     """A label or sentence with the fields of a scene in place of their paths in braces."""
     if text is None or "{" not in text:
         return text
     for path in _placeholders(text):
-        value: Any = name if path == "name" else get_field(scene, path)
+        value: Any = name if path == "name" else scenes().get_field(scene, path)
         if value is None or isinstance(value, (Mapping, tuple)):
             raise ConfigError(f"{shown(text)} names {path}, which has no value to write")
         text = text.replace(f"{{{path}}}", f"{value:g}" if isinstance(value, float) else str(value))

@@ -20,11 +20,10 @@ from texvent.errors import (
     warn,
     without_password,
 )
+from texvent.generate.subjects import SceneValue, Subject, scenes
 from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.runtime.yaml_text import check_once, keys_once
-from texvent_scenes.spec.files import is_scene_file, load_scene
-from texvent_scenes.spec.scene import Scene
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""
@@ -57,7 +56,7 @@ class ListEntry:
     """Prompt, or description of the video."""
     video: Path | None = None
     """The video; None: one is generated."""
-    scene: Scene | None = None
+    scene: SceneValue | None = None
     """The scene to show; None: that of the prompt."""
     name: str | None = None
     """Name for its results, without extension; None lets the caller make one."""
@@ -67,7 +66,7 @@ class ListEntry:
     """Its class, for data sets."""
 
     @property
-    def subject(self) -> str | Scene:
+    def subject(self) -> Subject:
         """Its scene, or else its prompt."""
         return self.scene or self.prompt or ""
 
@@ -116,7 +115,7 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
 
 def scene_entry(where: str, path: Path, **known: Any) -> ListEntry:
     """The entry of a scene file, named after it unless it has a name; errors as `load_scene`."""
-    scene = load_scene(path)
+    scene = scenes().load_scene(path)
     name = known.pop("name", None) or path.stem
     return ListEntry(where, scene.prompt or None, scene=scene, name=name, **known)
 
@@ -185,7 +184,12 @@ def _entry(path: Path, number: int, row: Mapping[Any, Any]) -> ListEntry:
         "seed": _seed(where, row.get("seed")),
         "label": _label(where, row),
     }
-    if scene is None and video is None and prompt is not None and is_scene_file(prompt.strip()):
+    if (
+        scene is None
+        and video is None
+        and prompt is not None
+        and scenes().is_scene_file(prompt.strip())
+    ):
         scene = prompt.strip()
     if scene is not None:
         return scene_entry(where, path.parent / scene, **known)

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from texvent._registry import GENERATORS, suggest
+from texvent._registry import DEFAULT_GENERATOR, suggest
 from texvent.dataset.specification.items import Items
 from texvent.dataset.specification.specification import Specification, extreme_options
 from texvent.errors import ConfigError, InputError, shown
+from texvent.generate.subjects import scenes
 from texvent.settings.resolution import resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
-from texvent_scenes.scene_input import list_nouns
 
 if TYPE_CHECKING:
     from texvent.truth.labels import Labels
@@ -51,7 +51,7 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
         _check_videos(specification, are_labelled=are_labelled)
         known = _names_of_labels(specification, items) if are_labelled else ()
     else:
-        name = specification.options.get("generator", next(iter(GENERATORS.builtin)))
+        name = specification.options.get("generator", DEFAULT_GENERATOR)
         check_generator(str(name))
         if is_stored:
             raise ConfigError(
@@ -59,7 +59,7 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
                 "videos; leave one of them out"
             )
         known = (
-            *list_nouns(specification.options.get("assets")),
+            *scenes().list_nouns(specification.options.get("assets")),
             *_check_models(specification, items),
         )
     for name in specification.class_of:

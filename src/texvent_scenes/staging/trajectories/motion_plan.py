@@ -54,7 +54,7 @@ class MotionPlan:
     path: SteeredPath | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
-    """Activity of a person or a hand in place: a name of `models.activities`."""
+    """Activity of a person or a hand in place: a name of `people.activities`."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: Axis = "yaw"
