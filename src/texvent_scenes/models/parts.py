@@ -26,26 +26,24 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, find_channels, motion_of
-from texvent_scenes.models.joints import Instant, place, read_joint, read_joints, read_wave
-from texvent_scenes.models.limbs import Chain, Steps, Walk, read_legs, read_walk
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, motion_of
+from texvent_scenes.models.joints import read_joint, read_joints, read_wave
+from texvent_scenes.models.limbs import Chain, read_legs, read_walk
 from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent_scenes.models.people.figure import read_rider
 from texvent_scenes.models.proportions import fill_in
-from texvent_scenes.models.protocol import ModelPart, Noun, Pose, between, choose, fraction
+from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
 from texvent_scenes.models.shapes import (
     SAMPLE_POSES,
     STANDING_POSES,
-    Affine,
     ArticulatedModel,
     ball,
     compose,
     half_extents,
-    moved,
     shift,
     turn_about,
 )
-from texvent_scenes.models.skeleton import Anchor, Group, locate_all, read_anchor, read_group
+from texvent_scenes.models.skeleton import Anchor, Body, Group, read_anchor, read_group
 from texvent_scenes.models.surfaces import Painted, paint_model, toned
 from texvent_scenes.rendered_scene import Colour
 
@@ -98,78 +96,40 @@ class PartsBuilder:
         for label, texts in self._variants.items():
             placed = (*placed, *choose(seed, label, texts))
         rigid = painted.draw(placed)
-        is_drawn = [colour is None or not one.is_usual for one in groups]
-        drawn = [painted.draw(one.parts) if is_shown else []
-                 for one, is_shown in zip(groups, is_drawn, strict=True)]  # fmt: skip
-        clumps = [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
-        groups, drawn = (
-            (*groups, *(one for _, one in clumps)),
-            [*drawn, *(one for one, _ in clumps)],
-        )
+        is_usual = colour is None
+        drawn = [(one, painted.draw(one.parts) if is_usual or not one.is_usual else [])
+                 for one in groups]  # fmt: skip
+        drawn += [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
         extras = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
         if "rider" in table:
             rider = read_rider(table["rider"])
             extras.append(lambda now: rider.draw(seed, now.pose.distance_m))
-        wave = read_wave(table["wave"]) if "wave" in table else None
-        body, legs = read_joints(table.get("body", "")), read_legs(table, painted)
-        moves_all = wave is not None or bool(body or legs)
-
-        def articulate(pose: Pose) -> list[ModelPart]:
-            now, steps = self._instant(pose, seed)
-            carrier = place(body, now) if body else None
-            parts = list(rigid) if moves_all else []
-            if wave is not None:
-                parts = [wave(part, now) for part in parts]
-            parts += [part for draw in extras for part in draw(now)]
-            parts = moved(parts, carrier) if carrier is not None else parts
-            motions = locate_all(groups, now, carrier)
-            for group, shapes, motion in zip(groups, drawn, motions, strict=True):
-                parts += group.draw(shapes, now, motion)
-            if steps is not None:
-                upright = np.eye(3, 4) if carrier is None else carrier
-                parts += [one for draw in legs for one in draw(steps, upright, now.channels)]
-            return parts
-
-        def anchor(name: str, pose: Pose) -> Affine | None:
-            named = self._anchors.get(name, self._anchors.get("other"))
-            if named is None:
-                return None
-            now, _ = self._instant(pose, seed)
-            motions = locate_all(groups, now, place(body, now) if body else None)
-            return named.locate(groups, motions)
-
-        rests = moves_all or any(one.at_rest is not None for one in groups)
-        return ArticulatedModel(
-            [] if moves_all else rigid,
-            scale=scale * table.get("size", 1.0),
-            articulate=articulate if moves_all or groups or extras else None,
-            is_centred=_is_centred(table),
-            anchor=anchor if self._anchors else None,
-            poses=SAMPLE_POSES if rests else STANDING_POSES,
-            is_wheeled=any(one.rolls for group in groups for one in group.joints[:1]),
+        body = Body(
+            seed,
+            acts=table.get("acts", "animal_activities"),
+            rigid=rigid,
+            groups=drawn,
+            extras=extras,
+            joints=read_joints(table.get("body", "")),
+            wave=read_wave(table["wave"]) if "wave" in table else None,
+            walk=read_walk(table),
+            legs=read_legs(table, painted),
+            anchors=self._anchors,
         )
-
-    def _instant(self, pose: Pose, seed: int) -> tuple[Instant, Steps | None]:
-        """What its joints and its legs follow at a pose."""
-        channels = find_channels(
-            self._filled.get("acts", "animal_activities"), pose.activity, pose.time_s,
-            before=pose.before, share=pose.share,
-        )  # fmt: skip
-        if self._walk is None:
-            return Instant(pose, seed, channels), None
-        steps = self._walk.steps(pose, seed)
-        gait = "run" if steps.runs else "walk"
-        channels |= {"step": steps.amount, gait: steps.amount}
-        return Instant(pose, seed, channels, steps.strides), steps
+        return ArticulatedModel(
+            [] if body.moves_all else rigid,
+            scale=scale * table.get("size", 1.0),
+            articulate=body.articulate if body.moves_all or drawn or extras else None,
+            is_centred=_is_centred(table),
+            anchor=body.locate if self._anchors else None,
+            poses=SAMPLE_POSES if body.rests else STANDING_POSES,
+            is_wheeled=any(one.rolls for group, _ in drawn for one in group.joints[:1]),
+        )
 
     @cached_property
     def _filled(self) -> Mapping[str, Any]:
         """Its table with numbers in place of formulas."""
         return fill_in(self.table)
-
-    @cached_property
-    def _walk(self) -> Walk | None:
-        return read_walk(self._filled)
 
     @cached_property
     def _anchors(self) -> Mapping[str, Anchor]:
@@ -210,7 +170,7 @@ class PartsBuilder:
 
 def _read_clump(
     table: Mapping[str, Any], painted: Painted, seed: int
-) -> tuple[list[ModelPart], Group]:
+) -> tuple[Group, list[ModelPart]]:
     """Balls around an upright axis, their places, sizes and shades chosen by the seed.
 
     Its table: count, surface; lowest and highest `out` (from the axis), `up`, `size` (m) and
@@ -228,7 +188,7 @@ def _read_clump(
         )
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
         parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
-    return parts, Group((), tuple(map(read_joint, table.get("joints", ()))))
+    return Group((), tuple(map(read_joint, table.get("joints", ())))), parts
 
 
 def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:

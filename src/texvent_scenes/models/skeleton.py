@@ -5,11 +5,12 @@ A group begins with a line of part lines: "moving JOINT, JOINT, ...", the outerm
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from texvent_scenes.models.activities import find_channels
 from texvent_scenes.models.joints import (
     RESTING,
     Instant,
@@ -20,8 +21,9 @@ from texvent_scenes.models.joints import (
     read_light,
     read_number,
 )
+from texvent_scenes.models.limbs import DrawLegs, Steps, Walk
 from texvent_scenes.models.part_lines import Placed
-from texvent_scenes.models.protocol import ModelPart
+from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.models.shapes import Affine, Point, compose, moved, point
 
 
@@ -68,17 +70,6 @@ class Group:
         return [*there, *_mirrored(there)] if self.is_paired else there
 
 
-def locate_all(groups: Sequence[Group], now: Instant, body: Affine | None) -> list[Affine | None]:
-    """Maps of groups to body coordinates; each is on the body or on one before it."""
-    motions: list[Affine | None] = []
-    named: dict[str, Affine | None] = {"": body}
-    for group in groups:
-        motions.append(group.locate(now, named[group.on]))
-        if group.name:
-            named[group.name] = motions[-1]
-    return motions
-
-
 @dataclass(frozen=True)
 class Anchor:
     """A place of a body for other things."""
@@ -90,10 +81,9 @@ class Anchor:
     is_level: bool = False
     """Whether its axes are those of the body, and not of the group."""
 
-    def locate(self, groups: Sequence[Group], motions: Sequence[Affine | None]) -> Affine:
-        """[3, 4] axes at the place, in body coordinates."""
-        named = {group.name: motion for group, motion in zip(groups, motions, strict=True)}
-        motion = named.get(self.on)
+    def locate(self, motions: Mapping[str, Affine | None]) -> Affine:
+        """[3, 4] axes at the place, in body coordinates, by the maps of named groups."""
+        motion = motions.get(self.on)
         if motion is None:
             motion = np.eye(3, 4)
         turn = np.eye(3) if self.is_level else motion[:, :3]
@@ -165,3 +155,85 @@ def _clip(box: ModelPart, axis: int, low: float, high: float) -> ModelPart:
     to_body[axis, axis] = max(0.5 * (last - first), _SLIVER_M)
     to_body[axis, 3] = min(max(0.5 * (first + last), low + _SLIVER_M), high - _SLIVER_M)
     return box.at(to_body)
+
+
+@dataclass(frozen=True)
+class Body:
+    """One body on its skeleton, at its usual size."""
+
+    seed: int
+    acts: str
+    """Table of its activities."""
+    rigid: Sequence[ModelPart]
+    """Parts that stay in the body."""
+    groups: Sequence[tuple[Group, Sequence[ModelPart]]]
+    """Groups with their parts, painted; each is on the body or on one before it."""
+    extras: Sequence[Callable[[Instant], Sequence[ModelPart]]]
+    """Chains and riders."""
+    joints: tuple[Joint, ...]
+    """Joints that carry the whole body."""
+    wave: Callable[[ModelPart, Instant], ModelPart] | None
+    walk: Walk | None
+    legs: Sequence[DrawLegs]
+    anchors: Mapping[str, Anchor]
+
+    @property
+    def moves_all(self) -> bool:
+        """Whether nothing of it stays where it is."""
+        return self.wave is not None or bool(self.joints or self.legs)
+
+    @property
+    def rests(self) -> bool:
+        """Whether it looks different at rest."""
+        return self.moves_all or any(one.at_rest is not None for one, _ in self.groups)
+
+    def articulate(self, pose: Pose) -> list[ModelPart]:
+        """All parts that move, at that pose."""
+        now, steps = self._observe(pose)
+        body, motions, _ = self._locate_groups(now)
+        parts = list(self.rigid) if self.moves_all else []
+        if self.wave is not None:
+            parts = [self.wave(part, now) for part in parts]
+        parts = _carried(parts, body)
+        for (group, shapes), motion in zip(self.groups, motions, strict=True):
+            parts += group.draw(shapes, now, motion)
+        parts += _carried([part for draw in self.extras for part in draw(now)], body)
+        if steps is not None:
+            upright = np.eye(3, 4) if body is None else body
+            parts += [one for draw in self.legs for one in draw(steps, upright, now.channels)]
+        return parts
+
+    def locate(self, name: str, pose: Pose) -> Affine | None:
+        """Axes [3, 4] at a named place; "other" is the one that a name without its own means."""
+        anchor = self.anchors.get(name, self.anchors.get("other"))
+        if anchor is None:
+            return None
+        now, _ = self._observe(pose)
+        return anchor.locate(self._locate_groups(now)[2])
+
+    def _observe(self, pose: Pose) -> tuple[Instant, Steps | None]:
+        """State that joints follow, and steps of legs."""
+        channels = find_channels(
+            self.acts, pose.activity, pose.time_s, before=pose.before, share=pose.share
+        )
+        if self.walk is None:
+            return Instant(pose, self.seed, channels), None
+        steps = self.walk.steps(pose, self.seed)
+        channels |= {"step": steps.amount, "run" if steps.runs else "walk": steps.amount}
+        return Instant(pose, self.seed, channels, steps.strides), steps
+
+    def _locate_groups(
+        self, now: Instant
+    ) -> tuple[Affine | None, list[Affine | None], Mapping[str, Affine | None]]:
+        """Maps to body coordinates: of the body, of all groups, and of those with names."""
+        body = place(self.joints, now) if self.joints else None
+        motions, named = list[Affine | None](), {"": body}
+        for group, _ in self.groups:
+            motions.append(group.locate(now, named[group.on]))
+            if group.name:
+                named[group.name] = motions[-1]
+        return body, motions, named
+
+
+def _carried(parts: list[ModelPart], carrier: Affine | None) -> list[ModelPart]:
+    return parts if carrier is None else moved(parts, carrier)
