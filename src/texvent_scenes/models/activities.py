@@ -270,6 +270,13 @@ def find_channels(
     }
 
 
+@cache
+def list_channels(table: str) -> frozenset[str]:
+    """All channels of a table of activities."""
+    rows = read_table(table)
+    return frozenset(name for activity in rows for name in find_channels(table, activity, 0.0))
+
+
 ACTIVITIES: Mapping[str, Activity] = _read("activities")
 """Activities of people: name → activity."""
 HAND_GESTURES: Mapping[str, Activity] = _read("hand_gestures")

@@ -53,6 +53,8 @@ class Joint:
     motion: JointMotion
     rolls: bool = False
     """Whether it turns with the distance travelled."""
+    channels: tuple[str, ...] = ()
+    """Channels that it follows."""
 
 
 @dataclass(frozen=True)
@@ -295,15 +297,16 @@ def read_joint(text: str) -> Joint:
         if not set(axis) <= set("xyz") or (len(axis) > 1 and kind not in _STRETCHING):
             raise ValueError(f"its axis is {axis!r}; it must be x, y or z")
         words, options = _split_options(rest)
+        channels = tuple(options.get("by", ()))
         if kind in _ALONG:
-            return Joint(_ALONG[kind](axis, (0.0, 0.0, 0.0), words, options))
+            return Joint(_ALONG[kind](axis, (0.0, 0.0, 0.0), words, options), channels=channels)
         x, y, z = map(read_number, words[:3])
         if kind == "roll":
             return rolling(axis, (x, y, z), read_number(words[3], "m"))
         makers = {**_ABOUT_PIVOT, **_BY_VECTOR}
         if kind not in makers:
             raise ValueError(f"it must begin with {', '.join(['roll', *makers, *_ALONG])}")
-        return Joint(makers[kind](axis, (x, y, z), words[3:], options))
+        return Joint(makers[kind](axis, (x, y, z), words[3:], options), channels=channels)
     except (ValueError, IndexError) as error:
         raise ValueError(f"joint {text!r}: {error}") from None
 

@@ -26,8 +26,8 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, motion_of
-from texvent_scenes.models.joints import read_joint, read_joints, read_wave
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, list_channels, motion_of
+from texvent_scenes.models.joints import Joint, read_joint, read_joints, read_wave
 from texvent_scenes.models.limbs import Chain, read_legs, read_walk
 from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent_scenes.models.people.figure import read_rider
@@ -57,6 +57,8 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "with": (list,), "usual_more": (str,),
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
+_ACTS = ("animal_activities", "hand_gestures")
+"""Tables of activities that the joints of a noun may follow, the usual one first."""
 _OWN = ("names", "plurals", "more", "usual_more")
 """Keys that no noun takes from the one that it is like."""
 _HABITATS: Mapping[str, str] = {
@@ -104,13 +106,15 @@ class PartsBuilder:
         if "rider" in table:
             rider = read_rider(table["rider"])
             extras.append(lambda now: rider.draw(seed, now.pose.distance_m))
+        acts, joints = table.get("acts", _ACTS[0]), read_joints(table.get("body", ""))
+        _check_channels((*joints, *(one for group in groups for one in group.joints)), acts)
         body = Body(
             seed,
-            acts=table.get("acts", "animal_activities"),
+            acts=acts,
             rigid=rigid,
             groups=drawn,
             extras=extras,
-            joints=read_joints(table.get("body", "")),
+            joints=joints,
             wave=read_wave(table["wave"]) if "wave" in table else None,
             walk=read_walk(table),
             legs=read_legs(table, painted),
@@ -133,7 +137,8 @@ class PartsBuilder:
 
     @cached_property
     def _anchors(self) -> Mapping[str, Anchor]:
-        return {name: read_anchor(text) for name, text in self._filled.get("anchors", {}).items()}
+        said = self._filled.get("anchors", {})
+        return {name: read_anchor(text, self._drawing[1]) for name, text in said.items()}
 
     @cached_property
     def _drawing(self) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
@@ -142,7 +147,10 @@ class PartsBuilder:
         texts = [
             (table.get(key, ""), key == "usual_more") for key in ("parts", "more", "usual_more")
         ]
-        texts += [(table["options"][name], False) for name in table.get("with", ())]
+        options = table.get("options", {})
+        if not set(table.get("with", ())) <= options.keys():
+            raise ValueError(f"with is {table['with']}; known: {', '.join(options) or 'none'}")
+        texts += [(options[name], False) for name in table.get("with", ())]
         split = [(read_groups(text), is_usual) for text, is_usual in texts]
         rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
         if table.get("laid"):
@@ -166,6 +174,14 @@ class PartsBuilder:
         """Parts of which the seed chooses one list, by the label of the choice."""
         said = self._filled.get("variants", {})
         return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
+
+
+def _check_channels(joints: Sequence[Joint], acts: str) -> None:
+    """Refuse channels that nothing gives a value."""
+    known = {*list_channels(acts), "step", "walk", "run"}
+    for name in (name for joint in joints for name in joint.channels):
+        if name not in known:
+            raise ValueError(f"no channel {name!r}; known: {', '.join(sorted(known))}")
 
 
 def _read_clump(
@@ -260,6 +276,8 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
     if habitat not in _HABITATS.values():
         known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
+    if table.get("acts", _ACTS[0]) not in _ACTS:
+        raise FileFormatError(f"{where}: acts must be one of {', '.join(_ACTS)}")
     words = table.get("parts", "").split()
     return Noun(
         name,

@@ -75,7 +75,7 @@ class Anchor:
     """A place of a body for other things."""
 
     on: str
-    """Name of a group; another one = the ground."""
+    """Name of a group; "ground" = none."""
     at: Point
     """In that group, m."""
     is_level: bool = False
@@ -90,14 +90,19 @@ class Anchor:
         return np.column_stack([turn, motion @ np.array([*self.at, 1.0])])
 
 
-def read_anchor(text: str) -> Anchor:
+def read_anchor(text: str, groups: Sequence[Group]) -> Anchor:
     """An anchor from its text, such as "head .1 0 .36", or "head .1 0 .36 level".
+
+    It is on one of the groups that have names, or on "ground".
 
     Raises:
         ValueError: it cannot be read.
     """
     on, *place_words = text.split()
     is_level = place_words[-1:] == ["level"]
+    known = {"ground", *(one.name for one in groups if one.name)}
+    if on not in known:
+        raise ValueError(f"anchor {text!r} must be on one of {', '.join(sorted(known))}")
     return Anchor(on, point([read_number(one) for one in place_words[:3]]), is_level)
 
 

@@ -149,6 +149,19 @@ def test_a_bad_formula_is_named(formula, message):
     assert repr(formula) in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("by down", "by dwon", "no channel 'dwon'; known: down"),
+        ('"crest"', '"crown"', "known: crest, none"),
+        ('"head {height/4}', '"haed {height/4}', "must be on one of ground, head"),
+    ],
+)
+def test_a_name_that_nothing_has_is_refused(old, new, message):
+    with pytest.raises(FileFormatError, match=message):
+        build(CROW.replace(old, new))
+
+
 def test_sizes_that_wait_for_each_other_are_named():
     with pytest.raises(FileFormatError, match="no number is given for: a, b"):
         build('sizes = { a = "b", b = "2*a" }')
