@@ -101,9 +101,9 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
 
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
+    from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES
     from texvent_scenes.models.effects import EFFECTS
     from texvent_scenes.models.nouns import MOTIONS
-    from texvent_scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
     from texvent_scenes.models.places import PLACES
 
     usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}

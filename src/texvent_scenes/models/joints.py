@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent_scenes.models.animals.activities import ANIMAL_ACTIVITIES, activity_stance
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.materials import shade
 from texvent_scenes.models.protocol import ModelPart, Pose, between, fraction
 from texvent_scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
@@ -26,10 +26,24 @@ _HEAD_X, _HEAD_REACH, _WAVE_LAG = 0.45, 0.12, 3.6
 """Place of a swimmer's head, its swing relative to the tail's, and the lag of the wave along its
 body, rad: for a body of length 1."""
 
-Cycle = Callable[[Pose, int], float]
-"""Pose and seed → cycles so far."""
-JointMotion = Callable[[Pose, int], Affine]
-"""Pose and seed → [3, 4] map."""
+
+@dataclass(frozen=True)
+class Instant:
+    """A body at an instant: all that its joints follow."""
+
+    pose: Pose
+    seed: int
+    channels: Mapping[str, float] = field(default_factory=dict)
+    """Channels of its activity and its gait; one that is missing is 0."""
+    strides: float = 0.0
+    """Strides so far, of what walks."""
+
+
+Cycle = Callable[[Instant], float]
+"""Cycles so far."""
+Amount = Callable[[Instant], float]
+JointMotion = Callable[[Instant], Affine]
+"""[3, 4] map."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +53,8 @@ class Joint:
     motion: JointMotion
     rolls: bool = False
     """Whether it turns with the distance travelled."""
+    channels: tuple[str, ...] = ()
+    """Channels that it follows."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +66,9 @@ class LightModulation:
     dim: float | None = None
     """Share of their colour that is left when they are dark; None = all of it."""
 
-    def shine(self, parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
-        """The parts as bright as they are at that pose."""
-        level = self.level(pose.time_s, seed)
+    def shine(self, parts: Sequence[ModelPart], now: Instant) -> list[ModelPart]:
+        """The parts as bright as they are at that instant."""
+        level = self.level(now.pose.time_s, now.seed)
         share = 1.0 if self.dim is None else self.dim + (1.0 - self.dim) * level
         return [
             replace(one, emission=level * one.emission, colour=shade(one.colour, share))
@@ -60,11 +76,11 @@ class LightModulation:
         ]
 
 
-def place(joints: Sequence[Joint], pose: Pose, seed: int) -> Affine:
+def place(joints: Sequence[Joint], instant: Instant) -> Affine:
     """The map of parts on a chain of joints, the outermost first."""
-    motion = joints[0].motion(pose, seed)
+    motion = joints[0].motion(instant)
     for joint in joints[1:]:
-        motion = compose(motion, joint.motion(pose, seed))
+        motion = compose(motion, joint.motion(instant))
     return motion
 
 
@@ -86,10 +102,12 @@ def rolling(axis: str, pivot: Point, radius: float) -> Joint:
     """Turning with the distance travelled, without slipping."""
     if radius == 0.0:
         raise ValueError("what rolls needs a radius that is not 0")
-    return Joint(lambda pose, seed: turn_about(axis, pose.distance_m / radius, pivot), rolls=True)
+    return Joint(lambda now: turn_about(axis, now.pose.distance_m / radius, pivot), rolls=True)
 
 
-_OPTIONS = frozenset({"at", "start", "from", "above", "below", "sink", "within", "between", "dim"})
+_OPTIONS = frozenset(
+    {"at", "start", "from", "above", "below", "sink", "within", "between", "dim", "by"}
+)
 """Names of values."""
 _Options = Mapping[str, Sequence[str]]
 
@@ -107,19 +125,27 @@ def _split_options(words: Sequence[str]) -> tuple[list[str], _Options]:
     return plain, options
 
 
+_COUNTS: Mapping[str, Callable[[Instant], float]] = {
+    "hz": lambda now: now.pose.time_s,
+    "/m": lambda now: now.pose.distance_m,
+    "step": lambda now: now.strides,
+}
+"""Unit of a rate → count of the units so far: seconds, metres or strides."""
+
+
 def _cycle(rate: str, options: _Options) -> Cycle:
     """Cycles of a rate, by its "start" and "from"."""
-    unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
+    unit = next((one for one in _COUNTS if rate.endswith(one)), None)
     if unit is None:
         raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
-    pace, word = read_number(rate, unit), options.get("from", ["0"])[0]
+    pace, word, count = read_number(rate, unit), options.get("from", ["0"])[0], _COUNTS[unit]
     late = read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
     label, times = [*options.get("start", [""]), "1"][:2]
     most = read_number(times)
 
-    def cycle(pose: Pose, seed: int) -> float:
-        begun = most * fraction(seed, label) if label else 0.0
-        return pace * (pose.time_s if unit == "hz" else pose.distance_m) + begun + late
+    def cycle(now: Instant) -> float:
+        begun = most * fraction(now.seed, label) if label else 0.0
+        return pace * count(now) + begun + late
 
     return cycle
 
@@ -136,109 +162,124 @@ def read_cycle(words: Sequence[str]) -> Cycle:
     return _cycle(rate, options)
 
 
-def sine(cycle: Cycle, pose: Pose, seed: int) -> float:
+def sine(cycle: Cycle, now: Instant) -> float:
     """The sine of a cycle at one instant."""
-    return math.sin(2.0 * math.pi * cycle(pose, seed))
+    return math.sin(2.0 * math.pi * cycle(now))
 
 
 def _angle(word: str) -> float:
-    return math.radians(read_number(word, "deg"))
+    return (
+        read_number(word, "rad") if word.endswith("rad") else math.radians(read_number(word, "deg"))
+    )
 
 
-def _spin(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _amount(options: _Options) -> Amount:
+    """Product of the channels after "by"; 1 where there is none."""
+    names = options.get("by", ())
+    return lambda now: math.prod(now.channels.get(name, 0.0) for name in names)
+
+
+def _still(motion: Affine) -> JointMotion:
+    """The same map at every instant."""
+    return lambda now: motion
+
+
+def _spin(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Steady turning: rate."""
     cycle = _cycle(words[0], options)
-    return Joint(lambda pose, seed: turn_about(axis, 2.0 * math.pi * cycle(pose, seed), pivot))
+    return lambda now: turn_about(axis, 2.0 * math.pi * cycle(now), pivot)
 
 
-def _swing(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _swing(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Turning to and fro: greatest angle, rate; between two angles where it is stopped."""
-    reach, cycle = _angle(words[0]), _cycle(words[1], options)
+    reach, cycle, amount = _angle(words[0]), _cycle(words[1], options), _amount(options)
     low = _angle(options["above"][0]) if "above" in options else -math.inf
     high = _angle(options["below"][0]) if "below" in options else math.inf
-    return Joint(
-        lambda pose, seed: turn_about(
-            axis, min(max(reach * sine(cycle, pose, seed), low), high), pivot
-        )
+    return lambda now: turn_about(
+        axis, min(max(amount(now) * reach * sine(cycle, now), low), high), pivot
     )
 
 
-def _roll(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
-    """Turning with the distance travelled: radius."""
-    return rolling(axis, pivot, read_number(words[0], "m"))
+def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
+    """Turned by an angle: once and for all, or as far as channels say."""
+    angle, amount = _angle(words[0]), _amount(options)
+    if "by" not in options:
+        return _still(turn_about(axis, angle, pivot))
+    return lambda now: turn_about(axis, amount(now) * angle, pivot)
 
 
-def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
-    """Turned once and for all: angle."""
-    angle = _angle(words[0])
-    return Joint(lambda pose, seed: turn_about(axis, angle, pivot))
-
-
-def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Turned down while the mouth is at the ground: angle."""
-    reach = _angle(words[0])
-    return Joint(
-        lambda pose, seed: turn_about(
-            axis, reach * activity_stance(pose.activity, pose.time_s).head_down, pivot
-        )
-    )
+    return _turn(axis, pivot, words, {"by": ["down"]})
 
 
-def _pulse(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _pulse(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Stretched along axes and shrunk: greatest share, rate."""
     share, cycle = read_number(words[0]), _cycle(words[1], options)
-    return Joint(lambda pose, seed: _stretch(axes, 1.0 + share * sine(cycle, pose, seed), pivot))
+    return lambda now: _stretch_along(axes, 1.0 + share * sine(cycle, now), pivot)
 
 
-def _grow(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _grow(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """From a share of its size to the whole, again and again: least share, rate."""
     least, cycle = read_number(words[0]), _cycle(words[1], options)
-    return Joint(
-        lambda pose, seed: _stretch(axes, least + (1.0 - least) * (cycle(pose, seed) % 1.0), pivot)
-    )
+    return lambda now: _stretch_along(axes, least + (1.0 - least) * (cycle(now) % 1.0), pivot)
 
 
-def _vary(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+def _vary(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Stretched once and for all: least and greatest factor, name of the seed's choice."""
     low, high, name = read_number(words[0]), read_number(words[1]), words[2]
-    return Joint(lambda pose, seed: _stretch(axes, between(seed, name, low, high), pivot))
+    return lambda now: _stretch_along(axes, between(now.seed, name, low, high), pivot)
 
 
-def _belt(axis: str, words: Sequence[str], options: _Options) -> Joint:
+def _belt(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Along a belt, then from its start again: length, speed; sinking by a depth at its ends."""
     length, speed = read_number(words[0], "m"), read_number(words[1], "m/s")
     first, depth, edge = (
         read_number(options.get(name, ["0"])[0]) for name in ("from", "sink", "within")
     )
 
-    def motion(pose: Pose, seed: int) -> Affine:
-        along = (speed * pose.time_s + first) % length
+    def motion(now: Instant) -> Affine:
+        along = (speed * now.pose.time_s + first) % length
         sunk = max(0.0, 1.0 - min(along, length - along) / edge) if edge else 0.0
         carried = shift(**{axis: along - 0.5 * length})
         carried[2, 3] -= depth * sunk
         return np.asarray(carried)
 
-    return Joint(motion)
+    return motion
 
 
-def _sway(axis: str, words: Sequence[str], options: _Options) -> Joint:
+def _sway(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """To and fro along an axis: greatest distance, rate."""
-    reach, cycle = read_number(words[0]), _cycle(words[1], options)
-    return Joint(lambda pose, seed: shift(**{axis: reach * sine(cycle, pose, seed)}))
+    reach, cycle, amount = read_number(words[0]), _cycle(words[1], options), _amount(options)
+    return lambda now: shift(**{axis: amount(now) * reach * sine(cycle, now)})
 
 
-_ABOUT_PIVOT: Mapping[str, Callable[[str, Point, Sequence[str], _Options], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "bow": _bow,
+def _shift(axis: str, way: Point, words: Sequence[str], options: _Options) -> JointMotion:
+    """Shifted by a vector: once and for all, or as far as channels say."""
+    amount = _amount(options)
+    if "by" not in options:
+        return _still(shift(*way))
+    return lambda now: shift(*(amount(now) * one for one in way))
+
+
+def _stretch(axis: str, factors: Point, words: Sequence[str], options: _Options) -> JointMotion:
+    """Stretched once and for all along x, y and z."""
+    return _still(np.diag(factors) @ np.eye(3, 4))
+
+
+_Maker = Callable[[str, Point, Sequence[str], _Options], JointMotion]
+_ABOUT_PIVOT: Mapping[str, _Maker] = {
+    "spin": _spin, "swing": _swing, "turn": _turn, "bow": _bow,
     "pulse": _pulse, "grow": _grow, "vary": _vary,
 }  # fmt: skip
-_ALONG: Mapping[str, Callable[[str, Sequence[str], _Options], Joint]] = {
-    "belt": _belt, "sway": _sway,
-}  # fmt: skip
+"""Joints with axis and pivot."""
+_ALONG: Mapping[str, _Maker] = {"belt": _belt, "sway": _sway}
+_BY_VECTOR: Mapping[str, _Maker] = {"shift": _shift, "stretch": _stretch}
 _STRETCHING = ("pulse", "grow", "vary")
 """Joints of several axes, such as "yz"."""
 
 
-def _stretch(axes: str, factor: float, pivot: Point) -> Affine:
+def _stretch_along(axes: str, factor: float, pivot: Point) -> Affine:
     """A stretching along axes such as "yz" that leaves a point where it is."""
     factors = np.array([factor if axis in axes else 1.0 for axis in "xyz"])
     return np.column_stack([np.diag(factors), (1.0 - factors) * np.array(pivot)])
@@ -251,18 +292,28 @@ def read_joint(text: str) -> Joint:
         ValueError: it cannot be read; the message has the text.
     """
     try:
-        kind, axis, *rest = text.split()
+        kind, *rest = text.split()
+        axis = "" if kind in _BY_VECTOR else rest.pop(0)
         if not set(axis) <= set("xyz") or (len(axis) > 1 and kind not in _STRETCHING):
             raise ValueError(f"its axis is {axis!r}; it must be x, y or z")
         words, options = _split_options(rest)
+        channels = tuple(options.get("by", ()))
         if kind in _ALONG:
-            return _ALONG[kind](axis, words, options)
-        if kind not in _ABOUT_PIVOT:
-            raise ValueError(f"it must begin with {', '.join([*_ABOUT_PIVOT, *_ALONG])}")
+            return Joint(_ALONG[kind](axis, (0.0, 0.0, 0.0), words, options), channels=channels)
         x, y, z = map(read_number, words[:3])
-        return _ABOUT_PIVOT[kind](axis, (x, y, z), words[3:], options)
+        if kind == "roll":
+            return rolling(axis, (x, y, z), read_number(words[3], "m"))
+        makers = {**_ABOUT_PIVOT, **_BY_VECTOR}
+        if kind not in makers:
+            raise ValueError(f"it must begin with {', '.join(['roll', *makers, *_ALONG])}")
+        return Joint(makers[kind](axis, (x, y, z), words[3:], options), channels=channels)
     except (ValueError, IndexError) as error:
         raise ValueError(f"joint {text!r}: {error}") from None
+
+
+def read_joints(text: str) -> tuple[Joint, ...]:
+    """Joints with commas between them, the outermost first."""
+    return tuple(map(read_joint, filter(None, map(str.strip, text.split(",")))))
 
 
 _RAMP = 0.01
@@ -286,7 +337,7 @@ def read_light(text: str) -> LightModulation:
         raise ValueError(f"light {text!r}: {error}") from None
 
     def level(time_s: float, seed: int) -> float:
-        phase = cycle(Pose(time_s, 0.0, 0.0), seed) % 1.0
+        phase = cycle(Instant(Pose(time_s, 0.0, 0.0), seed)) % 1.0
         if kind == "sine":
             return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
         inside = min(phase - low, high - phase)
@@ -297,7 +348,7 @@ def read_light(text: str) -> LightModulation:
     return LightModulation(level, dim)
 
 
-def read_wave(text: str) -> Callable[[ModelPart, Pose, int], ModelPart]:
+def read_wave(text: str) -> Callable[[ModelPart, Instant], ModelPart]:
     """A swimmer's wave from text such as "y .07 2hz start beat": axis, reach of the tail, rate.
 
     It runs from the head, .5 ahead of the origin, to the tail, .5 behind it, and takes each part
@@ -310,11 +361,11 @@ def read_wave(text: str) -> Callable[[ModelPart, Pose, int], ModelPart]:
     cycle, far = read_cycle(rate), read_number(reach)
     axle, sign = ("y", -1.0) if axis == "z" else ("z", 1.0)
 
-    def waved(part: ModelPart, pose: Pose, seed: int) -> ModelPart:
+    def waved(part: ModelPart, now: Instant) -> ModelPart:
         x = float(part.to_body[0, 3])
-        vigour = _RESTING_VIGOUR if pose.activity in RESTING else 1.0
+        vigour = _RESTING_VIGOUR if now.pose.activity in RESTING else 1.0
         swing = vigour * far * (_HEAD_REACH + (1.0 - _HEAD_REACH) * ((_HEAD_X - x) / 0.95) ** 2)
-        phase = 2.0 * math.pi * cycle(pose, seed) + _WAVE_LAG * x
+        phase = 2.0 * math.pi * cycle(now) + _WAVE_LAG * x
         slant = sign * math.atan(_WAVE_LAG * swing * math.cos(phase))
         offset = shift(**{axis: swing * math.sin(phase)})
         return moved([part], compose(offset, turn_about(axle, slant, (x, 0.0, 0.0))))[0]

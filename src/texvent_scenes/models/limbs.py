@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from itertools import pairwise, product
 from typing import Any
 
-from texvent_scenes.models.joints import read_cycle
+import numpy as np
+
+from texvent_scenes.models.joints import Instant, read_cycle
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.protocol import ModelPart, Pose, fraction
 from texvent_scenes.models.shapes import (
+    Affine,
     Point,
     limb,
     moved,
     plank,
+    point,
     shift,
     turn_about,
 )
@@ -32,24 +36,36 @@ class Gait:
     """Share of the cycle that a foot stays on the ground."""
     lift: float
     """Height of a foot in mid-swing, m."""
+    full_share: float = 0.35
+    """Strides a second from which on steps are full."""
 
 
-def foot_path(gait: Gait, distance: float, offset: float, amount: float) -> tuple[float, float]:
+@dataclass(frozen=True)
+class Steps:
+    """Phase of a body in its cycle of steps at one instant."""
+
+    gait: Gait
+    strides: float
+    amount: float
+    """Amplitude of its steps, 0 to 1."""
+    runs: bool = False
+
+
+def foot_path(steps: Steps, lead: float) -> tuple[float, float]:
     """Place of a foot, relative to the point on the ground below its hip.
 
     On the ground the foot moves back exactly as fast as the body moves forward, so it does not
     slide; then it swings forward in an arc.
 
     Args:
-        gait: the cycle.
-        distance: distance travelled, m.
-        offset: share of a cycle by which this foot is ahead.
-        amount: 0 = stands still .. 1 = full steps.
+        steps: gait and phase of the body.
+        lead: share of a cycle by which this foot is ahead.
 
     Returns:
         Its x and its height, m.
     """
-    phase = (distance / gait.stride + offset) % 1.0
+    gait, amount = steps.gait, steps.amount
+    phase = (steps.strides + lead) % 1.0
     half_step = 0.5 * gait.duty * gait.stride
     if phase < gait.duty:
         return amount * (half_step - phase * gait.stride), 0.0
@@ -94,17 +110,25 @@ def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -
 
 
 @dataclass(frozen=True)
-class Steps:
-    """Phase of a body in its cycle of steps at one instant."""
+class Walk:
+    """Gaits of a body: with `walk` it goes, with `run` it runs."""
 
-    gait: Gait
-    strides: float
-    amount: float
-    """Amplitude of its steps, 0 to 1."""
+    walk: Gait
+    run: Gait
+    runs: bool = False
+    """Whether it runs unless told otherwise."""
+
+    def steps(self, pose: Pose, seed: int) -> Steps:
+        """Its steps at that pose; where its first stride begins is by the seed."""
+        runs = self.runs or pose.activity == "run"
+        gait = self.run if runs else self.walk
+        strides = pose.distance_m / gait.stride + fraction(seed, "step")
+        amount = step_amount(pose.activity, pose.speed_m_s, self.walk.full_share * self.walk.stride)
+        return Steps(gait, strides, amount, runs)
 
 
-DrawLegs = Callable[[Steps, float], list[ModelPart]]
-"""Steps, and how far the body is lifted, m → all legs."""
+DrawLegs = Callable[[Steps, Affine, Mapping[str, float]], list[ModelPart]]
+"""Steps, map of the body, and channels → all legs."""
 
 
 @dataclass(frozen=True)
@@ -126,20 +150,30 @@ class Legs:
     """Part lines around the ankle."""
     apart: float = 0.5
     """Lead of the right legs over the left ones, cycles: 0 = it hops."""
+    running: tuple[float, float] | None = None
+    """Lead of the left legs, and of the right ones over them, while it runs; None = the same."""
+    feet_by: Mapping[str, Point] = field(default_factory=dict)
+    """Channel → displacement of the feet at 1."""
+    knees_by: Mapping[str, Point] = field(default_factory=dict)
+    """Channel → change of the direction of the knees at 1."""
 
     def drawn_in(self, painted: Painted) -> DrawLegs:
         """Draws all legs."""
         material, foot = painted.material(self.surface), painted.draw_lines(self.foot)
 
-        def draw(steps: Steps, rise: float) -> list[ModelPart]:
+        def draw(steps: Steps, body: Affine, channels: Mapping[str, float]) -> list[ModelPart]:
             parts: list[ModelPart] = []
-            for (x, y, z, foot_x, foot_y, ahead), side in product(self.pairs, (1.0, -1.0)):
-                cycle = steps.strides + ahead + (0.0 if side > 0.0 else self.apart)
-                step, lift = foot_path(steps.gait, cycle * steps.gait.stride, 0.0, steps.amount)
-                root: Point = (x, side * y, z + rise)
-                ankle: Point = (foot_x + step, side * foot_y, self.ankle + lift)
-                out: Point = (self.towards[0], side * self.towards[1], self.towards[2])
-                knee = bend(root, ankle, *self.bones, out)
+            far_x, far_y, far_z = _blend((0.0, 0.0, 0.0), self.feet_by, channels)
+            knee_x, knee_y, knee_z = _blend(self.towards, self.knees_by, channels)
+            for (x, y, z, foot_x, foot_y, lead), side in product(self.pairs, (1.0, -1.0)):
+                lead, apart = self.running if self.running and steps.runs else (lead, self.apart)
+                ahead = lead + (0.0 if side > 0.0 else apart)
+                step, lift = foot_path(steps, ahead)
+                root = point(body @ np.array([x, side * y, z, 1.0]))
+                ankle: Point = (
+                    foot_x + step + far_x, side * (foot_y + far_y), self.ankle + lift + far_z
+                )  # fmt: skip
+                knee = bend(root, ankle, *self.bones, (knee_x, side * knee_y, knee_z))
                 parts += [
                     limb(material, root, knee, self.radii[0]),
                     limb(material, knee, ankle, self.radii[1]),
@@ -148,6 +182,15 @@ class Legs:
             return parts
 
         return draw
+
+
+def _blend(start: Point, by: Mapping[str, Point], channels: Mapping[str, float]) -> Point:
+    """A point shifted as far as channels say."""
+    x, y, z = start
+    for name, (far_x, far_y, far_z) in by.items():
+        amount = channels.get(name, 0.0)
+        x, y, z = x + amount * far_x, y + amount * far_y, z + amount * far_z
+    return x, y, z
 
 
 @dataclass(frozen=True)
@@ -178,17 +221,17 @@ class Chain:
     head: str = ""
     """Part lines around the first joint."""
 
-    def drawn_in(self, painted: Painted) -> Callable[[Pose, int], list[ModelPart]]:
+    def drawn_in(self, painted: Painted) -> Callable[[Instant], list[ModelPart]]:
         """Draws all links."""
         material = painted.material(self.surface)
         beads, head = painted.draw_lines(self.beads), painted.draw_lines(self.head)
         axis, reach, *rate = self.wave.split()
         cycle = read_cycle(rate)
 
-        def draw(pose: Pose, seed: int) -> list[ModelPart]:
+        def draw(now: Instant) -> list[ModelPart]:
             parts: list[ModelPart] = []
             for turn in range(self.around):
-                cycles = cycle(pose, seed) + 2.0 * turn / self.around
+                cycles = cycle(now) + 2.0 * turn / self.around
                 joints = self._joints(axis, float(reach), cycles)
                 drawn = moved(head, shift(*joints[0]))
                 for index, (a, b) in enumerate(pairwise(joints)):
@@ -225,33 +268,19 @@ class Chain:
         return joints
 
 
-def read_walk(
-    table: Mapping[str, Any], painted: Painted
-) -> Callable[[Sequence[ModelPart], Pose, int], list[ModelPart]]:
-    """The walk of a noun's table: `gait`, `legs`, and `bob`.
+def read_walk(table: Mapping[str, Any]) -> Walk | None:
+    """The gaits of a noun's table, if it walks: `gait`, and `run` where that differs."""
+    if "gait" not in table:
+        return None
+    walk = Gait(**table["gait"])
+    run = Gait(**table["run"]) if "run" in table else walk
+    return Walk(walk, run, table.get("runs", False))
 
-    These are {stride, duty, lift}, tables of `Legs`, and how far the body is lifted (m), how often
-    in each stride and how late.
 
-    Returns:
-        What lifts the parts of the body and adds the legs, at a pose and by the seed.
-    """
-    gait = Gait(**table["gait"])
+def read_legs(table: Mapping[str, Any], painted: Painted) -> list[DrawLegs]:
+    """The legs of a noun's table: each of `legs` has the fields of `Legs`."""
     legs = []
     for one in table.get("legs", ()):  # pairs are lines of six numbers
         rows = (map(float, row.split()) for row in one["pairs"].splitlines() if row.strip())
         legs.append(Legs(**{**one, "pairs": tuple(map(tuple, rows))}).drawn_in(painted))
-    reach, times, late = table.get("bob", (0.0, 0.0, 0.0))
-
-    def walk(parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
-        strides = pose.distance_m / gait.stride + fraction(seed, "step")
-        amount = step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride)
-        steps = Steps(gait, strides, amount)
-        cycle = 2.0 * math.pi * (times * steps.strides - late)
-        rise = steps.amount * reach * (0.5 - 0.5 * math.cos(cycle))
-        return [
-            *moved(parts, shift(z=rise)),
-            *(part for draw_legs in legs for part in draw_legs(steps, rise)),
-        ]
-
-    return walk
+    return legs

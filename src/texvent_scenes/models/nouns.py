@@ -12,7 +12,7 @@ from itertools import chain
 from types import MappingProxyType
 
 from texvent_scenes.models.parts import read_nouns
-from texvent_scenes.models.people import hand, person
+from texvent_scenes.models.people import person
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import list_data
 
@@ -28,7 +28,7 @@ machine, "stand" rest."""
 
 
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *hand.NOUNS)}
+    {"people": (*person.NOUNS, *chain.from_iterable(map(read_nouns, list_data("people"))))}
     | {file.name.removesuffix(".toml"): read_nouns(file)
        for file in chain(list_data("bodies"), list_data("nouns"))}
 )  # fmt: skip

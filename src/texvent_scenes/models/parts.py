@@ -14,6 +14,7 @@ docs/nouns.md describes the format.
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,22 +26,13 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.animals.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
-from texvent_scenes.models.animals.body import build_quadruped
-from texvent_scenes.models.animals.build import QUADRUPED_KEYS
-from texvent_scenes.models.joints import (
-    RESTING,
-    Joint,
-    LightModulation,
-    place,
-    read_joint,
-    read_light,
-    read_wave,
-)
-from texvent_scenes.models.limbs import Chain, read_walk
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, list_channels, motion_of
+from texvent_scenes.models.joints import Joint, read_joint, read_joints, read_wave
+from texvent_scenes.models.limbs import Chain, read_legs, read_walk
 from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent_scenes.models.people.figure import read_rider
-from texvent_scenes.models.protocol import ModelPart, Noun, Pose, between, choose, fraction
+from texvent_scenes.models.proportions import fill_in
+from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
 from texvent_scenes.models.shapes import (
     SAMPLE_POSES,
     STANDING_POSES,
@@ -48,10 +40,10 @@ from texvent_scenes.models.shapes import (
     ball,
     compose,
     half_extents,
-    moved,
     shift,
     turn_about,
 )
+from texvent_scenes.models.skeleton import Anchor, Body, Group, read_anchor, read_group
 from texvent_scenes.models.surfaces import Painted, paint_model, toned
 from texvent_scenes.rendered_scene import Colour
 
@@ -60,10 +52,14 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
     "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
     "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,),
-    "clumps": (list,), "legs": (list,), "gait": (dict,), "bob": (list,), **QUADRUPED_KEYS,
+    "clumps": (list,), "legs": (list,), "gait": (dict,), "run": (dict,), "runs": (bool,),
+    "body": (str,), "sizes": (dict,), "acts": (str,), "anchors": (dict,), "options": (dict,),
+    "with": (list,), "usual_more": (str,),
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
-_OWN = ("names", "plurals", "more")
+_ACTS = ("animal_activities", "hand_gestures")
+"""Tables of activities that the joints of a noun may follow, the usual one first."""
+_OWN = ("names", "plurals", "more", "usual_more")
 """Keys that no noun takes from the one that it is like."""
 _HABITATS: Mapping[str, str] = {
     **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
@@ -72,41 +68,6 @@ _HABITATS: Mapping[str, str] = {
     "stand": "fixed",
 }
 """Usual motion → habitat, where an entry does not say it."""
-
-
-@dataclass(frozen=True)
-class _Group:
-    """Parts that move together, outermost joint first."""
-
-    parts: tuple[Placed, ...]
-    joints: tuple[Joint, ...]
-    at_rest: tuple[Joint, ...] | None = None
-    """Its joints while the body stays where it is; None = the same."""
-    light: LightModulation | None = None
-    clip: tuple[int, float, float] | None = None
-    """Axis, least and greatest coordinate between which its boxes are seen, m."""
-    is_paired: bool = False
-    """Whether the other side of the body has the same."""
-
-    def draw(self, parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
-        """Its parts, painted, where they are at that pose."""
-        is_resting = self.at_rest is not None and pose.activity in RESTING
-        joints = self.at_rest if self.at_rest is not None and is_resting else self.joints
-        lit = self.light.shine(parts, pose, seed) if self.light else list(parts)
-        there = moved(lit, place(joints, pose, seed)) if joints else lit
-        if self.clip is not None:
-            there = [_clip(one, *self.clip) for one in there]
-        return [*there, *mirrored(there)] if self.is_paired else there
-
-
-def mirrored(parts: Sequence[ModelPart]) -> list[ModelPart]:
-    """The same parts on the other side of the body, their surfaces not turned inside out."""
-    return [each.at(_MIRROR[:, None] * each.to_body * _TURNED_BACK) for each in parts]
-
-
-_MIRROR = np.array([1.0, -1.0, 1.0])
-_TURNED_BACK = np.array([-1.0, 1.0, 1.0, 1.0])
-"""Signs of the columns of a map: its first axis the other way round."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,100 +92,101 @@ class PartsBuilder:
             raise FileFormatError(f"{self.where}: {error}") from None
 
     def _build(self, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-        table, is_centred = self.table, _is_centred(self.table)
-        if "build" in table:
-            return build_quadruped(table, is_centred, colour=colour, scale=scale, seed=seed)
+        table = self._filled
         painted = paint_model(table, colour=colour, seed=seed)
         placed, groups = self._drawing
         for label, texts in self._variants.items():
             placed = (*placed, *choose(seed, label, texts))
         rigid = painted.draw(placed)
-        drawn = [(painted.draw(one.parts), one) for one in groups]
+        is_usual = colour is None
+        drawn = [(one, painted.draw(one.parts) if is_usual or not one.is_usual else [])
+                 for one in groups]  # fmt: skip
         drawn += [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
-        chains = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
-        rider = read_rider(table["rider"]) if "rider" in table else None
-        wave = read_wave(table["wave"]) if "wave" in table else None
-        walk = read_walk(table, painted) if "gait" in table else None
-        moves_all = wave is not None or walk is not None
-
-        def articulate(pose: Pose) -> list[ModelPart]:
-            parts = list(rigid) if moves_all else []
-            if wave is not None:
-                parts = [wave(part, pose, seed) for part in parts]
-            parts += [part for shapes, group in drawn for part in group.draw(shapes, pose, seed)]
-            parts += [part for draw in chains for part in draw(pose, seed)]
-            if rider is not None:
-                parts += rider.draw(seed, pose.distance_m)
-            return parts if walk is None else walk(parts, pose, seed)
-
-        rests = moves_all or any(one.at_rest is not None for one in groups)
+        extras = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
+        if "rider" in table:
+            rider = read_rider(table["rider"])
+            extras.append(lambda now: rider.draw(seed, now.pose.distance_m))
+        acts, joints = table.get("acts", _ACTS[0]), read_joints(table.get("body", ""))
+        _check_channels((*joints, *(one for group in groups for one in group.joints)), acts)
+        body = Body(
+            seed,
+            acts=acts,
+            rigid=rigid,
+            groups=drawn,
+            extras=extras,
+            joints=joints,
+            wave=read_wave(table["wave"]) if "wave" in table else None,
+            walk=read_walk(table),
+            legs=read_legs(table, painted),
+            anchors=self._anchors,
+        )
         return ArticulatedModel(
-            [] if moves_all else rigid,
+            [] if body.moves_all else rigid,
             scale=scale * table.get("size", 1.0),
-            articulate=articulate if moves_all or drawn or chains or rider is not None else None,
-            is_centred=is_centred,
-            poses=SAMPLE_POSES if rests else STANDING_POSES,
-            is_wheeled=any(one.rolls for group in groups for one in group.joints[:1]),
+            articulate=body.articulate if body.moves_all or drawn or extras else None,
+            is_centred=_is_centred(table),
+            anchor=body.locate if self._anchors else None,
+            poses=SAMPLE_POSES if body.rests else STANDING_POSES,
+            is_wheeled=any(one.rolls for group, _ in drawn for one in group.joints[:1]),
         )
 
     @cached_property
-    def _drawing(self) -> tuple[tuple[Placed, ...], tuple[_Group, ...]]:
+    def _filled(self) -> Mapping[str, Any]:
+        """Its table with numbers in place of formulas."""
+        return fill_in(self.table)
+
+    @cached_property
+    def _anchors(self) -> Mapping[str, Anchor]:
+        said = self._filled.get("anchors", {})
+        return {name: read_anchor(text, self._drawing[1]) for name, text in said.items()}
+
+    @cached_property
+    def _drawing(self) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
         """Parts that stay in the body, and groups of those that move."""
-        texts = [read_groups(self.table.get(key, "")) for key in ("parts", "more")]
-        rigid, wheels = read_parts("\n".join(first[1] for first, *_ in texts))
-        moving = [one for _, *rest in texts for one in rest]
-        if self.table.get("laid"):
+        table = self._filled
+        texts = [
+            (table.get(key, ""), key == "usual_more") for key in ("parts", "more", "usual_more")
+        ]
+        options = table.get("options", {})
+        if not set(table.get("with", ())) <= options.keys():
+            raise ValueError(f"with is {table['with']}; known: {', '.join(options) or 'none'}")
+        texts += [(options[name], False) for name in table.get("with", ())]
+        split = [(read_groups(text), is_usual) for text, is_usual in texts]
+        rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
+        if table.get("laid"):
             rigid = _laid(rigid)
-        groups, named = [], dict[str, tuple[Joint, ...]]()
-        for how, lines in moving:
+        groups, names = list[Group](), set[str]()
+        for (how, lines), is_usual in (
+            (one, is_usual) for (_, *more), is_usual in split for one in more
+        ):
             parts, more = read_parts(lines)
-            if not how or not (parts or more):
+            group = replace(read_group(how, parts, names), is_usual=is_usual)
+            if not how or not (parts or more or group.name):
                 raise ValueError(f"'moving {how}' needs a joint or a light, and parts below it")
-            groups.append(_read_group(how, parts, named))
+            groups.append(group)
+            names.add(group.name)
             wheels += more
-        groups += [_Group(shapes, (joint,)) for shapes, joint in wheels]
+        groups += [Group(shapes, (joint,)) for shapes, joint in wheels]
         return rigid, tuple(groups)
 
     @cached_property
     def _variants(self) -> Mapping[str, Sequence[tuple[Placed, ...]]]:
         """Parts of which the seed chooses one list, by the label of the choice."""
-        said = self.table.get("variants", {})
+        said = self._filled.get("variants", {})
         return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
 
 
-def _read_group(how: str, parts: tuple[Placed, ...], named: dict[str, tuple[Joint, ...]]) -> _Group:
-    """A group from what stands after "moving", on another one where "on" names it."""
-    joints: list[Joint] = []
-    at_rest: list[Joint] | None = None
-    light, clip, is_paired, name = None, None, False, ""
-    for item in map(str.strip, how.rstrip(",").split(",")):
-        first, _, rest = item.partition(" ")
-        if first == "on":
-            if rest not in named:
-                raise ValueError(f"no moving part before it has the name {rest!r}")
-            joints += named[rest]
-        elif first == "called":
-            name = rest
-        elif first == "light":
-            light = read_light(rest)
-        elif first == "clip":
-            axis, low, high = rest.split()
-            clip = "xyz".index(axis), float(low), float(high)
-        elif item == "pair":
-            is_paired = True
-        elif item == "at rest":
-            at_rest = []
-        else:
-            (joints if at_rest is None else at_rest).append(read_joint(item))
-    if name:
-        named[name] = tuple(joints)
-    resting = None if at_rest is None else tuple(at_rest)
-    return _Group(parts, tuple(joints), resting, light, clip, is_paired)
+def _check_channels(joints: Sequence[Joint], acts: str) -> None:
+    """Refuse channels that nothing gives a value."""
+    known = {*list_channels(acts), "step", "walk", "run"}
+    for name in (name for joint in joints for name in joint.channels):
+        if name not in known:
+            raise ValueError(f"no channel {name!r}; known: {', '.join(sorted(known))}")
 
 
 def _read_clump(
     table: Mapping[str, Any], painted: Painted, seed: int
-) -> tuple[list[ModelPart], _Group]:
+) -> tuple[Group, list[ModelPart]]:
     """Balls around an upright axis, their places, sizes and shades chosen by the seed.
 
     Its table: count, surface; lowest and highest `out` (from the axis), `up`, `size` (m) and
@@ -242,21 +204,7 @@ def _read_clump(
         )
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
         parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
-    return parts, _Group((), tuple(map(read_joint, table.get("joints", ()))))
-
-
-_SLIVER_M = 5e-5
-"""Half of what is left of a box that is not seen."""
-
-
-def _clip(box: ModelPart, axis: int, low: float, high: float) -> ModelPart:
-    """A box along the axes, cut off at two planes across one of them."""
-    to_body = box.to_body.copy()
-    middle, half = to_body[axis, 3], to_body[axis, axis]
-    first, last = max(middle - half, low), min(middle + half, high)
-    to_body[axis, axis] = max(0.5 * (last - first), _SLIVER_M)
-    to_body[axis, 3] = min(max(0.5 * (first + last), low + _SLIVER_M), high - _SLIVER_M)
-    return box.at(to_body)
+    return Group((), tuple(map(read_joint, table.get("joints", ())))), parts
 
 
 def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:
@@ -277,7 +225,7 @@ def _is_centred(table: Mapping[str, Any]) -> bool:
 
 
 def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
-    """The nouns of a TOML file; what stands above its first table holds for all of them.
+    """The nouns of a TOML file; what stands above its first table, or in "usual", holds for all.
 
     Raises:
         FileFormatError: the file is damaged or has a key that no noun has; what is wrong with parts
@@ -288,8 +236,10 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise FileFormatError(f"{file}: {error}") from error
     usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
+    nouns = [key for key in tables if key not in usual and key != USUAL]
+    usual |= tables.get(USUAL, {})
     entries: dict[str, Mapping[str, Any]] = {}
-    for name in (key for key in tables if key not in usual):
+    for name in nouns:
         own, like = tables[name], tables[name].get("like")
         if like is not None and like not in entries:
             raise FileFormatError(
@@ -326,8 +276,9 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
     if habitat not in _HABITATS.values():
         known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
+    if table.get("acts", _ACTS[0]) not in _ACTS:
+        raise FileFormatError(f"{where}: acts must be one of {', '.join(_ACTS)}")
     words = table.get("parts", "").split()
-    mouth = MOUTH_ACTIVITIES if "bow" in words else frozenset()
     return Noun(
         name,
         PartsBuilder(where, table),
@@ -337,6 +288,18 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("names", ())),
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
-        acts=frozenset(ANIMAL_ACTIVITIES) if "build" in table else mouth,
+        acts=_acts_of(table) if "acts" not in table else frozenset(),
         is_working=bool(table.get("works", habitat == "fixed" and "moving" in words)),
+    )
+
+
+def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
+    """Activities of animals that its joints follow."""
+    text = f"{table.get('parts', '')} {table.get('body', '')}"
+    followed = set(" ".join(re.findall(r"\bby ([\w. ]+)", text)).split())
+    followed |= {"down"} & {"down" if word == "bow" else "" for word in text.split()}
+    return frozenset(
+        name
+        for name in ANIMAL_ACTIVITIES
+        if followed & (motion_of("animal_activities", name).keys() - {"idle"})
     )

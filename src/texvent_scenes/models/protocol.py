@@ -59,7 +59,7 @@ class Pose:
     """Speed along its path, m/s; 0 = standing."""
     activity: str = "move"
     """Activity: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ...; for people
-    and hands a name of `people.activities`."""
+    and hands a name of `models.activities`."""
     before: str | None = None
     """Activity of a body with limbs until a moment ago; None = the same."""
     share: float = 1.0
@@ -113,7 +113,7 @@ class Noun:
     place: str = ""
     """Place where it usually is, such as "indoor"; empty = no usual place of its own."""
     acts: frozenset[str] = frozenset()
-    """Activities of an animal in place: names of `animals.activities.ANIMAL_ACTIVITIES`."""
+    """Activities of an animal in place: names of `activities.ANIMAL_ACTIVITIES`."""
     is_working: bool = False
     """Whether it stays in place and moves by itself, as a metronome does."""
 

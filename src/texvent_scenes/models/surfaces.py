@@ -111,7 +111,9 @@ class Painted:
     def material(self, name: str) -> Material:
         """The surface of that name, or that these words mean."""
         if name not in self.made:
-            self.made[name] = read_surface(self.surfaces.get(name, name), self.hues)
+            words = self.surfaces.get(name, name)
+            is_other = words != name and words in self.surfaces
+            self.made[name] = self.material(words) if is_other else read_surface(words, self.hues)
         return self.made[name]
 
     def draw(self, parts: Iterable[Placed]) -> list[ModelPart]:

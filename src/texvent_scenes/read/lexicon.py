@@ -11,10 +11,14 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from texvent_scenes.colours import SURFACES
-from texvent_scenes.models.animals.activities import ANIMAL_ACTIVITIES
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    ANIMAL_ACTIVITIES,
+    DVS_GESTURES,
+    HAND_GESTURES,
+)
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
-from texvent_scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
@@ -154,8 +158,8 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
             yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
             for phrase in activity.named:  # "a hand shows a thumbs up"
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
-    for name, verbs in ANIMAL_ACTIVITIES.items():
-        yield from ((verb, VerbSense("animal", name)) for verb in verbs)
+    for name, activity in ANIMAL_ACTIVITIES.items():
+        yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
 

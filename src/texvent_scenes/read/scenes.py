@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from texvent_scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun

@@ -21,14 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.sensor import SensorSize
-from texvent_scenes.models.effects import EFFECTS
-from texvent_scenes.models.nouns import MOTIONS, NOUNS
-from texvent_scenes.models.people.activities import (
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
     PERSON_NOUNS,
 )
+from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.scene_input import describe_scene

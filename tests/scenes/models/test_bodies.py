@@ -5,9 +5,11 @@ import tomllib
 import numpy as np
 import pytest
 
-from texvent_scenes.models.animals.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
-from texvent_scenes.models.joints import read_cycle
-from texvent_scenes.models.nouns import NOUNS
+from texvent.errors import FileFormatError
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
+from texvent_scenes.models.joints import Instant, read_cycle
+from texvent_scenes.models.materials import BLACK
+from texvent_scenes.models.nouns import FAMILIES, NOUNS
 from texvent_scenes.models.parts import PartsBuilder
 from texvent_scenes.models.protocol import Model, Pose
 from texvent_scenes.models.shapes import bounds
@@ -23,18 +25,19 @@ def middles(model: Model, pose: Pose) -> np.ndarray:
     return np.array([part.to_body[:, 3] for part in model.parts(pose)])
 
 
-def test_a_cycle_counts_seconds_or_metres():
-    pose = Pose(0.5, 3.0, 1.0)
-    assert read_cycle(["2hz"])(pose, 0) == pytest.approx(1.0)
-    assert read_cycle(["1.5/m", "from", ".25"])(pose, 0) == pytest.approx(4.75)
-    begun = {read_cycle(["2hz", "start", "flap"])(pose, seed) for seed in range(5)}
+def test_a_cycle_counts_seconds_metres_or_strides():
+    now = Instant(Pose(0.5, 3.0, 1.0), 0, strides=2.5)
+    assert read_cycle(["2hz"])(now) == pytest.approx(1.0)
+    assert read_cycle(["1.5/m", "from", ".25"])(now) == pytest.approx(4.75)
+    assert read_cycle(["2step"])(now) == pytest.approx(5.0)
+    begun = {read_cycle(["2hz", "start", "flap"])(Instant(now.pose, seed)) for seed in range(5)}
     assert len(begun) == 5
 
 
 LEGS = """
 colours = { paint = ["(.3 .2 .1)"] }
 gait = { stride = 1.0, duty = 0.6, lift = 0.1 }
-bob = [0.1, 2, 0.0]
+body = "shift 0 0 .05 by step, sway z .05 2step from -.25 by step"
 parts = "ball paint   0 0 1   1 .4 .4"
 [[legs]]
 surface = "paint"
@@ -85,3 +88,90 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
             first = np.array([part.to_body for part in start])
             moved = max(moved, float(np.abs(now - first).max()))
         assert moved > 0.02 * size
+
+
+CROW = """
+acts = "animal_activities"
+sizes = { leg = ".5*height", height = 2 }
+body = "shift 0 0 {leg} by sit"
+colours = { coat = ["(.1 .1 .1)"] }
+with = ["crest"]
+anchors = { mouth = "head {height/4} 0 0" }
+parts = '''
+ball coat   0 0 {leg}   1 1 1
+moving called head, shift 0 0 {height}, turn y 0 0 0 90deg by down
+ball coat   .5 0 0   1 1 1
+moving on head, shift 1 0 0
+ball coat   0 0 0   1 1 1'''
+[options]
+crest = "ball red   0 0 {max(height,leg)+sin(0)}   1 1 1"
+none = "ball red   0 0 9   1 1 1"
+[surfaces]
+red = "(1 0 0)"
+"""
+
+
+def test_joints_follow_channels_and_parts_what_they_are_on():
+    model = build(CROW)
+    body, crest, head, tip = middles(model, STILL)
+    assert (body[2], crest[2]) == (1.0, 2.0)
+    np.testing.assert_allclose([head, tip], [[0.5, 0, 2], [1, 0, 2]])
+    sitting = middles(model, Pose(0.0, 0.0, 0.0, "sit"))
+    np.testing.assert_allclose(sitting - middles(model, STILL), [[0, 0, 1]] * 4)
+    down = middles(model, Pose(0.5 / 1.1, 0.0, 0.0, "peck"))
+    np.testing.assert_allclose(down[2:], [[0, 0, 1.5], [0, 0, 1]], atol=1e-9)
+    anchor = model.anchor("mouth", Pose(0.5 / 1.1, 0.0, 0.0, "peck"))
+    np.testing.assert_allclose(anchor[:, 3], [0, 0, 1.5], atol=1e-9)
+
+
+def test_only_an_animal_of_its_own_colour_has_usual_more():
+    black, blue = (
+        NOUNS["cow"].build(colour=colour, scale=1.0, seed=0) for colour in (None, (0.0, 0.0, 0.5))
+    )
+    spots = [sum(part.colour == BLACK for part in one.parts(STILL)) for one in (black, blue)]
+    assert spots[0] == spots[1] + 7
+
+
+@pytest.mark.parametrize(
+    ("formula", "message"),
+    [
+        ("height+", "invalid syntax"),
+        ("width", "known: numbers, height"),
+        ("open(1)", "known"),
+        ("height/0", "division"),
+        ("height.real", "known"),
+    ],
+)
+def test_a_bad_formula_is_named(formula, message):
+    text = f'sizes = {{ height = 2 }}\nparts = "ball red   0 0 {{{formula}}}   1 1 1"'
+    with pytest.raises(FileFormatError, match=message) as caught:
+        build(text)
+    assert repr(formula) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("by down", "by dwon", "no channel 'dwon'; known: down"),
+        ('"crest"', '"crown"', "known: crest, none"),
+        ('"head {height/4}', '"haed {height/4}', "must be on one of ground, head"),
+    ],
+)
+def test_a_name_that_nothing_has_is_refused(old, new, message):
+    with pytest.raises(FileFormatError, match=message):
+        build(CROW.replace(old, new))
+
+
+def test_sizes_that_wait_for_each_other_are_named():
+    with pytest.raises(FileFormatError, match="no number is given for: a, b"):
+        build('sizes = { a = "b", b = "2*a" }')
+
+
+def test_four_legged_animals_eat_low_and_sit_with_their_heads_up():
+    for noun in FAMILIES["quadrupeds"]:
+        model = noun.build(colour=None, scale=1.0, seed=0)
+        stands, eats, sits = (
+            model.anchor("mouth", Pose(0.2, 0.0, 0.0, act)) for act in ("stand", "graze", "sit")
+        )
+        assert eats[2, 3] < 0.9 * stands[2, 3], noun.name
+        assert sits[2, 3] > eats[2, 3], noun.name

@@ -7,7 +7,7 @@ import pytest
 
 from texvent.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.errors import FileFormatError
-from texvent_scenes.models.joints import read_joint, read_light
+from texvent_scenes.models.joints import Instant, read_joint, read_light
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.part_lines import read_parts
@@ -127,7 +127,8 @@ def test_surfaces_by_hand():
 
 
 def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> list[float]:
-    where: list[float] = (read_joint(text).motion(pose, seed) @ [*point, 1.0]).round(6).tolist()
+    motion = read_joint(text).motion(Instant(pose, seed))
+    where: list[float] = (motion @ [*point, 1.0]).round(6).tolist()
     return where
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from texvent_scenes.models.materials import BLACK, STEEL, WHITE, Material, shade
-from texvent_scenes.models.people.outfit import ADULT, Outfit, PersonKind, draw_parts, dress_person
+from texvent_scenes.models.materials import STEEL
+from texvent_scenes.models.part_lines import Placed, read_parts
+from texvent_scenes.models.people.outfit import ADULT, PersonKind, draw_parts, dress_person
 from texvent_scenes.models.people.posture import (
     FOREARM,
     LOWER_ARM,
@@ -21,11 +23,11 @@ from texvent_scenes.models.people.posture import (
     Skeleton,
     solve,
 )
+from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.models.shapes import (
     Affine,
     Point,
-    ball,
     limb,
     mixed,
     moved,
@@ -33,15 +35,17 @@ from texvent_scenes.models.shapes import (
     rod,
     spike,
 )
+from texvent_scenes.models.surfaces import Painted
+from texvent_scenes.models.tables import read_table
 
 HEAD_SIZE = 0.23
 """Height of an adult's head, m."""
 _UP = np.array([0.0, 0.0, 1.0])
 
 
-def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[ModelPart]:
+def draw_figure(kind: PersonKind, outfit: Painted, joints: Skeleton) -> list[ModelPart]:
     """A whole person in the posture that the joints describe."""
-    parts = moved(_torso(kind, outfit), joints.torso)
+    parts = moved(outfit.draw(_read_lines("torso")), joints.torso)
     parts += moved(_head(kind, outfit), joints.head)
     if kind.dress == "skirt":
         parts.append(_skirt(outfit, joints))
@@ -54,7 +58,15 @@ def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[Mode
     return parts
 
 
-def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
+@cache
+def _read_lines(name: str, head: float = 1.0, hair: float = 0.92) -> tuple[Placed, ...]:
+    """Parts of `figure` in `data/outfits.toml`, for a head of that size, and that much hair."""
+    sizes = {"size": HEAD_SIZE * head, "hair": hair}
+    table = {**read_table("outfits")["figure"], "sizes": sizes}
+    return read_parts(fill_in(table)[name])[0]
+
+
+def _skirt(outfit: Painted, joints: Skeleton) -> ModelPart:
     """A cone from the chest down to the knees; of who sits it begins lower and is narrower."""
     hips = joints.torso[:, 3]
     knees = 0.5 * (np.array(joints.knees[0]) + np.array(joints.knees[1]))
@@ -64,75 +76,46 @@ def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
     tip = joints.torso @ np.array([0.02, 0.0, 0.46 - 0.34 * level, 1.0])
     x, y, z = hips + 1.12 * thigh
     wide = 0.33 - 0.15 * level
-    return spike(outfit.shirt, (x, y, z), (float(tip[0]), float(tip[1]), float(tip[2])), wide)
+    return spike(
+        outfit.material("shirt"), (x, y, z), (float(tip[0]), float(tip[1]), float(tip[2])), wide
+    )
 
 
-def _head(kind: PersonKind, outfit: Outfit) -> list[ModelPart]:
+def _head(kind: PersonKind, outfit: Painted) -> list[ModelPart]:
     """Neck, head, face, hair and hat above the base of the neck."""
-    size = HEAD_SIZE * kind.head
-    middle = 0.09 + 0.5 * size
-    front = 0.02 + 0.41 * size
-    hair = 0.80 if kind.hat else 0.92
-    lips = Material(shade(outfit.skin.colour, 0.45))
-    parts = [
-        limb(outfit.skin, (0.0, 0.0, -0.02), (0.01, 0.0, 0.12), 0.055),
-        ball(outfit.skin, (0.02, 0.0, middle), (0.9 * size, 0.78 * size, 1.08 * size)),
-        ball(outfit.skin, (0.02 + 0.46 * size, 0.0, middle - 0.02), (0.05, 0.04, 0.06)),
-        ball(
-            outfit.hair,
-            (-0.025, 0.0, middle + 0.15 * size),
-            (hair * size, 0.88 * size, hair * size),
-        ),
-        ball(lips, (front + 0.005, 0.0, middle - 0.27 * size), (0.03, 0.075, 0.018)),
-    ]
-    for side in (1.0, -1.0):
-        eye = (front - 0.014, side * 0.17 * size, middle + 0.05 * size)
-        parts.append(ball(Material(WHITE), eye, (0.05, 0.052, 0.034)))
-        pupil = (eye[0] + 0.018, eye[1], eye[2])
-        parts.append(ball(Material(BLACK), pupil, (0.022, 0.026, 0.028)))
-        ear = (0.015, side * 0.40 * size, middle - 0.02)
-        parts.append(ball(outfit.skin, ear, (0.05, 0.025, 0.07)))
+    parts = outfit.draw(_read_lines("head", kind.head, 0.80 if kind.hat else 0.92))
     if kind.long_hair:
-        parts.append(ball(outfit.hair, (-0.07, 0.0, 0.06), (0.13, 0.20, 0.36)))
+        parts += outfit.draw(_read_lines("long_hair"))
     if kind.hat:
         # From multiples of the head's height to metres.
-        to_head = np.column_stack([size * np.eye(3), [0.01, 0.0, middle]])
-        parts += moved(draw_parts("outfits", "hats", kind.hat, outfit.hat), to_head)
+        size = HEAD_SIZE * kind.head
+        to_head = np.column_stack([size * np.eye(3), [0.01, 0.0, 0.09 + 0.5 * size]])
+        hat = draw_parts("outfits", "hats", kind.hat, outfit.material("hat"))
+        parts += moved(hat, to_head)
     return parts
 
 
-def _torso(kind: PersonKind, outfit: Outfit) -> list[ModelPart]:
-    """Pelvis, chest and shoulders above the middle of the hips."""
-    pelvis = outfit.shirt if kind.dress == "skirt" else outfit.legs
-    belt = (0.0, 0.0, 0.22 * NECK)
-    return [
-        limb(pelvis, (0.0, 0.0, -0.04), belt, 0.115, side_radius=0.165),
-        limb(outfit.shirt, (0.0, 0.0, 0.02), (0.0, 0.0, NECK - 0.10), 0.128, side_radius=0.178),
-        ball(outfit.shirt, (0.0, 0.0, NECK - 0.12), (0.22, 0.43, 0.24)),
-    ]
-
-
-def _arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
+def _arm(outfit: Painted, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
     """Sleeve, forearm and hand; `palm` is the middle of the palm."""
     wrist = mixed(elbow, palm, FOREARM / LOWER_ARM)
     tips = mixed(elbow, palm, 1.16)
     return [
-        limb(outfit.shirt, shoulder, elbow, 0.055),
-        limb(outfit.forearms, elbow, wrist, 0.040),
-        limb(outfit.hands, wrist, tips, 0.042, side_radius=0.034),
+        limb(outfit.material("shirt"), shoulder, elbow, 0.055),
+        limb(outfit.material("forearms"), elbow, wrist, 0.040),
+        limb(outfit.material("hands"), wrist, tips, 0.042, side_radius=0.034),
     ]
 
 
-def _leg(outfit: Outfit, joints: Skeleton, side: int) -> list[ModelPart]:
+def _leg(outfit: Painted, joints: Skeleton, side: int) -> list[ModelPart]:
     """Thigh, shin and shoe."""
     hip, knee, ankle = joints.hips[side], joints.knees[side], joints.ankles[side]
     heel, toe = (
         foot_point(ankle, joints.pitches[side], joints.heading, ahead) for ahead in (-0.05, 0.13)
     )
     return [
-        limb(outfit.legs, hip, knee, 0.085),
-        limb(outfit.shins, knee, ankle, 0.058),
-        limb(outfit.shoes, heel, toe, 0.044),
+        limb(outfit.material("legs"), hip, knee, 0.085),
+        limb(outfit.material("shins"), knee, ankle, 0.058),
+        limb(outfit.material("shoes"), heel, toe, 0.044),
     ]
 
 

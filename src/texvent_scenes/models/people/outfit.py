@@ -21,6 +21,7 @@ from texvent_scenes.models.materials import (
     Material,
     cloth,
     fur,
+    shade,
     skin,
     striped,
 )
@@ -61,21 +62,6 @@ class PersonKind:
     """Names in `garments` of the table."""
 
 
-@dataclass(frozen=True)
-class Outfit:
-    """Surfaces of one person."""
-
-    skin: Material
-    hair: Material
-    shirt: Material
-    legs: Material
-    shins: Material
-    shoes: Material
-    forearms: Material
-    hands: Material
-    hat: Material
-
-
 _FIELDS = frozenset(one.name for one in fields(PersonKind))
 
 
@@ -110,24 +96,28 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
     return kind
 
 
-def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
-    """Choose skin, hair and clothes."""
+def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Painted:
+    """Skin, hair and clothes of one person: surfaces of the parts of a figure."""
     flesh = skin(choose(seed, "skin", SKIN_TONES))
     shirt = cloth(paint(colour, seed, "shirt", kind.shirts))
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
     trousers = cloth(usual if kind.trousers is None else kind.trousers)
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
-    return Outfit(
-        skin=flesh,
-        hair=fur(choose(seed, "hair", HAIR_COLOURS) if kind.hair is None else kind.hair),
-        shirt=shirt,
-        legs=flesh if kind.dress == "skirt" else trousers,
-        shins=trousers if kind.dress == "trousers" else flesh,
-        shoes=shoes if kind.shoes is None else Material(kind.shoes),
-        forearms=shirt if kind.has_sleeves else flesh,
-        hands=flesh if kind.gloves is None else Material(kind.gloves),
-        hat=cloth(kind.hat_colour),
-    )
+    legs = flesh if kind.dress == "skirt" else trousers
+    made = {
+        "skin": flesh,
+        "lips": Material(shade(flesh.colour, 0.45)),
+        "hair": fur(choose(seed, "hair", HAIR_COLOURS) if kind.hair is None else kind.hair),
+        "shirt": shirt,
+        "pelvis": shirt if kind.dress == "skirt" else legs,
+        "legs": legs,
+        "shins": trousers if kind.dress == "trousers" else flesh,
+        "shoes": shoes if kind.shoes is None else Material(kind.shoes),
+        "forearms": shirt if kind.has_sleeves else flesh,
+        "hands": flesh if kind.gloves is None else Material(kind.gloves),
+        "hat": cloth(kind.hat_colour),
+    }
+    return Painted(FIXED_HUES, {}, made)
 
 
 def draw_parts(table: str, group: str, name: str, paint: Material | None = None) -> list[ModelPart]:

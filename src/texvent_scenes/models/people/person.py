@@ -8,8 +8,7 @@ from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
-from texvent_scenes.models.limbs import Gait, foot_path, step_amount
-from texvent_scenes.models.people.activities import (
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     SEATED,
     SINGLE_ACTS,
@@ -19,6 +18,7 @@ from texvent_scenes.models.people.activities import (
     motion_of,
     read_track,
 )
+from texvent_scenes.models.limbs import Gait, Steps, foot_path, step_amount
 from texvent_scenes.models.people.figure import draw_figure, locate_anchor
 from texvent_scenes.models.people.outfit import KINDS, PersonKind, dress_person, put_on
 from texvent_scenes.models.people.posture import (
@@ -184,7 +184,7 @@ def step(gait: Gait, distance: float, amount: float) -> Posture:
     drop = 0.05 if runs else 0.02
     legs, arms = [], []
     for offset in (0.0, 0.5):
-        x, z = foot_path(gait, distance, offset + 0.25, amount)
+        x, z = foot_path(Steps(gait, distance / gait.stride, amount), offset + 0.25)
         pitch = 0.54 * z / gait.lift
         legs.append(Leg((x, 0.08, ANKLE + z), (1.0, 0.0, 0.35), pitch))
         # Each arm swings with the opposite leg.
@@ -215,10 +215,11 @@ def _jump(act_s: float | None) -> Posture:
 def _crawl(pose: Pose) -> Posture:
     """On hands and knees, which stay where they are set down."""
     arms, legs = [], []
+    steps = Steps(CRAWL, pose.distance_m / CRAWL.stride, 1.0)
     for side, offset in ((1.0, 0.0), (-1.0, 0.5)):
-        x, z = foot_path(CRAWL, pose.distance_m, offset, 1.0)
+        x, z = foot_path(steps, offset)
         arms.append(Arm((0.34 + x, side * 0.18, 0.05 + z), (-0.4, 0.6, -0.6), True))
-        x, z = foot_path(CRAWL, pose.distance_m, offset + 0.5, 1.0)
+        x, z = foot_path(steps, offset + 0.5)
         legs.append(Leg((-0.56 + x, 0.11, 0.09 + 0.6 * z), (0.4, 0.1, -1.0), 1.9))
     return Posture(hips=(-0.24, 0.0, 0.47), lean=1.40, nod=-0.9, left=arms[0], right=arms[1],
                    left_leg=legs[0], right_leg=legs[1])  # fmt: skip

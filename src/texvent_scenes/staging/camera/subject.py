@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, corners_over, seeded

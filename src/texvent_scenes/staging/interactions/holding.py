@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support, top_heights
-from texvent_scenes.models.people.activities import PERSON_NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import Affine, shift

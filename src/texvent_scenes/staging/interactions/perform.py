@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.people.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import trait_value

@@ -10,9 +10,9 @@ import numpy as np
 
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import dress
 from texvent_scenes.models.people.posture import SEAT

@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent_scenes.description import IndexedRelation
-from texvent_scenes.models.anchors import Support, find_support
-from texvent_scenes.models.people.activities import (
+from texvent_scenes.models.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
     SEATED,
     TO_AND_FROM_SEATS,
 )
+from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.posture import SEAT
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array

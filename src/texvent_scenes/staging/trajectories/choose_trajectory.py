@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent_scenes.description import SPIN_RATE_HZ
-from texvent_scenes.models.animals.activities import ANIMAL_ACTIVITIES
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, Vector, ahead

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent_scenes.models.people.activities import (
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
-from texvent_scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
+from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from texvent_scenes.models.people import person, posture
-from texvent_scenes.models.people.activities import (
+from texvent_scenes.models.activities import (
     ACTIVITIES,
     ON_GROUND,
     TRAVELLING,
 )
+from texvent_scenes.models.people import person, posture
 from texvent_scenes.models.people.outfit import (
     ADULT,
     CLOTHES,
@@ -111,9 +111,10 @@ def test_every_prop_hat_and_garment_can_be_drawn():
     for props in (*PROPS.values(), *HOLDS.values()):
         assert all(prop.draw(0.3) for prop in props)
     assert set(PROPS) <= set(ACTIVITIES)
+    hat = dress_person(ADULT, colour=None, seed=0).material("hat")
     for group in ("hats", "garments"):
         for name in read_table("outfits")[group]:
-            assert draw_parts("outfits", group, name, dress_person(ADULT, colour=None, seed=0).hat)
+            assert draw_parts("outfits", group, name, hat)
 
 
 def test_clothes_have_their_colour_or_their_usual_one():

@@ -1,7 +1,7 @@
-"""Activities of people and gestures of hands: their words, and tracks of their motion.
+"""Activities of people, hands and animals: their words, and tracks of their motion.
 
-The rows of `data/activities.toml` and of `data/hand_gestures.toml`. A track is channels of a body
-over time, as Fourier series and as key values.
+The rows of `data/activities.toml`, `hand_gestures.toml` and `animal_activities.toml`. A track is
+channels of a body over time, as Fourier series and as key values.
 
 A channel is a number or a row of numbers, such as `lean` or `right.hand`. In a table it is written
 by its numbers; each may be a series instead:
@@ -19,6 +19,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -213,27 +214,81 @@ class Activity:
     """Time of the contact in an act that has one, if the act is repeated, s."""
 
 
+USUAL = "usual"
+"""Name of the row of a table with the channels that an activity does not say."""
+
+
 def _read(name: str) -> Mapping[str, Activity]:
     known = {one.name for one in fields(Activity)}
     return MappingProxyType(
         {
             activity: Activity(**{key: frozen(value) for key, value in row.items() if key in known})
             for activity, row in read_table(name).items()
+            if activity != USUAL
         }
     )
 
 
 def motion_of(table: str, activity: str) -> dict[str, Any]:
-    """Motion of a row: the channels of a track."""
+    """Motion of a row, or of the one that it moves as: the channels of a track."""
     known = {one.name for one in fields(Activity)} | {"props"}
     row = read_table(table).get(activity, {})
+    row = read_table(table)[row["moves_as"]] if "moves_as" in row else row
     return {key: value for key, value in row.items() if key not in known}
+
+
+@cache
+def _find_track(table: str, activity: str) -> Track:
+    rows = read_table(table)
+    usual = rows.get(USUAL, {})
+    return read_track({**usual, **motion_of(table, activity if activity in rows else "stand")})
+
+
+def find_channels(
+    table: str, activity: str, time_s: float, *, before: str | None = None, share: float = 1.0
+) -> dict[str, float]:
+    """Channels of an activity, each one number: of rows of numbers "shift.0", "shift.1" ...
+
+    Args:
+        table: that has the activity; of one that it does not have, the channels of "stand".
+        activity: its name.
+        time_s: the instant.
+        before: activity until a moment ago; None = the same.
+        share: progress from that one to this, 0..1.
+    """
+    found = {
+        name if name.rsplit(".", 1)[-1] not in ROWS else f"{name}.{index}": number
+        for name, numbers in _find_track(table, activity).at(time_s).items()
+        for index, number in enumerate(numbers)
+    }
+    if before is None:
+        return found
+    earlier = find_channels(table, before, time_s)
+    return {
+        name: (1.0 - share) * earlier.get(name, 0.0) + share * found.get(name, 0.0)
+        for name in {**earlier, **found}
+    }
+
+
+@cache
+def list_channels(table: str) -> frozenset[str]:
+    """All channels of a table of activities."""
+    rows = read_table(table)
+    return frozenset(name for activity in rows for name in find_channels(table, activity, 0.0))
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")
 """Activities of people: name → activity."""
 HAND_GESTURES: Mapping[str, Activity] = _read("hand_gestures")
 """Gestures of hands: name → gesture."""
+ANIMAL_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
+    {name: one for name, one in _read("animal_activities").items() if one.words}
+)
+"""Activities of animals in place: name → activity."""
+MOUTH_ACTIVITIES = frozenset(
+    name for name in ANIMAL_ACTIVITIES if "down" in motion_of("animal_activities", name)
+)
+"""Those in which the mouth is at the ground, or at what is eaten."""
 
 TRAVELLING = frozenset(name for name, one in ACTIVITIES.items() if one.travels)
 """Names of the activities that go from place to place."""
@@ -269,5 +324,5 @@ DVS_GESTURES: Mapping[str, str] = MappingProxyType(
 
 PERSON_NOUNS = frozenset(read_table("outfits")["people"])
 """Nouns whose models take every posture of `ACTIVITIES`."""
-HAND_NOUNS = frozenset(read_table("outfits")["hands"])
+HAND_NOUNS = frozenset(read_table("people/hands"))
 """Nouns whose models take every posture of `HAND_GESTURES`."""
