@@ -102,10 +102,10 @@ class EventCamera:
 
         Example:
             >>> import numpy as np, texvent
-            >>> camera = texvent.EventCamera("2x1", noise="none")
+            >>> camera = texvent.EventCamera("2x1", interpolate="none", noise="none")
             >>> images = np.array([[[50, 50]], [[50, 200]]], np.uint8)
             >>> [camera.step(image, 1000 * n).x.tolist() for n, image in enumerate(images)]
-            [[], [1, 1, 1, 1, 1, 1]]
+            [[], [1, 1, 1, 1, 1]]
         """
         if self._stopped is not None:
             raise InputError(f"the event camera {self._stopped}; reset() starts it again")

@@ -158,7 +158,7 @@ def make(
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> list(work.complete.values()), work.failures
-        [Counter({'made': 1})] {}
+        ([Counter({'made': 1})], {})
     """
     if not isinstance(specification, Specification):
         specification = read_specification(specification)

@@ -95,8 +95,8 @@ class StoredSample:
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> sample = texvent.dataset.open("balls")[0]
-        >>> sample.key, sample.caption, sample.events.size
-        XX
+        >>> sample.caption, sample.split, sample.events.size
+        ('a red ball bounces', 'train', SensorSize(width=32, height=24))
     """
 
     key: str
