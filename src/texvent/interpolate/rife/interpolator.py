@@ -22,7 +22,7 @@ from texvent.runtime.memory import explain_memory
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
-    from texvent.interpolate.rife.network import IntermediateFlow
+    from texvent.interpolate.rife.network import Motion
 
 WHITE = 255.0
 
@@ -106,16 +106,14 @@ class RifeInterpolator:
 
         return self._estimate(images, MIDDLE) if self._is_shared else images
 
-    def _estimate(self, images: Sequence[Tensor], at: float) -> IntermediateFlow:
-        from texvent.interpolate.rife.network import IntermediateFlow  # needs torch
+    def _estimate(self, images: Sequence[Tensor], at: float) -> Motion:
+        from texvent.interpolate.rife.network import Motion  # needs torch
 
         height, width = images[0].shape[-2:]
         pad_to = self._network.layout.pad_to
         padded = (pad_to_multiple(image, pad_to).to(self._device) for image in images)
         motion = self._network(*padded, at)
-        return IntermediateFlow(
-            motion.flow[..., :height, :width], motion.mask[..., :height, :width]
-        )
+        return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
 
     def _luma_at(self, prepared: Any, lumas: Sequence[Tensor], at: float) -> Tensor:
         from texvent.interpolate.rife.network import move_motion, warp  # needs torch

@@ -97,7 +97,7 @@ def closest_layout(tensors: Mapping[str, Tensor]) -> tuple[RifeLayout, tuple[int
 
 
 @dataclass(frozen=True, eq=False)
-class IntermediateFlow:
+class Motion:
     """Flow from the pixels of an instant to both frames, and the weights of the frames."""
 
     flow: Tensor
@@ -128,7 +128,7 @@ class RifeNetwork(_Module):
         if layout.encoded_channels:
             self.encode = _Encoder(layout.encoded_channels)
 
-    def forward(self, first: Tensor, second: Tensor, position: float = MIDDLE) -> IntermediateFlow:
+    def forward(self, first: Tensor, second: Tensor, position: float = MIDDLE) -> Motion:
         """The motion at one instant.
 
         Args:
@@ -155,7 +155,7 @@ class RifeNetwork(_Module):
                 flow = flow + step
                 mask = logit if self.layout.replaces_mask else mask + logit
             moved = self._warped(both, flow)
-        return IntermediateFlow(flow, mask)
+        return Motion(flow, mask)
 
     def _warped(self, both: tuple[Tensor, ...], flow: Tensor) -> tuple[Tensor, ...]:
         """Both images, then both encodings, all warped; an image and its encoding move together."""
@@ -267,7 +267,7 @@ def warp(image: Tensor, flow: Tensor) -> Tensor:
     )
 
 
-def move_motion(middle: IntermediateFlow, position: float) -> IntermediateFlow:
+def move_motion(middle: Motion, position: float) -> Motion:
     """The motion at an instant, from that at the middle, if points move straight and evenly.
 
     A point that is at x at the instant was at x − (τ − 1/2)·V at the middle, where its path
@@ -287,4 +287,4 @@ def move_motion(middle: IntermediateFlow, position: float) -> IntermediateFlow:
     flow = warp(middle.flow, back)
     flow[:, :2] *= position / MIDDLE
     flow[:, 2:] *= (1.0 - position) / MIDDLE
-    return IntermediateFlow(flow, warp(middle.mask, back) + math.log((1.0 - position) / position))
+    return Motion(flow, warp(middle.mask, back) + math.log((1.0 - position) / position))
