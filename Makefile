@@ -48,6 +48,10 @@ NO_READERS = echo "note: not every independent reader of event files has a wheel
 UNHURRIED := --timeout 3600 -o faulthandler_timeout=3660
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
+# Tests of kernels that end in minutes where nothing is compiled: machine code counts as never run.
+IN_PYTHON := $(addprefix tests/, simulate/kernels simulate/crossing simulate/random simulate/esim simulate/v2e pairs \
+	io/prophesee transform)
+
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
@@ -95,6 +99,7 @@ nightly: $(VENV)/.dev
 coverage: $(VENV)/.dev
 	$(VENV)/bin/coverage erase
 	$(VENV)/bin/coverage run -m pytest -q -n 2 --dist worksteal
+	NUMBA_DISABLE_JIT=1 $(VENV)/bin/coverage run -m pytest -q -n 2 -W ignore --hypothesis-profile few $(IN_PYTHON)
 	$(VENV)/bin/coverage combine --quiet
 	$(VENV)/bin/coverage report --skip-covered --sort=cover
 

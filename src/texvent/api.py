@@ -92,7 +92,8 @@ def generate(
         ConfigError: an unknown option or a value out of range, also in a scene.
 
     Example:
-        >>> events = generate("a red ball bounces", sensor="48x36", duration=0.2, seed=3)
+        >>> import texvent
+        >>> events = texvent.generate("a red ball bounces", sensor="48x36", duration=0.2, seed=3)
         >>> events.size, len(events) > 100
         (SensorSize(width=48, height=36), True)
     """
@@ -175,10 +176,10 @@ def simulate(
         ConfigError: an unknown option, or a value out of range.
 
     Example:
-        >>> import numpy as np
+        >>> import numpy as np, texvent
         >>> frames = np.zeros((3, 4, 4), np.uint8)
         >>> frames[1:, 2, 2] = 6  # one pixel becomes brighter
-        >>> events = simulate(frames, fps=100, interpolate="none", noise="none")
+        >>> events = texvent.simulate(frames, fps=100, interpolate="none", noise="none")
         >>> events.x.tolist(), events.y.tolist(), events.p.tolist()
         ([2], [2], [1])
     """
@@ -217,7 +218,8 @@ def video(
         InputError, ConfigError: as `generate`.
 
     Example:
-        >>> frames = video("a red ball bounces", sensor="48x36", duration=0.2)
+        >>> import texvent
+        >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.2)
         >>> frames.size, next(iter(frames)).pixels.shape
         (SensorSize(width=48, height=36), (36, 48, 3))
     """
@@ -248,6 +250,12 @@ def compare(
     Raises:
         InputError: the sensors differ in size, or a metric's weights are not here.
         ConfigError: an unknown metric, or a span that is not longer than 0.
+
+    Example:
+        >>> import texvent
+        >>> events = texvent.generate("a red ball bounces", sensor="48x36", duration=0.2, seed=3)
+        >>> texvent.compare(events, events, ["count_ratio", "stpp"])
+        {'count_ratio': 1.0, 'stpp': 1.0}
     """
     from texvent.metrics.compare import compare as compare_streams
 

@@ -140,7 +140,16 @@ _SHORT = _short_repr()
 
 
 class TexventError(Exception):
-    """Base of all errors that texvent raises on purpose."""
+    """Base of all errors that texvent raises on purpose.
+
+    Example:
+        >>> import texvent
+        >>> try:
+        ...     events = texvent.load("lost.h5")
+        ... except texvent.TexventError as error:
+        ...     print(error, error.exit_code)
+        no such file: lost.h5; check the name and the folder 2
+    """
 
     exit_code: int = 1
 
@@ -151,27 +160,69 @@ class TexventError(Exception):
 
 
 class InputError(TexventError, ValueError):
-    """Input that cannot be used: a missing file, a NaN, a wrong shape."""
+    """Input that cannot be used: a missing file, a NaN, a wrong shape.
+
+    Example:
+        >>> import texvent
+        >>> texvent.load("lost.h5")
+        Traceback (most recent call last):
+            ...
+        texvent.errors.InputError: no such file: lost.h5; check the name and the folder
+    """
 
     exit_code = 2
 
 
 class ConfigError(InputError):
-    """An option, a preset name or a config file is wrong."""
+    """An option, a preset name or a config file is wrong.
+
+    Example:
+        >>> import texvent
+        >>> texvent.EventStream.empty("8x0")
+        Traceback (most recent call last):
+            ...
+        texvent.errors.ConfigError: sensor size 8x0; each side must be 1..65535
+    """
 
 
 class FileFormatError(InputError):
-    """A file is damaged, truncated, or not of the format its name claims."""
+    """A file is damaged, truncated, or not of the format its name claims.
+
+    Example:
+        >>> import pathlib, texvent
+        >>> size = pathlib.Path("cut.npz").write_bytes(b"PK")
+        >>> try:
+        ...     texvent.load("cut.npz")
+        ... except texvent.FileFormatError as error:
+        ...     print(error)
+        cut.npz is damaged or not a NumPy archive (File is not a zip file)
+    """
 
 
 class OutputError(TexventError):
-    """A result cannot be written: it exists already, or its folder or disk refuses it."""
+    """A result cannot be written: it exists already, or its folder or disk refuses it.
+
+    Example:
+        >>> import texvent
+        >>> path = texvent.EventStream.empty("8x6").save("none.npz")
+        >>> try:
+        ...     texvent.EventStream.empty("8x6").save("none.npz")
+        ... except texvent.OutputError as error:
+        ...     print(error)
+        none.npz exists already; choose another name, or --overwrite (overwrite=True in Python)
+    """
 
     exit_code = 3
 
 
 class MissingDependencyError(TexventError, ImportError):
-    """An optional package is needed and not installed."""
+    """An optional package is needed and not installed.
+
+    Example:
+        >>> import texvent
+        >>> issubclass(texvent.MissingDependencyError, ImportError)
+        True
+    """
 
     exit_code = 4
 
@@ -181,6 +232,14 @@ class TexventWarning(UserWarning):
 
     The command line shows it as one line; `warnings.simplefilter("error", texvent.TexventWarning)`
     makes it an error.
+
+    Example:
+        >>> import texvent, warnings
+        >>> warnings.simplefilter("error", texvent.TexventWarning)
+        >>> texvent.EventStream.from_columns([3], [0], [10], [1], size="8x6").between(9, 9)
+        Traceback (most recent call last):
+            ...
+        texvent.errors.TexventWarning: the range from 9 to 9 µs is empty
     """
 
 

@@ -52,6 +52,7 @@ class EventCamera:
 
     Example:
         >>> import numpy as np
+        >>> from texvent import EventCamera
         >>> with EventCamera((2, 1), noise="none") as camera:
         ...     first = camera.step(np.full((1, 2), 50, np.uint8), 0)
         ...     second = camera.step(np.full((1, 2), 200, np.uint8), 10_000)
@@ -98,6 +99,13 @@ class EventCamera:
         Warns:
             TexventWarning: frames are probably 0..1 or of fewer bits, or times no µs, as soon as
                 that is clear.
+
+        Example:
+            >>> import numpy as np, texvent
+            >>> camera = texvent.EventCamera("2x1", interpolate="none", noise="none")
+            >>> images = np.array([[[50, 50]], [[50, 200]]], np.uint8)
+            >>> [camera.step(image, 1000 * n).x.tolist() for n, image in enumerate(images)]
+            [[], [1, 1, 1, 1, 1]]
         """
         if self._stopped is not None:
             raise InputError(f"the event camera {self._stopped}; reset() starts it again")
@@ -114,7 +122,16 @@ class EventCamera:
         return events
 
     def finish(self) -> EventStream:
-        """Events that the model held back; they end the recording."""
+        """Events that the model held back; they end the recording.
+
+        Example:
+            >>> import numpy as np, texvent
+            >>> camera = texvent.EventCamera("2x1", noise="none")
+            >>> for n in range(2):
+            ...     events = camera.step(np.full((1, 2), 50 + 99 * n, np.uint8), 1000 * n)
+            >>> camera.finish()
+            EventStream(0 events, 2x1)
+        """
         if self._stopped is not None:
             return EventStream.empty(self.size)
         events = self._joined(self._simulator.finish())
@@ -123,14 +140,28 @@ class EventCamera:
         return events
 
     def reset(self) -> None:
-        """Begin a new recording with the same options, as if no frame had been given."""
+        """Begin a new recording with the same options, as if no frame had been given.
+
+        Example:
+            >>> import numpy as np, texvent
+            >>> camera, image = texvent.EventCamera("2x1"), np.full((1, 2), 50, np.uint8)
+            >>> camera.step(image, 1000), camera.reset(), camera.step(image, 0)
+            (EventStream(0 events, 2x1), None, EventStream(0 events, 2x1))
+        """
         self._threads.close()
         self._frames.clear()
         self.size = self._start()
         self._stopped = None
 
     def close(self) -> None:
-        """Free what the camera holds; nothing happens if it is closed already."""
+        """Free what the camera holds; nothing happens if it is closed already.
+
+        Example:
+            >>> import numpy as np, texvent
+            >>> camera = texvent.EventCamera("2x1")
+            >>> events = camera.step(np.zeros((1, 2), np.uint8), 0)
+            >>> camera.close()
+        """
         self._threads.close()
         if self._stopped is None:
             self._checked.conclude()

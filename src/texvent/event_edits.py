@@ -55,6 +55,12 @@ class EventEdits:
         Raises:
             ConfigError: a number is not whole.
             InputError: the region is empty or reaches over the sensor's edge.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.crop(4, 0, 2, 2), events.crop(4, 0, 2, 2).x
+            (EventStream(1 events, 2x2, t 20..20 µs), array([0], dtype=uint16))
         """
         from texvent.transform.edits import Region, crop
 
@@ -65,6 +71,12 @@ class EventEdits:
 
         Raises:
             ConfigError: the size is impossible.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.resize("4x3").x
+            array([1, 2], dtype=uint16)
         """
         from texvent.transform.edits import resize
 
@@ -75,6 +87,12 @@ class EventEdits:
 
         Raises:
             ConfigError: other axes.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.flip("x").x, events.flip("xy").y
+            (array([4, 3], dtype=uint16), array([5, 5], dtype=uint16))
         """
         from texvent.transform.edits import flip
 
@@ -85,6 +103,12 @@ class EventEdits:
 
         Raises:
             ConfigError: another angle.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.rotate(90), events.rotate(90).y
+            (EventStream(2 events, 6x8, t 10..20 µs), array([3, 4], dtype=uint16))
         """
         from texvent.transform.edits import rotate
 
@@ -100,6 +124,12 @@ class EventEdits:
         Raises:
             ConfigError: unknown name or option, or a value out of range.
             InputError: the filter does not fit the sensor.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 3], [0, 0], [10, 20], [1, 1], size="8x6")
+            >>> events.filter("refractory", period_us=50).t
+            array([10])
         """
         from texvent.transform.filters.apply import filter_events
 

@@ -60,9 +60,9 @@ class EventPackets(EventEdits):
     Every pass reads or simulates them again; of a generator or a camera there is one pass.
 
     Example:
-        >>> size = SensorSize(8, 6)
-        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=size)
-        >>> packets = EventPackets([events[:1], events[1:]], size)
+        >>> from texvent import EventPackets, EventStream
+        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+        >>> packets = EventPackets([events[:1], events[1:]], events.size)
         >>> packets.time_range, len(packets.between(15, 30).collect())
         ((10, 21), 1)
         >>> [int(array.sum()) for array in packets.represent("event-frame", duration_us=8)]
@@ -87,7 +87,14 @@ class EventPackets(EventEdits):
         return f"EventPackets({self.size}, read when iterated)"
 
     def collect(self, *, progress: ProgressOption = False) -> EventStream:
-        """All packets in one stream, in memory; for `progress` see `save`."""
+        """All packets in one stream, in memory; for `progress` see `save`.
+
+        Example:
+            >>> from texvent import EventPackets, EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> EventPackets([events[:1], events[1:]], events.size).collect() == events
+            True
+        """
         with open_progress(progress) as shown:
             packets = list(self._reporting_to(shown))
         whole = EventStream.concat([EventStream.empty(self.size), *packets])
@@ -116,6 +123,12 @@ class EventPackets(EventEdits):
         Warns:
             TexventWarning: the range is empty, outside of the recording, or looks like seconds;
                 found while reading, where the format does not tell its times before.
+
+        Example:
+            >>> from texvent import EventPackets, EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> EventPackets([events[:1], events[1:]], events.size).between(10, 20).collect()
+            EventStream(1 events, 8x6, t 10..10 µs)
         """
         check_time_range(start_us, stop_us)
         part = self.cut(start_us, stop_us, partial(warn_of_doubtful_range, start_us, stop_us))
@@ -131,6 +144,13 @@ class EventPackets(EventEdits):
             start_us: first time, µs.
             stop_us: the time before which the events end, µs.
             on_times: given the times of the recording as soon as they are known, if it has events.
+
+        Example:
+            >>> from texvent import EventPackets, EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> packets = EventPackets([events[:1], events[1:]], events.size)
+            >>> [len(one) for one in packets.cut(15, 90)]
+            [0, 1]
         """
         packets = self.packets
         if not isinstance(packets, SeekablePackets):
@@ -163,6 +183,14 @@ class EventPackets(EventEdits):
         Raises:
             OutputError: it exists already, its folder cannot be written, or the disk is full.
             ConfigError: unknown format or extension.
+
+        Example:
+            >>> import texvent
+            >>> packets = texvent.generate(
+            ...     "a red ball bounces", sensor="48x36", duration=0.2, as_packets=True
+            ... )
+            >>> packets.save("ball.npz", progress=False).name
+            'ball.npz'
         """
         from texvent.io.files import save
 
@@ -171,7 +199,14 @@ class EventPackets(EventEdits):
             return save(path, packets, format=format, overwrite=overwrite)
 
     def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
-        """Make a page of a sample of the events; see `EventStream.show`."""
+        """Make a page of a sample of the events; see `EventStream.show`.
+
+        Example:
+            >>> from texvent import EventPackets, EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> EventPackets([events], events.size).show("two.html").name
+            'two.html'
+        """
         from texvent.view.page.writer import show
 
         return show(self, path, overwrite=overwrite)
@@ -207,6 +242,13 @@ class EventPackets(EventEdits):
 
         Raises:
             ConfigError: unknown name or option, or both or none of `duration_us` and `count`.
+
+        Example:
+            >>> from texvent import EventPackets, EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> frames = EventPackets([events], events.size).represent("event-frame", count=1)
+            >>> [int(frame.sum()) for frame in frames]
+            [1, -1]
         """
         from texvent.represent.slices import represent_slices
 

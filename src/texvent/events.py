@@ -54,8 +54,8 @@ class EventStream(EventEdits):
             polarity is not 0/1.
 
     Example:
-        >>> size = SensorSize(8, 6)
-        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=size)
+        >>> from texvent import EventStream
+        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
         >>> len(events), events.polarity.tolist()
         (2, [1, -1])
     """
@@ -97,7 +97,13 @@ class EventStream(EventEdits):
 
     @classmethod
     def empty(cls, size: SizeLike, metadata: Mapping[str, Any] | None = None) -> EventStream:
-        """A stream with no event."""
+        """A stream with no event.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> EventStream.empty("davis346")
+            EventStream(0 events, 346x260)
+        """
         return cls.from_columns([], [], [], [], size=size, metadata=metadata)
 
     @classmethod
@@ -115,6 +121,11 @@ class EventStream(EventEdits):
         """A stream from anything array-like, such as lists; empty columns may have any dtype.
 
         With `sort`, events are brought into time order; those of one time keep theirs.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> EventStream.from_columns([3, 4], [0, 0], [20, 10], [1, 0], size="8x6", sort=True).t
+            array([10, 20])
         """
         x, y, t, p = (as_array(one, name) for one, name in zip((x, y, t, p), "xytp", strict=True))
         if sort and t.ndim == 1 == len({x.shape, y.shape, t.shape, p.shape}):
@@ -129,6 +140,12 @@ class EventStream(EventEdits):
         Raises:
             InputError: there is no packet, the sizes differ, or a packet starts before the end
                 of the one before it.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> EventStream.concat([events[:1], events[1:]]) == events
+            True
         """
         packets = list(streams)
         if not packets:
@@ -192,7 +209,13 @@ class EventStream(EventEdits):
         return EventStream(**chosen, size=self.size, metadata=self.metadata)
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Name → array: x, y, t, p, and label, instance, class_id where they are known."""
+        """Name → array: x, y, t, p, and label, instance, class_id where they are known.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> list(EventStream.empty("8x6").columns())
+            ['x', 'y', 't', 'p']
+        """
         named = {name: getattr(self, name) for name in COLUMN_TYPES}
         return {name: column for name, column in named.items() if column is not None}
 
@@ -214,6 +237,12 @@ class EventStream(EventEdits):
 
         Warns:
             TexventWarning: the range is empty, outside of the recording, or looks like seconds.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.between(10, 20)
+            EventStream(1 events, 8x6, t 10..10 µs)
         """
         check_time_range(start_us, stop_us)
         if len(self):
@@ -223,7 +252,14 @@ class EventStream(EventEdits):
         return part.with_metadata(with_edit(self.metadata, time_edit(start_us, stop_us)))
 
     def cut(self, start_us: int, stop_us: int) -> EventStream:
-        """As `between`, for programs that go through time: any range is taken without a word."""
+        """As `between`, for programs that go through time: any range is taken without a word.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> [len(events.cut(start_us, start_us + 10)) for start_us in (0, 10, 20, 30)]
+            [0, 1, 1, 0]
+        """
         first, last = np.searchsorted(self.t, (start_us, stop_us), side="left")
         return self[int(first) : int(last)]
 
@@ -239,23 +275,52 @@ class EventStream(EventEdits):
         )
 
     def equals(self, other: EventStream) -> bool:
-        """As `==`."""
+        """As `==`.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.equals(events[:1])
+            False
+        """
         return self == other
 
     def with_metadata(self, metadata: Mapping[str, Any]) -> EventStream:
-        """The same events with other metadata."""
+        """The same events with other metadata.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> EventStream.empty("8x6").with_metadata({"scene": "at night"}).metadata
+            {'scene': 'at night'}
+        """
         changed = copy.copy(self)  # the columns were checked
         object.__setattr__(changed, "metadata", metadata)
         return changed
 
     def without_label(self) -> EventStream:
-        """The same events without the signal/noise column."""
+        """The same events without the signal/noise column.
+
+        Example:
+            >>> import texvent
+            >>> events = texvent.generate(
+            ...     "a red ball bounces", sensor="48x36", duration=0.2, label_noise=True
+            ... )
+            >>> events.label is None, events.without_label().label is None
+            (False, True)
+        """
         changed = copy.copy(self)  # the columns were checked
         object.__setattr__(changed, "label", None)
         return changed
 
     def with_ids(self, instance: NDArray[Any] | None, class_id: NDArray[Any] | None) -> EventStream:
-        """The same events with other ids of their objects, [n] each; None: without."""
+        """The same events with other ids of their objects, [n] each; None: without.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.with_ids([1, 2], None).instance
+            array([1, 2], dtype=uint16)
+        """
         return replace(self, instance=instance, class_id=class_id)
 
     # What lies above this module is imported when it is called: a convenience for users.
@@ -263,13 +328,29 @@ class EventStream(EventEdits):
         """A dense array of the events: `name` such as "voxel-e2vid", options such as `bins=5`.
 
         See `texvent.represent.named.represent`; with `device`, a torch tensor.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.represent("event-frame")[0].tolist()
+            [0, 0, 0, 1, -1, 0, 0, 0]
+            >>> events.represent("voxel-e2vid", bins=2).shape
+            (2, 6, 8)
         """
         from texvent.represent.named import represent
 
         return represent(name, self, device=device, **options)
 
     def to_structured(self) -> NDArray[Any]:
-        """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known."""
+        """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.to_structured()
+            array([(3, 0, 10, 1), (4, 0, 20, 0)],
+                  dtype=[('x', '<u2'), ('y', '<u2'), ('t', '<i8'), ('p', 'u1')])
+        """
         from texvent.represent.named import to_structured
 
         return to_structured(self)
@@ -279,6 +360,12 @@ class EventStream(EventEdits):
 
         Raises:
             InputError: a side of the sensor is above 32768 pixels, so coordinates do not fit.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.to_tonic()["p"]
+            array([1, 0], dtype=int8)
         """
         from texvent.represent.named import to_tonic
 
@@ -289,6 +376,14 @@ class EventStream(EventEdits):
 
         Raises:
             MissingDependencyError: pandas is not installed.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.to_dataframe()
+               x  y   t  p
+            0  3  0  10  1
+            1  4  0  20  0
         """
         from texvent.represent.named import to_dataframe
 
@@ -300,13 +395,26 @@ class EventStream(EventEdits):
         Raises:
             ConfigError: torch knows or finds no such device.
             MissingDependencyError: torch is not installed.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.to_torch()["t"]
+            tensor([10, 20])
         """
         from texvent.represent.tensors import to_torch
 
         return to_torch(self, device)
 
     def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
-        """Write to a file, its format taken from the extension unless given; see `texvent.io`."""
+        """Write to a file, its format taken from the extension unless given; see `texvent.io`.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.save("two.raw", format="evt3").stat().st_size > 8
+            True
+        """
         from texvent.io.files import save
 
         return save(path, self, format=format, overwrite=overwrite)
@@ -317,6 +425,12 @@ class EventStream(EventEdits):
         Args:
             path: where to save the page; then nothing is opened. Default: a temporary file.
             overwrite: whether an existing file may be replaced.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> events.show("two.html").suffix
+            '.html'
         """
         from texvent.view.page.writer import show
 
@@ -337,6 +451,13 @@ class EventStream(EventEdits):
         Raises:
             ConfigError: unknown kind or option, or axes that do not fit it.
             MissingDependencyError: matplotlib is not installed.
+
+        Example:
+            >>> from texvent import EventStream
+            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+            >>> axes = events.plot("frame")
+            >>> axes.get_xlabel(), axes.get_ylabel()
+            ('x, pixels', 'y, pixels')
         """
         from texvent.view.plots import plot
 

@@ -15,7 +15,13 @@ MAX_SIDE = 65_535
 
 
 class SensorSize(NamedTuple):
-    """Width and height of a sensor, in pixels. Arrays are indexed [y, x], shape (height, width)."""
+    """Width and height of a sensor, in pixels. Arrays are indexed [y, x], shape (height, width).
+
+    Example:
+        >>> from texvent import SensorSize
+        >>> str(SensorSize(346, 260)), SensorSize(346, 260).shape
+        ('346x260', (260, 346))
+    """
 
     width: int
     height: int
@@ -31,7 +37,14 @@ class SensorSize(NamedTuple):
 
 @dataclass(frozen=True)
 class Sensor:
-    """A sensor that events can be simulated for."""
+    """A sensor that events can be simulated for.
+
+    Example:
+        >>> import texvent
+        >>> sensor = texvent.SENSORS["davis346"]
+        >>> sensor.size, sensor.source
+        (SensorSize(width=346, height=260), 'Gallego 2022')
+    """
 
     name: str
     size: SensorSize

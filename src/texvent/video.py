@@ -93,6 +93,12 @@ class Frame:
     Raises:
         InputError: pixels are not [H, W] or [H, W, 3], not uint8, uint16, bool or float, or masked;
             or the time is not whole µs.
+
+    Example:
+        >>> import numpy as np
+        >>> from texvent import Frame
+        >>> Frame(np.zeros((6, 8), np.uint8), t_us=1000)
+        Frame(8x6 uint8 grey, t 1000 µs)
     """
 
     pixels: PixelArray
@@ -158,7 +164,14 @@ class Frame:
 
 @runtime_checkable
 class FrameStream(Protocol):
-    """Frames of one size in strictly increasing time order."""
+    """Frames of one size in strictly increasing time order.
+
+    Example:
+        >>> import texvent
+        >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.2)
+        >>> isinstance(frames, texvent.FrameStream), frames.fps, frames.frame_count
+        (True, Fraction(24, 1), 5)
+    """
 
     @property
     def size(self) -> SensorSize:
@@ -272,6 +285,13 @@ class Video(NotebookFrames):
     Raises:
         InputError: no frame, another number of times than of frames, or times that do not
             strictly increase.
+
+    Example:
+        >>> import numpy as np
+        >>> from texvent import Video
+        >>> video = Video(np.zeros((3, 6, 8), np.uint8), times_us=(0, 10_000, 25_000))
+        >>> video, video[2]
+        (Video(3 frames, 8x6), Frame(8x6 uint8 grey, t 25000 µs))
     """
 
     pixels: PixelArray

@@ -35,7 +35,8 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
         InputError: the prompt is no text or empty, or nothing in it is understood.
 
     Example:
-        >>> reading = read("a red car drives left")
+        >>> import texvent
+        >>> reading = texvent.read("a red car drives left")
         >>> reading.scene.objects[0].colour, reading.not_understood
         ('red', ())
     """

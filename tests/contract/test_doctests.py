@@ -1,11 +1,15 @@
-"""Every example in a docstring is true."""
+"""Every public name has an example, and every example in a docstring is true."""
 
 import builtins
 import doctest
 import importlib
+import inspect
+import warnings
 from pathlib import Path
 
 import pytest
+
+import texvent
 
 SOURCE = Path(__file__).parents[2] / "src"
 MODULES = [
@@ -13,15 +17,64 @@ MODULES = [
     for path in sorted(SOURCE.rglob("*.py"))
     if ">>> " in path.read_text(encoding="utf-8")
 ]
+USED_BY_METHODS = (texvent.EventStream, texvent.EventPackets, texvent.EventCamera)
+"""Classes whose methods a user calls."""
+FOR_PROGRAMS = {"unchecked", "reporting_to"}
+"""Methods for other parts of texvent."""
+
+
+def public_objects():
+    """Name → function or class, of what users call."""
+    named = {f"texvent.{name}": getattr(texvent, name) for name in texvent.__all__}
+    for module in filter(inspect.ismodule, list(named.values())):
+        named |= {f"{module.__name__}.{name}": getattr(module, name) for name in module.__all__}
+    for kind in USED_BY_METHODS:
+        for name, method in inspect.getmembers(kind, callable):
+            if not name.startswith("_") and name not in FOR_PROGRAMS:
+                named[f"texvent.{kind.__name__}.{name}"] = method
+    return {name: one for name, one in named.items() if callable(one)}
+
+
+PUBLIC = public_objects()
+HOMES = {f"{one.__module__}.{one.__qualname__}" for one in PUBLIC.values()}
+
+
+@pytest.fixture(autouse=True)
+def new_session(tmp_path, monkeypatch):
+    """A folder for what examples write, and nothing left of them afterwards."""
+    monkeypatch.chdir(tmp_path)
+    with warnings.catch_warnings():
+        yield
+    vars(builtins).pop("_", None)  # the display hook's leftover, which gettext users trip over
+
+
+def run(example):
+    runner = doctest.DocTestRunner()
+    runner.run(example)
+    assert runner.summarize(verbose=False).failed == 0
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.torch] * name.endswith("torch"))
+        for name in sorted(PUBLIC)
+    ],
+)
+def test_a_public_name_has_an_example_that_can_be_pasted(name):
+    text = inspect.getdoc(PUBLIC[name]) or ""
+    example = doctest.DocTestParser().get_doctest(text, {}, name, None, None)
+    if name.endswith("torch"):
+        pytest.importorskip("torch")
+    assert example.examples, "the docstring has no example"
+    run(example)
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_examples_are_true(name):
+def test_other_examples_are_true(name):
     # Not pytest's own collection of doctests: it imports modules its own way and would put the
     # package texvent.generate in the place of the function texvent.generate.
-    try:
-        result = doctest.testmod(importlib.import_module(name))
-    finally:
-        vars(builtins).pop("_", None)  # the display hook's leftover, which gettext users trip over
-    assert result.attempted > 0
-    assert result.failed == 0
+    found = doctest.DocTestFinder().find(importlib.import_module(name))
+    for example in found:
+        if example.name not in HOMES:
+            run(example)

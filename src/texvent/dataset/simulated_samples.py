@@ -144,6 +144,7 @@ class SimulatedSamples(SampleTable):
         ConfigError: no sources or two kinds of them; an unknown representation, option or target.
 
     Example:
+        >>> from texvent.dataset import SimulatedSamples
         >>> samples = SimulatedSamples(
         ...     prompts=["a red ball flies left"],
         ...     slice_us=50_000,

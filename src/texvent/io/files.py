@@ -206,6 +206,13 @@ def open_events(
             recordings and none is chosen.
         FileFormatError: the file is damaged or of another format.
         ConfigError: unknown format or extension, or an option that the format does not take.
+
+    Example:
+        >>> import texvent
+        >>> events = texvent.EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+        >>> packets = texvent.open(events.save("two.h5"))
+        >>> packets.size, packets.time_range, len(packets.between(15, 30).collect())
+        (SensorSize(width=8, height=6), (10, 21), 1)
     """
     if unknown:
         known = ("format", "size", "time_unit", "columns", "stream", "repair")
@@ -219,7 +226,14 @@ def open_events(
 
 
 def load(path: str | Path, **options: Any) -> EventStream:
-    """Events of a file, in memory; options and errors as of `texvent.open`."""
+    """Events of a file, in memory; options and errors as of `texvent.open`.
+
+    Example:
+        >>> import texvent
+        >>> events = texvent.EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
+        >>> texvent.load(events.save("two.npz"))
+        EventStream(2 events, 8x6, t 10..20 µs)
+    """
     return open_events(path, **options).collect()
 
 

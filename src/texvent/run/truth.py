@@ -25,6 +25,7 @@ class TruthFolder:
     """Truth that a run writes, and its folder.
 
     Example:
+        >>> from texvent import TruthFolder
         >>> TruthFolder("car.truth", "flow,boxes").names
         ('flow', 'boxes')
     """

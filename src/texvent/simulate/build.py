@@ -68,7 +68,8 @@ def check_simulator(simulator: Any) -> None:
             frame gives events, or the seed does not decide them.
 
     Example:
-        >>> check_simulator("esim")
+        >>> import texvent
+        >>> texvent.check_simulator("esim")
     """
     kind: Any = SIMULATORS.load(simulator) if isinstance(simulator, str) else simulator
     name = simulator if isinstance(simulator, str) else kind.__name__

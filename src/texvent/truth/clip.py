@@ -411,6 +411,13 @@ def load_truth(folder: str | Path) -> ClipTruth:
     Raises:
         InputError: there is no such folder.
         FileFormatError: it holds no truth, or is damaged.
+
+    Example:
+        >>> import texvent
+        >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.1)
+        >>> truth = texvent.load_truth(texvent.save_truth(frames, "ball.truth", "flow,depth"))
+        >>> truth, truth.flow(0).shape, truth.depth(0).dtype
+        (ClipTruth(3 frames, flow, depth), (36, 48, 2), dtype('float32'))
     """
     path = existing_folder(folder)
     if not (path / FACTS).is_file():

@@ -141,11 +141,10 @@ def save_truth(
         OutputError: the folder exists already, or cannot be written.
 
     Example:
-        >>> import tempfile, texvent
+        >>> import texvent
         >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.1)
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     truth = texvent.load_truth(save_truth(frames, f"{folder}/ball.truth", "boxes"))
-        ...     truth, truth.boxes["w"].max() > 0
+        >>> truth = texvent.load_truth(texvent.save_truth(frames, "ball.truth", "boxes"))
+        >>> truth, truth.boxes["w"].max() > 0
         (ClipTruth(3 frames, boxes), np.True_)
     """
     wanted = parse_parts(parts)

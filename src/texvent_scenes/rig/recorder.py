@@ -51,6 +51,14 @@ def record(
         ConfigError: an unknown option, a value out of range, or a rig that the layout cannot hold.
         InputError: the prompt is not understood, or a file cannot be read.
         OutputError: the folder exists already, or cannot be written.
+
+    Example:
+        >>> import texvent
+        >>> folder = texvent.rig.record(
+        ...     "a red ball bounces", "ball", stereo=0.12, sensor="32x24", duration=0.1
+        ... )
+        >>> [texvent.load(folder / f"cam{number}/events.h5").size for number in (0, 1)]
+        [SensorSize(width=32, height=24), SensorSize(width=32, height=24)]
     """
     names = option_names(RigConfig)
     own = {name: value for name, value in options.items() if name in names and value is not None}

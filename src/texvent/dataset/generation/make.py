@@ -150,6 +150,15 @@ def make(
 
     Raises:
         InputError, ConfigError, OutputError: before any work, what all samples would meet.
+
+    Example:
+        >>> import texvent
+        >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
+        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
+        >>> work = texvent.dataset.make(balls, "balls", progress=False)
+        >>> list(work.complete.values()), work.failures
+        ([Counter({'made': 1})], {})
     """
     if not isinstance(specification, Specification):
         specification = read_specification(specification)

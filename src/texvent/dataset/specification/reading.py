@@ -33,6 +33,14 @@ def read_specification(path: str | Path) -> Specification:
     Raises:
         InputError: the file cannot be read.
         ConfigError: it is no valid specification; the message says what and what is allowed.
+
+    Example:
+        >>> import pathlib
+        >>> from texvent.dataset import read_specification
+        >>> text = "{name: balls, sources: [{prompts: [a red ball bounces, a dog runs]}]}"
+        >>> size = pathlib.Path("balls.yaml").write_text(text)
+        >>> read_specification("balls.yaml").sources[0].prompts
+        ('a red ball bounces', 'a dog runs')
     """
     path = Path(path)
     return specification_from(read_document(path), folder=path.parent, where=str(path))

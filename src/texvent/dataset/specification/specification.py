@@ -33,6 +33,13 @@ class SampleSource:
 
     Raises:
         ConfigError: none or several of them, or a field that does not belong to the one.
+
+    Example:
+        >>> from texvent.dataset import SampleSource
+        >>> words = {"colour": ("red", "blue"), "thing": ("car", "dog", "ball")}
+        >>> source = SampleSource(template="a {colour} {thing}", words=words, label="{thing}")
+        >>> source.count is None  # all six of them
+        True
     """
 
     prompts: tuple[str, ...] = ()
@@ -98,7 +105,13 @@ class SampleSource:
 
 @dataclass(frozen=True, kw_only=True)
 class Variant:
-    """Variant of the simulation of every video: a simulator, a sensor, options."""
+    """Variant of the simulation of every video: a simulator, a sensor, options.
+
+    Example:
+        >>> from texvent.dataset import Variant
+        >>> Variant(name="esim", options={"simulator": "esim"}).seeds
+        1
+    """
 
     name: str = DEFAULT_VARIANT
     """Name of its folder."""
@@ -114,7 +127,13 @@ class Variant:
 
 @dataclass(frozen=True, kw_only=True)
 class Filters:
-    """Filters that leave samples out."""
+    """Filters that leave samples out.
+
+    Example:
+        >>> from texvent.dataset import Filters
+        >>> Filters(max_events=50_000)
+        Filters(min_events=200, max_events=50000, failed_videos=False)
+    """
 
     min_events: int = FEWEST_SIGNAL
     """Fewest events of a sample that its video fires: those of noise do not count."""
@@ -136,12 +155,15 @@ class Specification:
         ConfigError: a value out of range or a name that cannot be a folder.
 
     Example:
+        >>> from texvent.dataset import SampleSource, Specification, Variant
         >>> spec = Specification(
         ...     name="cars",
         ...     sources=(SampleSource(prompts=("a red car drives left", "a dog runs")),),
         ...     options={"duration": 0.5, "contrast_threshold": {"uniform": [0.1, 0.5]}},
         ...     variants=(Variant(name="paper"), Variant(name="v2e", options={"simulator": "v2e"})),
         ... )
+        >>> [variant.name for variant in spec.variants], spec.filters.min_events
+        (['paper', 'v2e'], 200)
     """
 
     name: str

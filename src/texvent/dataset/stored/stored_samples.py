@@ -53,7 +53,15 @@ def open(
         FileFormatError: a shard is missing, has another size, or its record is damaged.
         ConfigError: no such variant, split or label; an unknown representation or option.
 
-    Example: `samples = open("cars", split="train"); samples[0].events`.
+    Example:
+        >>> import texvent
+        >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
+        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
+        >>> work = texvent.dataset.make(balls, "balls", progress=False)
+        >>> samples = texvent.dataset.open("balls", representation="voxel-e2vid")
+        >>> len(samples), samples.make(0)["representation"].shape
+        (1, (5, 24, 32))
     """
     dataset = StoredDataset.open(Path(folder))
     index = read_index(dataset, variant=variant, split=split)
@@ -78,7 +86,18 @@ def open(
 
 @dataclass(frozen=True, eq=False)
 class StoredSample:
-    """All that a data set holds of one sample."""
+    """All that a data set holds of one sample.
+
+    Example:
+        >>> import texvent
+        >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
+        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
+        >>> work = texvent.dataset.make(balls, "balls", progress=False)
+        >>> sample = texvent.dataset.open("balls")[0]
+        >>> sample.caption, sample.split, sample.events.size
+        ('a red ball bounces', 'train', SensorSize(width=32, height=24))
+    """
 
     key: str
     events: EventStream
@@ -117,6 +136,16 @@ class StoredSamples(SampleTable):
     Raises:
         ConfigError: an unknown representation or option, or two kinds of slices.
         InputError: a sample is shorter than one slice, or does not store a target.
+
+    Example:
+        >>> import texvent
+        >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
+        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
+        >>> work = texvent.dataset.make(balls, "balls", progress=False)
+        >>> samples = texvent.dataset.open("balls")
+        >>> [len(samples.select(samples.index.events > least)) for least in (0, 10**6)]
+        [1, 0]
     """
 
     folder: Path
@@ -219,7 +248,7 @@ class StoredSamples(SampleTable):
     def select(self, numbers: ArrayLike) -> StoredSamples:
         """The samples of these numbers, in that order, or where a mask is true.
 
-        Example: `samples.select(samples.index.events > 1000)`.
+        `samples.select(samples.index.events > 1000)` leaves out those of few events.
         """
         chosen = np.asarray(numbers)
         chosen = np.flatnonzero(chosen) if chosen.dtype == bool else chosen.astype(np.int64)

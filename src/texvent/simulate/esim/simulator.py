@@ -34,6 +34,12 @@ class EsimConfig:
 
     Raises:
         ConfigError: an option is out of range.
+
+    Example:
+        >>> from texvent.pixel_models import EsimConfig
+        >>> config = EsimConfig(contrast_threshold_on=0.3)
+        >>> config.contrast_threshold, config.balance
+        (0.2, 0.255)
     """
 
     contrast_threshold_on: float = 0.2
@@ -71,7 +77,9 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     them where few pixels may fire; the events are the same.
 
     Example:
-        >>> from texvent.video import Frame
+        >>> import numpy as np
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import EsimConfig, EsimSimulator
         >>> simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.5))
         >>> dark, bright = np.array([[50]], np.uint8), np.array([[200]], np.uint8)
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet

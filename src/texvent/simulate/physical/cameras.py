@@ -29,8 +29,8 @@ class Constant:
 
 
 @dataclass(frozen=True)
-class Camera:
-    """A camera, or the sensor in it."""
+class CameraProfile:
+    """Constants of a camera, or of the sensor in it, with their sources."""
 
     description: str
     constants: tuple[Constant, ...]
@@ -39,8 +39,8 @@ class Camera:
 
 VOLTMETER = "Lin et al., DVS-Voltmeter, ECCV 2022, fitted to recordings: "
 
-CAMERAS: Mapping[str, Camera] = {
-    "evk4": Camera(
+CAMERAS: Mapping[str, CameraProfile] = {
+    "evk4": CameraProfile(
         "Prophesee EVK4 (Sony IMX636)",
         (
             Constant(
@@ -53,9 +53,9 @@ CAMERAS: Mapping[str, Camera] = {
             Constant("on_off_ratio", 1.0, "data sheet", "one threshold is stated for ON and OFF"),
         ),
     ),
-    "genx320": Camera("Prophesee GenX320", ()),
-    "gen3.1": Camera("Prophesee Gen3.1 VGA (PPS3MVCD)", ()),
-    "dvxplorer": Camera(
+    "genx320": CameraProfile("Prophesee GenX320", ()),
+    "gen3.1": CameraProfile("Prophesee Gen3.1 VGA (PPS3MVCD)", ()),
+    "dvxplorer": CameraProfile(
         "iniVation DVXplorer (Samsung S5K231Y)",
         (
             Constant(
@@ -67,7 +67,7 @@ CAMERAS: Mapping[str, Camera] = {
             ),
         ),
     ),
-    "davis346": Camera(
+    "davis346": CameraProfile(
         "iniVation DAVIS346",
         (
             Constant("contrast_threshold", 0.19, "paper", VOLTMETER + "1 / k1 of DVS346"),
@@ -95,7 +95,7 @@ CAMERAS: Mapping[str, Camera] = {
             ),
         ),
     ),
-    "davis240c": Camera(
+    "davis240c": CameraProfile(
         "iniLabs DAVIS240C",
         (
             Constant("contrast_threshold", 0.226, "paper", VOLTMETER + "1 / k1 of DVS240"),

@@ -79,6 +79,11 @@ class PhysicalConfig:
 
     Raises:
         ConfigError: an option is out of range, or two contradict each other.
+
+    Example:
+        >>> from texvent.pixel_models import PhysicalConfig
+        >>> PhysicalConfig(threshold_sigma=0.0).contrast_threshold
+        0.3
     """
 
     idle_with: ClassVar[IdleOptions] = {

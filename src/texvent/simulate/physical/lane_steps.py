@@ -72,7 +72,7 @@ STRAIGHT = 1e-3
 """On a segment that is shorter, in time constants, the output is a straight line."""
 
 R_NOW, R_AGE, R_SINCE, R_LEVEL, R_LEAK, R_WAITS = range(ROWS, ROWS + 6)
-"""Rows of steps, besides those of `crossing_time_cpu`."""
+"""Rows of steps, besides those of `crossing_time`."""
 
 
 class EventRules(NamedTuple):

@@ -35,7 +35,8 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
 
     Example:
         >>> import numpy as np
-        >>> from texvent.video import Frame
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import PhysicalSimulator
         >>> simulator = PhysicalSimulator(PhysicalSimulator.presets["clean"])
         >>> dark, bright = np.array([[100]], np.uint8), np.array([[160]], np.uint8)
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet

@@ -28,6 +28,11 @@ class SenpiConfig:
 
     Raises:
         ConfigError: an option is out of range.
+
+    Example:
+        >>> from texvent.pixel_models import SenpiConfig
+        >>> SenpiConfig(noise_rate_hz=0.0).refractory_period_us
+        50
     """
 
     contrast_threshold_on: float = 0.9616
@@ -63,7 +68,9 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     """SENPI on video frames; see `simulate.protocol.Simulator`.
 
     Example:
-        >>> from texvent.video import Frame
+        >>> import numpy as np
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import SenpiSimulator
         >>> simulator = SenpiSimulator(SenpiSimulator.presets["peer-common"])
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0

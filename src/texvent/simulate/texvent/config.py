@@ -24,6 +24,11 @@ class TexventConfig:
 
     Raises:
         ConfigError: an option is out of range, or two contradict each other.
+
+    Example:
+        >>> from texvent.pixel_models import TexventConfig
+        >>> TexventConfig(contrast_threshold=0.3, noise="none").balance
+        20.0
     """
 
     idle_with: ClassVar[IdleOptions] = {

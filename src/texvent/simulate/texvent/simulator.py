@@ -30,6 +30,9 @@ class TexventSimulator(SteppingSimulator):
     them where few pixels may fire; the events are the same.
 
     Example:
+        >>> import numpy as np
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import TexventConfig, TexventSimulator
         >>> simulator = TexventSimulator(TexventConfig(noise="none"), seed=1)
         >>> dark, bright = np.full((1, 2), 50, np.uint8), np.array([[50, 90]], np.uint8)
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet

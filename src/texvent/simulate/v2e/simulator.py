@@ -27,6 +27,11 @@ class V2eConfig:
 
     Raises:
         ConfigError: an option is out of range.
+
+    Example:
+        >>> from texvent.pixel_models import V2eConfig
+        >>> V2eConfig(cutoff_hz=0.0).shot_noise_rate_hz
+        0.001
     """
 
     idle_with: ClassVar[IdleOptions] = {"leak_rate_decades": ("leak_rate_hz", (0.0,))}
@@ -82,7 +87,8 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
 
     Example:
         >>> import numpy as np
-        >>> from texvent.video import Frame
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import V2eSimulator
         >>> simulator = V2eSimulator(V2eSimulator.presets["peer-common"])
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0

@@ -76,6 +76,11 @@ class VoltmeterConfig:
 
     Raises:
         ConfigError: a constant is out of range.
+
+    Example:
+        >>> from texvent.pixel_models import VoltmeterConfig
+        >>> VoltmeterConfig(constants="5.265 20 0 0 0 0").k.k1
+        5.265
     """
 
     constants: str = "5.265 20 1e-4 1e-7 5e-9 1e-5"
@@ -107,7 +112,9 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     """DVS-Voltmeter on video frames; see `simulate.protocol.Simulator`.
 
     Example:
-        >>> from texvent.video import Frame
+        >>> import numpy as np
+        >>> from texvent import Frame
+        >>> from texvent.pixel_models import VoltmeterConfig, VoltmeterSimulator
         >>> quiet = VoltmeterConfig(constants="5.265 20 0 0 0 0")
         >>> simulator = VoltmeterSimulator(quiet)
         >>> len(simulator.step(Frame(np.array([[90]], np.uint8), t_us=0)))
