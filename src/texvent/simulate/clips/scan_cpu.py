@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.threads import run_parts
 from texvent.simulate.clips import pixels
 from texvent.simulate.clips.pixels import ClipArrays, ClipOutputs, ClipPixels, Float64Array
 from texvent.simulate.random.draws_cpu import draw_uniform_at, draw_word_at, place_of
@@ -58,7 +59,7 @@ def simulate_on_cpu(
     clips: ClipPixels,
     outputs: ClipOutputs,
 ) -> ClipArrays:
-    """What the clips give; arguments as `pixels.check_clips` wants them.
+    """What the clips give, each in a thread; arguments as `pixels.check_clips` wants them.
 
     Returns:
         NumPy arrays.
@@ -70,24 +71,14 @@ def simulate_on_cpu(
     pairs = (count, windows, 2, area)
     counts = np.zeros(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
     latest = np.full(pairs if outputs.latest else (count, 0, 1, 1), -1, np.int32)
-    sums = np.zeros(area * (outputs.bins + 1), np.int64)
-    room, words = _room(2 * area), []
-    for clip in range(count):
+
+    def run(clip: int) -> NDArray[np.int64]:
         made = _Made(grids[clip], counts[clip], latest[clip])
         of_clip = clips.numbers[clip], clips.keys[clip], clips.brightness
         pixel = frames[clip].reshape(-1, area)
-        state, own = _begin(pixel[0], width, *of_clip), [np.empty(0, np.int64)]
-        for window in range(windows):
-            first = window * outputs.intervals_per_window
-            span = first, first + outputs.intervals_per_window
-            while (total := _scan(pixel, times_us[clip], span, of_clip, state, room)) < 0:
-                room = _room(2 * len(room.pixel))
-            if outputs.events:
-                part = _Found(*(column[:total] for column in room))
-                word = (part.t_us * area + part.pixel) << 1 | (part.sign > 0)
-                own.append(np.sort(word))
-            _spread(room, total, int(times_us[clip][first]), window, made, sums)
-        words.append(np.concatenate(own))
+        return _run_clip(pixel, times_us[clip], width, of_clip, outputs, made)
+
+    words = run_parts(run, range(count))
     ends = np.cumsum([len(one) for one in words])
 
     def shaped(array: NDArray[Any], *, is_asked: bool) -> NDArray[Any] | None:
@@ -100,6 +91,29 @@ def simulate_on_cpu(
         np.concatenate(words) if outputs.events else None,
         ends if outputs.events else None,
     )
+
+
+def _run_clip(
+    frames: NDArray[np.uint8],
+    times_us: NDArray[np.int64],
+    width: int,
+    clip: tuple[Float64Array, np.uint64, Float64Array],
+    outputs: ClipOutputs,
+    made: _Made,
+) -> NDArray[np.int64]:
+    """Fill in what is made of a clip, [T + 1, area]; its events as words, where asked for."""
+    area, per = frames.shape[1], outputs.intervals_per_window
+    sums, room = np.zeros(area * (outputs.bins + 1), np.int64), _room(2 * area)
+    state, words = _begin(frames[0], width, *clip), [np.empty(0, np.int64)]
+    for first in range(0, len(frames) - 1, per):
+        span = first, first + per
+        while (total := _scan(frames, times_us, span, clip, state, room)) < 0:
+            room = _room(2 * len(room.pixel))
+        if outputs.events:
+            pixel, t_us, sign = (column[:total] for column in room)
+            words.append(np.sort((t_us * area + pixel) << 1 | (sign > 0)))
+        _spread(room, total, int(times_us[first]), first // per, made, sums)
+    return np.concatenate(words)
 
 
 def _room(size: int) -> _Found:

@@ -63,9 +63,7 @@ def _noise(at: tl.tensor, key: tl.tensor) -> tl.tensor:
 
 
 @triton.jit
-def _thresholds(
-    numbers: tl.tensor, key: tl.tensor, y: tl.tensor, x: tl.tensor
-) -> tl.tuple:
+def _thresholds(numbers: tl.tensor, key: tl.tensor, y: tl.tensor, x: tl.tensor) -> tl.tuple:
     """Thresholds of pixels, and what those that are hot move by."""
     zero = tl.zeros(y.shape, tl.float64)
     on, off, mismatch = zero + tl.load(numbers), zero + tl.load(numbers + 1), tl.load(numbers + 2)
@@ -240,5 +238,7 @@ def simulate_on_gpu(
             words = room(torch.int64, int(ends[-1]))
             scan(WRITE)
             # Clips come one after the other: a stable sort by clip keeps the order in time.
-            words = torch.cat([part.sort().values for part in words.tensor_split(ends[:-1].tolist())])
+            words = torch.cat(
+                [part.sort().values for part in words.tensor_split(ends[:-1].tolist())]
+            )
     return ClipArrays(grids, counts, latest, words, ends)
