@@ -34,13 +34,14 @@ class CutPlan(NamedTuple):
         count, height, width = clip.frames.shape
         if width < self.size.width or height < self.size.height:
             raise InputError(
-                f"{name} is {width}x{height}, smaller than crops of {self.size}; give a smaller size"
+                f"{name} is {width}x{height}, smaller than crops of {self.size}; give a smaller "
+                "size"
             )
         lowest = int(self.ranges.speed[0])
         if count < self.intervals * lowest + 1:
             raise InputError(
-                f"{name} has {count} frames, of which {self.intervals * lowest + 1} are needed; give "
-                "fewer frames, frames_per_grid or a lower speed"
+                f"{name} has {count} frames, of which {self.intervals * lowest + 1} are needed; "
+                "give fewer frames, frames_per_grid or a lower speed"
             )
 
 

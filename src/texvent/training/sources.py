@@ -1,4 +1,4 @@
-"""Sources of training clips: videos, folders of images, prompts, data sets, and frames of your own."""
+"""Sources of training clips: videos, folders of images, prompts, data sets, and your own."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ class Clip:
     times_us: NDArray[np.int64]
     """[N] strictly increasing, µs."""
     truth: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    """`flow`: px from each frame to the next, x right and y down, [N − 1, 2, H, W] float32; `depth`:
-    m, [N, H, W] float32; `boxes`: records of `texvent.truth.boxes.BOX_RECORD`, by time."""
+    """`flow`: px from each frame to the next, x right and y down, [N − 1, 2, H, W] float32;
+    `depth`: m, [N, H, W] float32; `boxes`: records of `texvent.truth.boxes.BOX_RECORD`, by time."""
 
     @property
     def nbytes(self) -> int:
@@ -97,8 +97,8 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
     names = [source] if isinstance(source, str | Path) else source
     if not isinstance(names, list | tuple) or not all(isinstance(n, str | Path) for n in names):
         raise ConfigError(
-            "the source must be a folder, a pattern, a list of prompts or videos, several of these, "
-            f"or a ClipSource such as PromptClips; got {type(source).__name__}"
+            "the source must be a folder, a pattern, a list of prompts or videos, several of these,"
+            f" or a ClipSource such as PromptClips; got {type(source).__name__}"
         )
     if len(names) == 1 and (Path(names[0]) / SPECIFICATION_FILE).is_file():
         return StoredClips(Path(names[0]))

@@ -154,7 +154,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         )  # fmt: skip
         if "flow" in self._names and (self.frames_per_grid > 1 or self._ranges.speed[1] > 1):
             raise ConfigError(
-                "flow is from frame to frame; take frames_per_grid 1 and speed (1, 1)"
+                "flow is from frame to frame; it needs frames_per_grid 1, speed (1, 1)"
             )
         self._place()
         self._source = find_source(self.source, self._plan.size, self.fps)
@@ -378,8 +378,8 @@ def _checked_device(name: str) -> Any:
         _torch.empty(0, device=device)
     except (RuntimeError, AssertionError) as error:
         raise ConfigError(
-            f"device is {shown(name)}, which torch cannot use ({one_line(error)}); take 'cpu', or a "
-            "GPU that torch.cuda.is_available() finds"
+            f"device is {shown(name)}, which torch cannot use ({one_line(error)}); take 'cpu', or "
+            "a GPU that torch.cuda.is_available() finds"
         ) from error
     if device.type not in ("cpu", "cuda"):
         raise ConfigError(f"device is {shown(name)}; clips are simulated on 'cpu' or 'cuda'")

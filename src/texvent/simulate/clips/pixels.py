@@ -1,10 +1,11 @@
 """Pixels of training clips: ESIM's, with noise and constants that every clip has of its own.
 
-Brightness is b = ln((I / 255)^γ + ε), a straight line between frames, and a pixel fires wherever its
-distance from the reference crosses a multiple of its threshold; the reference moves along. Noise is
-V2V's: at every frame the distance moves by a normal number, at hot pixels by a constant too.
+Brightness is b = ln((I / 255)^γ + ε), a straight line between frames, and a pixel fires wherever
+its distance from the reference crosses a multiple of its threshold; the reference moves along.
+Noise is V2V's: at every frame the distance moves by a normal number, at hot pixels by a constant
+too.
 
-Every number comes from a key per clip, and normal numbers are sums of eight random bytes: with whole
+Every number comes from a key per clip, and normal numbers are sums of random bytes: with whole
 numbers, products and quotients alone, compiled kernels of the CPU and of a GPU give equal bits.
 """
 
@@ -32,9 +33,9 @@ BYTES_MEAN, BYTES_UNIT = 1020, 1.0 / math.sqrt(8 * (2**16 - 1) / 12)
 EVEN_BYTES, BYTE_SUM = 0x00FF00FF00FF00FF, 0x0001000100010001
 """Every other byte of a word; the product with it has the sum of four 16-bit numbers on top."""
 NOISE_WORDS = 0x9E3779B9, 0x7FEB352D, 0x846CA68B
-"""Factors of the noise, whose draws are 32 bits wide so that processors make eight at once. Those of
-a frame come from its pixel's index and the two halves of a word of the frame; the last two factors
-are C. Wellons' lowbias32 (public domain)."""
+"""Factors of the noise, whose draws are 32 bits wide so that processors make eight at once. They
+come from the pixel's index and the two halves of a word of the frame; the last two factors are
+those of C. Wellons' lowbias32 (public domain)."""
 NOISE_MEAN, NOISE_UNIT = 510, 1.0 / math.sqrt(4 * (2**16 - 1) / 12)
 """Of the sum of its four bytes, as above."""
 ON_DRAW, OFF_DRAW, PHASE_DRAW, CHOICE_DRAW, HOT_DRAW, NOISE_DRAW = (

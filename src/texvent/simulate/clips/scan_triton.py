@@ -76,6 +76,54 @@ def _thresholds(numbers: tl.tensor, key: tl.tensor, y: tl.tensor, x: tl.tensor) 
 
 
 @triton.jit
+def _add_event(
+    made: tl.tuple, window: tl.tensor, event: tl.tuple, opened_us: tl.tensor, shape: tl.tuple
+) -> None:
+    """Add an event of every pixel that fires; each pixel belongs to one program."""
+    first_us, last_us, _, sums, counts, latest, _ = made
+    at, t_us, is_on, fires = event
+    area, bins = shape
+    if sums is not None:
+        begin = tl.load(first_us + window)
+        span = tl.maximum(tl.load(last_us + window) - begin, 1)
+        offset = tl.where(fires, t_us - begin, 0) * (bins - 1)
+        time_bin, after = offset // span, offset % span
+        to = sums + (window * (bins + 1) + time_bin) * area + at
+        sign = tl.where(is_on, 1, -1).to(tl.int64)
+        old = tl.load(to, mask=fires, other=0)
+        tl.store(to, old + sign * (span - after), mask=fires)
+        old = tl.load(to + area, mask=fires, other=0)
+        tl.store(to + area, old + sign * after, mask=fires)
+    pair = (window * 2 + is_on.to(tl.int64)) * area + at
+    if counts is not None:
+        old = tl.load(counts + pair, mask=fires, other=0)
+        tl.store(counts + pair, old + 1, mask=fires)
+    if latest is not None:
+        tl.store(latest + pair, (t_us - opened_us).to(tl.int32), mask=fires)
+
+
+@triton.jit
+def _count_steps(stop: tl.tensor, on: tl.tensor, off: tl.tensor, inside: tl.tensor) -> tl.tuple:
+    """Signed threshold of the polarity that a pixel may fire, and how many it crosses."""
+    reached = inside & ((stop >= on) | (stop <= -off))
+    step = tl.where(stop > 0, on, -off)
+    count = tl.floor(stop / step)
+    size, distance = tl.abs(step), tl.abs(stop)
+    # The quotient may be rounded across a whole number; what counts is the product.
+    count += tl.where(distance >= (count + 1.0) * size, 1.0, 0.0)
+    count -= tl.where(distance < count * size, 1.0, 0.0)
+    return step, tl.where(reached, count, 0.0).to(tl.int32)
+
+
+@triton.jit
+def _crossing_share(start: tl.tensor, stop: tl.tensor, level: tl.tensor, is_on: tl.tensor) -> Any:
+    slope = tl.where(stop == start, 1.0, stop - start)
+    share = tl.where(stop == start, 1.0, (level - start) / slope)
+    is_before = tl.where(is_on, start >= level, start <= level)
+    return tl.where(is_before, 0.0, tl.minimum(tl.maximum(share, 0.0), 1.0))
+
+
+@triton.jit
 def scan_clips(
     clips: tl.tuple,
     made: tl.tuple,
@@ -90,8 +138,8 @@ def scan_clips(
     Args:
         clips: frames [B, T + 1, area] uint8, times [B, T + 1] int64, and `ClipPixels`.
         made: `first_us` and `last_us` [B, W] int64, of the windows; `tally` [B, blocks] int64:
-            events of a program, then where they begin; `sums` [B, W, bins + 1, area] int64, `counts`
-            and `latest` as `ClipArrays` has them, and `words`; None where not asked for.
+            events of a program, then where they begin; `sums` [B, W, bins + 1, area] int64,
+            `counts` and `latest` as `ClipArrays` has them, and `words`; None: not asked for.
         shape: T, area, columns.
         per_window: intervals.
         bins: of a grid.
@@ -99,88 +147,50 @@ def scan_clips(
         BLOCK: pixels of a program.
     """
     pixels, times, numbers, keys, table = clips
-    first_us, last_us, tally, sums, counts, latest, words = made
     intervals, area, width = shape
     clip = tl.program_id(1).to(tl.int64)
     at = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
     inside = at < area
     numbers, key = numbers + clip * _NUMBERS, tl.load(keys + clip).to(tl.uint64, bitcast=True)
-    y, x = at // width, at % width
-    on, off, hot = _thresholds(numbers, key, y, x)
+    on, off, hot = _thresholds(numbers, key, at // width, at % width)
     noise_per_unit = tl.load(numbers + 3) * _NOISE_UNIT
     refractory_us = tl.load(numbers + 6).to(tl.int64)
     pixels, times = pixels + clip * (intervals + 1) * area + at, times + clip * (intervals + 1)
     before = tl.load(table + tl.load(pixels, mask=inside, other=0).to(tl.int32))
     reference = before
     if tl.load(numbers + 7) > 0:
-        phase = to_uniform(draw_word(key, y, x, tl.full([BLOCK], _PHASE, tl.int64)))
-        reference += off - phase * (on + off)
+        word = draw_word(key, at // width, at % width, tl.full([BLOCK], _PHASE, tl.int64))
+        reference += off - to_uniform(word) * (on + off)
     fired_us = tl.full([BLOCK], _LONG_AGO, tl.int64)
-    place = tl.full([], 0, tl.int64)
-    cell = tally + clip * tl.num_programs(0) + tl.program_id(0)
-    if PASS == _WRITE:
-        place = tl.load(cell)
+    zero = tl.full([], 0, tl.int64)
+    cell = made[2] + clip * tl.num_programs(0) + tl.program_id(0)
+    place = tl.load(cell) if PASS == _WRITE else zero
     for interval in range(intervals):
         window = clip * (intervals // per_window) + interval // per_window
-        start_us, stop_us = tl.load(times + interval), tl.load(times + interval + 1)
-        duration = (stop_us - start_us).to(tl.float64)
-        zero = tl.full([], 0, tl.int64)
-        frame_word = draw_word(key, zero, zero, zero + _NOISE + interval)
-        noise = hot
-        if noise_per_unit > 0:
-            part = noise_per_unit * _noise(at, frame_word)
-            reference -= part
-            noise = part + hot
-        reference -= hot
+        opened_us = tl.load(times + interval // per_window * per_window)
+        start_us = tl.load(times + interval)
+        duration = (tl.load(times + interval + 1) - start_us).to(tl.float64)
+        noise = noise_per_unit * _noise(at, draw_word(key, zero, zero, zero + _NOISE + interval))
+        reference = (reference - noise) - hot
         byte = tl.load(pixels + tl.cast(interval + 1, tl.int64) * area, mask=inside, other=0)
         now = tl.load(table + byte.to(tl.int32))
-        stop = now - reference
-        start = before - (reference + noise)
-        reached = inside & ((stop >= on) | (stop <= -off))
-        step = tl.where(stop > 0, on, -off)
-        count = tl.floor(stop / step)
-        size, distance = tl.abs(step), tl.abs(stop)
-        count += tl.where(distance >= (count + 1.0) * size, 1.0, 0.0)
-        count -= tl.where(distance < count * size, 1.0, 0.0)
-        number = tl.where(reached, count, 0.0).to(tl.int32)
-        slope = tl.where(stop == start, 1.0, stop - start)
-        is_on = step > 0
-        sign = tl.where(is_on, 1, -1).to(tl.int64)
+        stop, start = now - reference, before - (reference + (noise + hot))
+        step, number = _count_steps(stop, on, off, inside)
         for k in range(tl.max(number)):
-            level = (k + 1) * step
-            share = tl.where(stop == start, 1.0, (level - start) / slope)
-            is_before = tl.where(is_on, start >= level, start <= level)
-            share = tl.where(is_before, 0.0, tl.minimum(tl.maximum(share, 0.0), 1.0))
+            share = _crossing_share(start, stop, (k + 1) * step, step > 0)
             t_us = start_us + tl.minimum(tl.floor(share * duration), duration - 1.0).to(tl.int64)
             fires = (k < number) & (t_us - fired_us >= refractory_us)
             fired_us = tl.where(fires, t_us, fired_us)
-            if PASS == _COUNT:
-                tl.atomic_min(first_us + window, tl.min(tl.where(fires, t_us, 2**62)))
-                tl.atomic_max(last_us + window, tl.max(tl.where(fires, t_us, 0)))
-                place += tl.sum(fires.to(tl.int64))
-            elif PASS == _WRITE:
-                rank = tl.cumsum(fires.to(tl.int64), 0) - fires.to(tl.int64)
-                word = ((t_us * area + at) << 1) | is_on.to(tl.int64)
-                tl.store(words + place + rank, word, mask=fires)
-                place += tl.sum(fires.to(tl.int64))
+            if PASS == _ADD:
+                _add_event(made, window, (at, t_us, step > 0, fires), opened_us, (area, bins))
+            elif PASS == _COUNT:
+                tl.atomic_min(made[0] + window, tl.min(tl.where(fires, t_us, 2**62)))
+                tl.atomic_max(made[1] + window, tl.max(tl.where(fires, t_us, 0)))
             else:
-                if sums is not None:
-                    begin = tl.load(first_us + window)
-                    span = tl.maximum(tl.load(last_us + window) - begin, 1)
-                    offset = tl.where(fires, t_us - begin, 0) * (bins - 1)
-                    time_bin, after = offset // span, offset % span
-                    to = sums + (window * (bins + 1) + time_bin) * area + at
-                    old = tl.load(to, mask=fires, other=0)
-                    tl.store(to, old + sign * (span - after), mask=fires)
-                    old = tl.load(to + area, mask=fires, other=0)
-                    tl.store(to + area, old + sign * after, mask=fires)
-                pair = (window * 2 + is_on.to(tl.int64)) * area + at
-                if counts is not None:
-                    old = tl.load(counts + pair, mask=fires, other=0)
-                    tl.store(counts + pair, old + 1, mask=fires)
-                if latest is not None:
-                    opened = tl.load(times + interval // per_window * per_window)
-                    tl.store(latest + pair, (t_us - opened).to(tl.int32), mask=fires)
+                rank = tl.cumsum(fires.to(tl.int64), 0) - fires.to(tl.int64)
+                word = ((t_us * area + at) << 1) | (step > 0).to(tl.int64)
+                tl.store(made[6] + place + rank, word, mask=fires)
+            place += tl.sum(fires.to(tl.int64))
         reference += number.to(tl.float64) * step
         before = now
     if PASS == _COUNT:
@@ -237,7 +247,6 @@ def simulate_on_gpu(
             tally, ends = passed - tally, passed[:, -1].cpu().numpy()
             words = room(torch.int64, int(ends[-1]))
             scan(WRITE)
-            # Clips come one after the other: a stable sort by clip keeps the order in time.
             words = torch.cat(
                 [part.sort().values for part in words.tensor_split(ends[:-1].tolist())]
             )
