@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.training.sources import Clip, ClipSource
 
@@ -90,7 +91,8 @@ class ClipStore:
             weakref.finalize(self, _remove, self._folder, os.getpid())
         folder = self._folder / str(index)
         folder.mkdir()
-        for name, array in {"frames": clip.frames, "t": clip.times_us, **clip.truth}.items():
+        arrays: dict[str, NDArray[Any]] = {"frames": clip.frames, "t": clip.times_us, **clip.truth}
+        for name, array in arrays.items():
             np.save(folder / f"{name}.npy", array)
         self._files[index] = folder, clip.nbytes
 

@@ -52,7 +52,8 @@ class Clip:
     @property
     def nbytes(self) -> int:
         """Memory."""
-        return sum(one.nbytes for one in (self.frames, self.times_us, *self.truth.values()))
+        arrays: tuple[NDArray[Any], ...] = (self.frames, self.times_us, *self.truth.values())
+        return sum(one.nbytes for one in arrays)
 
 
 @runtime_checkable
@@ -201,7 +202,7 @@ class StoredClips:
             raise InputError(f"{folder} holds no sample yet; see texvent dataset stats")
         shard, sample = self._samples[0]
         stored = shard.files(sample).truth().parts
-        self.known_truth = tuple(name for name in TRUTH if name in stored)
+        self.known_truth: Sequence[str] = tuple(name for name in TRUTH if name in stored)
 
     def __len__(self) -> int:
         """Samples of the first variant."""
@@ -240,7 +241,9 @@ def read_clip(
         most_bytes: of the frames; those after are left out.
         truth: gives a part.
     """
-    is_linear, frames, times, room = transfer_of(video) is Transfer.LINEAR, [], [], most_bytes
+    is_linear, room = transfer_of(video) is Transfer.LINEAR, most_bytes
+    frames: list[NDArray[np.uint8]] = []
+    times: list[int] = []
     for frame in video:
         luma = frame.luma
         if luma.nbytes > room and len(frames) > 1:

@@ -338,8 +338,10 @@ def _run(
     from texvent.simulate.clips.scan_cpu import simulate_on_cpu
 
     made = simulate_on_cpu(frames.numpy(), times_us, pixels, outputs)
-    tensors = (None if one is None else _torch.from_numpy(one) for one in made[:4])
-    return ClipArrays(*tensors, made.ends)
+    grids, counts, latest, words = (
+        None if one is None else _torch.from_numpy(one) for one in made[:4]
+    )
+    return ClipArrays(grids, counts, latest, words, made.ends)
 
 
 def _events_of(made: ClipArrays, size: SensorSize) -> EventBatch:

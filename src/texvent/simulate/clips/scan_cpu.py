@@ -247,7 +247,7 @@ def _spread(
     if not grids.shape[0] or not total:
         return
     bins = grids.shape[1]
-    span = np.float64(max(last_us - first_us, 1))
+    span = np.float64(np.int64(last_us - first_us) or 1)
     for n in range(total):
         # Whole numbers below 2⁵³: exact.
         place = np.float64(found.t_us[n] - first_us) * (bins - 1)

@@ -218,7 +218,8 @@ def simulate_on_gpu(
     pairs = (count, windows, 2, height, width)
     first_us = room(torch.int64, count, windows, value=2**62)
     last_us, tally = room(torch.int64, count, windows), room(torch.int64, count, grid[0])
-    sums = counts = latest = words = ends = grids = None
+    sums: Any = None
+    counts = latest = words = ends = grids = None
     if outputs.grids:
         sums = room(torch.int64, count, windows, outputs.bins + 1, height, width)
     if outputs.counts:
