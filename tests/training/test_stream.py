@@ -5,6 +5,8 @@ from __future__ import annotations
 import gc
 import itertools
 import pickle
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -256,3 +258,21 @@ def test_ranges_that_nothing_can_be_drawn_from_are_refused(ranges, message):
 def test_the_state_of_another_stream_is_refused(folder):
     with pytest.raises(ConfigError, match="seed 3"):
         EventStream(folder, **SMALL).load_state_dict({"seed": 3, "next": 4})
+
+
+def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
+    page = Path(__file__).parents[2] / "docs" / "training.md"
+    (recipe,) = re.findall(r"```text\n(import itertools.*?)```", page.read_text("utf-8"), re.DOTALL)
+    small = {
+        '"videos", batch=12, frames=40, size=(128, 128)': f"{str(folder)!r}, **SMALL",
+        'device="cuda"': 'device="cpu"',
+        "10_000": "2",
+    }
+    for large, tiny in small.items():
+        assert large in recipe
+        recipe = recipe.replace(large, tiny)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(recipe, "recipe", "exec"), {"SMALL": SMALL})
+    state = torch.load("checkpoint.pt")["stream"]
+    EventStream(folder, **SMALL).load_state_dict(state)
+    assert state["next"] == 2
