@@ -1,4 +1,4 @@
-"""Sources of training clips: prompts and data sets bring their truth, at the times of the frames."""
+"""Sources of training clips: prompts and data sets bring truth at the times of frames."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ def source(request, tmp_path_factory):
     if request.param == "prompts":
         return PromptClips(["a red car drives left", "a red ball falls"], sensor="32x24",
                            duration=0.1, seed=3)  # fmt: skip
-    folder = make_set(tmp_path_factory.mktemp("set") / "cars", truth=list(TRUTH), variants={}, splits={},
+    folder = make_set(tmp_path_factory.mktemp("set") / "cars", truth=list(TRUTH),
+                      variants={}, splits={"train": 1.0},
                       sources=[{"prompts": ["a red car drives left", "a red bus drives left"]}],
                       options={"duration": 0.1, "sensor": "32x24"})  # fmt: skip
     return find_source(folder, SIZE)

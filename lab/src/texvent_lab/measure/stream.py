@@ -17,7 +17,7 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -86,7 +86,7 @@ def simulate_plainly(
     is_hot = rng.random(shape) < drawn["hot_fraction"]
     hot = np.where(is_hot, drawn["hot_noise"] * rng.standard_normal(shape), 0.0)
     counts = []
-    for before, now in zip(brightness[:-1], brightness[1:], strict=True):
+    for before, now in pairwise(brightness):
         noise = drawn["noise"] * rng.standard_normal(shape)
         potential = potential + (now - before) + noise + hot
         up = np.where(potential >= on, np.floor(potential / on), 0.0)
