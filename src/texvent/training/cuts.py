@@ -16,7 +16,7 @@ from texvent.truth.boxes import clip_boxes, detection_target
 
 
 class CutPlan(NamedTuple):
-    """What every cut of a stream has in common."""
+    """Properties that every cut of a stream has."""
 
     size: SensorSize
     intervals: int

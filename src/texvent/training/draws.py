@@ -98,10 +98,10 @@ RANGES: Mapping[str, ClipRanges] = MappingProxyType({"v2v": ClipRanges(), "none"
 
 
 class ClipDraw(NamedTuple):
-    """What is drawn of one clip, whatever video it is of."""
+    """Draws of one clip, whatever video it is cut from."""
 
     key: np.uint64
-    """Of its pixels."""
+    """Key of its pixels."""
     numbers: NDArray[np.float64]
     """[8], a row of `clips.pixels.ClipPixels.numbers`."""
     is_flipped: bool

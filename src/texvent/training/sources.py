@@ -64,7 +64,7 @@ class ClipSource(Protocol):
     """Truth that `read` can bring, of `TRUTH`."""
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Number of videos."""
         ...
 
     def name(self, index: int) -> str:

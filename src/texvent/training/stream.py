@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -50,7 +50,7 @@ class Batch:
     """B clips of W frames each, on the device of the stream."""
 
     number: int
-    """Of the batch in the stream of all ranks, from 0."""
+    """Number of the batch in the stream of all ranks, from 0."""
     first: Tensor
     """[B, H, W] uint8: the frame at which events begin."""
     frames: Tensor
@@ -114,17 +114,17 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     frames_per_grid: int = 1
     """Frames of the video from one grid to the next; V2V takes as many as bins."""
     outputs: Sequence[str] = ("grids",)
-    """What is made of `Batch`'s grids, counts, surfaces and events."""
+    """Parts of a `Batch` to make: grids, counts, surfaces, events."""
     tau_us: int = 30_000
     """Decay time of surfaces, µs."""
     device: str = "cpu"
-    """Of the tensors; "cuda" simulates there."""
+    """Device of the tensors; "cuda" simulates there."""
     randomize: str | ClipRanges = "v2v"
-    """What is drawn per clip: "v2v", "none" (the place in the video alone), or ranges."""
+    """Draws per clip: "v2v", "none" (the place in the video alone), or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0
-    """Of all draws, 0..2⁶³−1."""
+    """Seed of all draws, 0..2⁶³−1."""
     memory: int = 2 * GIB
     """Bytes of decoded clips in memory. Of a longer video than half of it, the beginning counts."""
     disk: int = 16 * GIB
@@ -172,7 +172,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         self._check_some()
 
     def state_dict(self) -> dict[str, int]:
-        """Where the stream is: the same for all ranks that have taken as many batches."""
+        """Place in the stream: the same for all ranks that have taken as many batches."""
         return {"seed": self.seed, "next": self._next}
 
     def load_state_dict(self, state: Mapping[str, int]) -> None:
@@ -188,7 +188,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         check_whole("next", state.get("next"), 0)
         self._next = int(state["next"])
 
-    def __iter__(self) -> Iterator[Batch]:
+    def __iter__(self) -> Generator[Batch, None, None]:
         """Batches of this rank and worker, from where the stream is."""
         rank, world = self._place()
         info = _data.get_worker_info()
@@ -330,7 +330,7 @@ _order = lru_cache(maxsize=4)(order_of_pass)
 def _run(
     frames: Tensor, times_us: NDArray[np.int64], pixels: ClipPixels, outputs: ClipOutputs
 ) -> ClipArrays:
-    """What the clips give, on the device of the frames."""
+    """Arrays of the clips, on the device of the frames."""
     if frames.device.type != "cpu":
         from texvent.simulate.clips.scan_triton import simulate_on_gpu
 

@@ -69,7 +69,7 @@ class Textures:
         rng = np.random.default_rng(index)
         film = rng.random((self._side, self._side + self._count))
         for axis in (0, 1, 0, 1):
-            film = sum(np.roll(film, shift, axis) for shift in range(-3, 4)) / 7
+            film = np.mean([np.roll(film, shift, axis) for shift in range(-3, 4)], axis=0)
         film = np.clip(128 + (film - film.mean()) / film.std() * 50, 0, 255).astype(np.uint8)
         frames = [film[:, at : at + self._side] for at in range(self._count)]
         return Clip(np.stack(frames), np.arange(self._count) * 41_667)

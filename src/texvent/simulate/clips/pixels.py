@@ -37,7 +37,7 @@ NOISE_WORDS = 0x9E3779B9, 0x7FEB352D, 0x846CA68B
 come from the pixel's index and the two halves of a word of the frame; the last two factors are
 those of C. Wellons' lowbias32 (public domain)."""
 NOISE_MEAN, NOISE_UNIT = 510, 1.0 / math.sqrt(4 * (2**16 - 1) / 12)
-"""Of the sum of its four bytes, as above."""
+"""Mean and unit of the sum of its four bytes, as above."""
 ON_DRAW, OFF_DRAW, PHASE_DRAW, CHOICE_DRAW, HOT_DRAW, NOISE_DRAW = (
     int(one)
     for one in (
@@ -76,7 +76,7 @@ def byte_brightness(gamma: float, log_eps: float) -> Float64Array:
 
 @dataclass(frozen=True, kw_only=True)
 class ClipOutputs:
-    """What is made of a batch.
+    """Arrays that are made of a batch.
 
     Raises:
         ConfigError: a number is out of range.
@@ -101,7 +101,7 @@ class ClipOutputs:
 
 
 class ClipArrays(NamedTuple):
-    """What a batch gives: NumPy arrays or torch tensors; W windows. None: not asked for."""
+    """Arrays of a batch: NumPy arrays or torch tensors; W windows. None: not asked for."""
 
     grids: Any
     """[B, W, bins, H, W] float32, events (signed)."""

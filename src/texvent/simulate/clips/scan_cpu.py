@@ -59,7 +59,7 @@ def simulate_on_cpu(
     clips: ClipPixels,
     outputs: ClipOutputs,
 ) -> ClipArrays:
-    """What the clips give, each in a thread; arguments as `pixels.check_clips` wants them.
+    """Arrays of the clips, each made in a thread; arguments as `pixels.check_clips` wants them.
 
     Returns:
         NumPy arrays.
