@@ -1,5 +1,6 @@
 from texvent import dataset as dataset
 from texvent import pixel_models as pixel_models
+from texvent import training as training
 from texvent._version import __version__ as __version__
 from texvent.api import compare as compare
 from texvent.api import generate as generate

@@ -43,6 +43,7 @@ PUBLIC = {
     "sensors",
     "simulate",
     "simulators",
+    "training",
     "video",
 }
 HEAVY = ("torch", "numba", "cv2", "av", "h5py", "tyro", "rich")

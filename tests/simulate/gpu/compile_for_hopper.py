@@ -16,14 +16,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 import triton
 from triton.backends.compiler import GPUTarget
 from triton.runtime import driver
 from triton.runtime.jit import JITFunction
 
+from texvent.simulate.clips import scan_triton
+from texvent.simulate.clips.pixels import ClipOutputs, ClipPixels
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu import engine
+from texvent.simulate.random.draws import frame_keys
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 TOOL = Path(triton.__file__).parent / "backends" / "nvidia" / "bin" / "cuobjdump"
@@ -41,6 +45,7 @@ USUAL = (2, 4, 260, 346)
 ODD = (1, 2, 5, 7)
 """[B, T, H, W] with one interval, and rows that align with nothing."""
 ONE = (1, 3, 1, 1)
+EVERYTHING = ClipOutputs(counts=True, latest=True, events=True)
 CASES = [
     *((name, torch.uint8, USUAL) for name in CONFIGS),
     *((name, torch.float32, USUAL) for name in ("paper", "linear", "esim")),
@@ -86,13 +91,21 @@ def compile_all() -> dict[str, dict[str, int]]:
 
     JITFunction.run = compile_only
     driver.set_active(Hopper())
-    engine.check_device = lambda device: None
+    engine.check_device = scan_triton.check_device = lambda device: None
     # The counts that no kernel has written: one event everywhere.
     torch.empty = torch.ones
     for name, dtype, shape in CASES:
         where = f"{name}, {dtype}, {list(shape)}"
         frames = torch.zeros(shape, dtype=dtype)
         engine.GpuSimulator(CONFIGS[name]).step(frames, range(shape[1]))
+    for shape in (USUAL, ODD):
+        where, (count, steps) = f"clips, {list(shape)}", shape[:2]
+        pixels = ClipPixels(np.ones((count, 8)), frame_keys(0, np.arange(count)), np.ones(256))
+        times_us = np.tile(np.arange(steps), (count, 1))
+        for outputs in (EVERYTHING, ClipOutputs(bins=1)):
+            scan_triton.simulate_on_gpu(
+                torch.zeros(shape, dtype=torch.uint8), times_us, pixels, outputs
+            )
     return usage
 
 

@@ -33,6 +33,7 @@ def test_every_kernel_compiles_for_hopper_without_spilling_registers(tmp_path):
         "timestamp_events",
         "unpack_events",
         "scan_brightness",
+        "scan_clips",
         "scan_levels",
         "scan_ramp",
     }

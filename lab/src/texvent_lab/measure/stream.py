@@ -1,0 +1,166 @@
+"""Clips per hour of the training stream, beside a plain NumPy simulator in the same run.
+
+    python -m texvent_lab.measure.stream [--device cuda] [--json FILE]
+
+Clips of 40 frames and 128x128 px with grids of 5 bins, from 8-bit clips in memory, everything drawn
+as V2V draws it; a grid spans five frames of the video, so that a clip has 200 intervals. The plain
+simulator is V2V's model, written down as arrays: one frame after the other, in one thread. On a CPU
+both are timed by the seconds of one core that they take, so that a busy machine counts little; on a
+GPU the stream by the clock.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice, pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.extending import require
+from texvent.training import Clip, EventStream
+from texvent_lab.bench.document import describe_environment, write_document
+from texvent_lab.measure.speed.timing import quartiles, rounded
+
+HOUR = 3600.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Sizes and repeats."""
+
+    batch: int = 12
+    frames: int = 40
+    side: int = 128
+    bins: int = 5
+    repeats: int = 5
+    """Batches that are timed; one before them is not."""
+    plain: int = 3
+    """Clips of the plain simulator."""
+
+
+class Textures:
+    """Blurred textures that slide by a pixel a frame, a little larger than the crops."""
+
+    known_truth: Sequence[str] = ()
+
+    def __init__(self, plan: Plan) -> None:
+        """Textures as long as a clip of the plan."""
+        self._count = plan.frames * plan.bins + 1
+        self._side = plan.side + 16
+
+    def __len__(self) -> int:
+        """Few, so that none is made twice."""
+        return 4
+
+    def name(self, index: int) -> str:
+        """Its number."""
+        return f"texture {index}"
+
+    def read(self, index: int, truth: Sequence[str], most_bytes: int) -> Clip:
+        """See `texvent.training.ClipSource`."""
+        rng = np.random.default_rng(index)
+        film = rng.random((self._side, self._side + self._count))
+        for axis in (0, 1, 0, 1):
+            film = np.mean([np.roll(film, shift, axis) for shift in range(-3, 4)], axis=0)
+        film = np.clip(128 + (film - film.mean()) / film.std() * 50, 0, 255).astype(np.uint8)
+        frames = [film[:, at : at + self._side] for at in range(self._count)]
+        return Clip(np.stack(frames), np.arange(self._count) * 41_667)
+
+
+def simulate_plainly(
+    frames: NDArray[np.uint8], drawn: dict[str, float], bins: int, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """Signed counts per pixel and interval, [W, bins, H, W], of a potential per pixel."""
+    on, off = drawn["threshold_on"], drawn["threshold_off"]
+    shape = frames.shape[1:]
+    brightness = np.log(1e-3 + (frames / 255.0) ** 2.2)
+    potential = rng.random(shape) * (on + off) - off
+    is_hot = rng.random(shape) < drawn["hot_fraction"]
+    hot = np.where(is_hot, drawn["hot_noise"] * rng.standard_normal(shape), 0.0)
+    counts = []
+    for before, now in pairwise(brightness):
+        noise = drawn["noise"] * rng.standard_normal(shape)
+        potential = potential + (now - before) + noise + hot
+        up = np.where(potential >= on, np.floor(potential / on), 0.0)
+        down = np.where(potential <= -off, np.floor(-potential / off), 0.0)
+        potential = potential - up * on + down * off
+        counts.append(up - down)
+    return np.stack(counts).reshape(-1, bins, *shape).astype(np.float32)
+
+
+def measure(plan: Plan, device: str) -> dict[str, Any]:
+    """All figures, ready for JSON."""
+    torch = require("torch", extra="torch")
+    is_cpu = device == "cpu"
+    clock = time.process_time if is_cpu else time.perf_counter
+
+    def wait() -> None:
+        if not is_cpu:
+            torch.cuda.synchronize()
+
+    stream = EventStream(
+        Textures(plan), batch=plan.batch, frames=plan.frames, size=(plan.side, plan.side),
+        bins=plan.bins, frames_per_grid=plan.bins, outputs=("grids", "counts"), device=device,
+    )  # fmt: skip
+    batches = iter(stream)
+    first = next(batches)
+    wait()
+    begin = clock()
+    times, events = [], []
+    for batch in islice(batches, plan.repeats):
+        wait()
+        times.append(clock() - begin)
+        events.append(float(batch.counts.sum()) / plan.batch)
+        begin = clock()
+    batches.close()
+    plain, rng = [], np.random.default_rng(0)
+    frames = Textures(plan).read(0, (), 0).frames[:, : plan.side, : plan.side]
+    for clip in range(plan.plain):
+        drawn = {name: float(values[clip]) for name, values in first.draws.items()}
+        begin = time.process_time()
+        simulate_plainly(frames, drawn, plan.bins, rng)
+        plain.append(time.process_time() - begin)
+    per_clip = quartiles([one / plan.batch for one in times])
+    reference = quartiles(plain)
+    return {
+        "schema": 1,
+        "environment": describe_environment(),
+        "device": device if is_cpu else torch.cuda.get_device_name(),
+        "load_average": rounded(os.getloadavg()[0]),
+        "clip": {"frames": plan.frames, "side": plan.side, "bins": plan.bins},
+        "events_per_clip": rounded(float(np.mean(events))),
+        "stream_s_per_clip": per_clip,
+        "stream_clips_per_hour": rounded(HOUR / per_clip["median"]),
+        "plain_s_per_clip": reference,
+        "plain_clips_per_hour": rounded(HOUR / reference["median"]),
+        "ratio": rounded(reference["median"] / per_clip["median"]),
+    }
+
+
+def main() -> int:
+    """Measure, print, write; 2 without the device."""
+    parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.stream")
+    parser.add_argument("--device", default="cpu")
+    parser.add_argument("--json", type=Path, help="write the figures here")
+    chosen = parser.parse_args()
+    if chosen.device != "cpu" and not require("torch", extra="torch").cuda.is_available():
+        print("nothing was measured: torch finds no GPU", file=sys.stderr)
+        return 2
+    document = measure(Plan(), chosen.device)
+    if chosen.json is not None:
+        write_document(chosen.json, document, overwrite=True)
+    for name, value in document.items():
+        print(f"{name}: {value}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,154 @@
+"""Draws of a training clip: its pixels, its place in a video, its flip, pauses and speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.config import check_range
+from texvent.errors import ConfigError, shown
+from texvent.simulate.model_options import RATIO_LIMIT, THRESHOLDS
+from texvent.simulate.random.draws import draw_uniforms, frame_key
+
+Limits: TypeAlias = tuple[float, float]
+"""The lowest and the highest value, both possible; draws are uniform between them."""
+
+_ALLOWED: Mapping[str, Limits] = MappingProxyType(
+    {
+        "threshold": (0.01, 10.0),
+        "ratio": (1.0, 10.0),
+        "mismatch": (0.0, 1.0),
+        "noise": (0.0, 10.0),
+        "hot_fraction": (0.0, 1.0),
+        "hot_noise": (0.0, 10.0),
+        "refractory_us": (0, 10**6),
+        "speed": (1, 1000),
+        "pause": (0.0, 1.0),
+        "flip": (0.0, 1.0),
+        "gamma": (0.1, 10.0),
+        "log_eps": (1e-9, 1.0),
+    }
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClipRanges:
+    """Ranges that the pixels and the motion of every clip are drawn from; V2V's by default.
+
+    Raises:
+        ConfigError: a limit is out of range, or the lower one is above the higher.
+
+    Source: V2V, "Scaling event-based vision through efficient video-to-voxel simulation", NeurIPS
+        2025, and the defaults of its program. It has no mismatch, refractory period or speed.
+    """
+
+    threshold: Limits = THRESHOLDS["v2v"][:2]
+    """Smaller contrast threshold, log units."""
+    ratio: Limits = (1.0, RATIO_LIMIT)
+    """The larger threshold by the smaller; which polarity has it is drawn too."""
+    mismatch: Limits = (0.0, 0.0)
+    """Standard deviation of thresholds between pixels, a share of the threshold."""
+    noise: Limits = (0.0, 0.2)
+    """Standard deviation of what brightness moves by at every frame, log units."""
+    hot_fraction: Limits = (0.0, 0.001)
+    """Share of hot pixels."""
+    hot_noise: Limits = (0.0, 0.2)
+    """Standard deviation of what a hot pixel moves by, the same at every frame, log units."""
+    refractory_us: Limits = (0, 0)
+    """Refractory period, µs."""
+    speed: tuple[int, int] = (1, 1)
+    """Playback speed: so many frames of the video are one step, at the video's frame rate."""
+    pause: Limits = (0.01, 0.98)
+    """Probability that the video pauses at a frame, and that a pause goes on."""
+    flip: float = 0.5
+    """Probability of a mirrored clip."""
+    gamma: float = 2.2
+    """γ of the video: brightness is ln((I / 255)^γ + ε)."""
+    log_eps: float = 1e-3
+    """ε of that."""
+    has_phase: bool = True
+    """References begin anywhere between the two thresholds, not at the first frame."""
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if one.name not in _ALLOWED:
+                continue
+            is_pair = isinstance(value, tuple | list)
+            if is_pair == (one.name in ("flip", "gamma", "log_eps")) or len(np.ravel(value)) > 2:
+                wanted = "one number" if is_pair else "two numbers, the lowest and the highest"
+                raise ConfigError(f"{one.name} is {shown(value)}; it must be {wanted}")
+            for limit in value if is_pair else (value,):
+                check_range(one.name, limit, *_ALLOWED[one.name])
+            if is_pair and one.name != "pause" and value[0] > value[-1]:
+                raise ConfigError(f"{one.name} is {shown(value)}; give the lowest value first")
+
+
+NO_DRAWS = ClipRanges(
+    threshold=(0.2, 0.2), ratio=(1.0, 1.0), noise=(0.0, 0.0), hot_fraction=(0.0, 0.0),
+    hot_noise=(0.0, 0.0), pause=(0.0, 0.0), flip=0.0, has_phase=False,
+)  # fmt: skip
+RANGES: Mapping[str, ClipRanges] = MappingProxyType({"v2v": ClipRanges(), "none": NO_DRAWS})
+"""By name; of "none", only the place in the video is drawn."""
+
+
+class ClipDraw(NamedTuple):
+    """Draws of one clip, whatever video it is cut from."""
+
+    key: np.uint64
+    """Key of its pixels."""
+    numbers: NDArray[np.float64]
+    """[8], a row of `clips.pixels.ClipPixels.numbers`."""
+    is_flipped: bool
+    speed: float
+    """A chance, 0..1."""
+    place: NDArray[np.float64]
+    """[3] chances of its first frame, row and column."""
+    is_paused: NDArray[np.bool_]
+    """[T] whether an interval shows the same frame again."""
+
+
+def draw_clip(ranges: ClipRanges, seed: int, number: int, intervals: int) -> ClipDraw:
+    """The draws of clip `number` of a stream: of seed and number alone.
+
+    Args:
+        ranges: where from.
+        seed: of the stream.
+        number: of the clip, from 0.
+        intervals: T.
+    """
+    key = frame_key(seed, number)
+    chance = draw_uniforms(key, 0, 0, np.arange(14))
+
+    def value(name: str, at: int) -> float:
+        low, high = getattr(ranges, name)
+        return float(low + chance[at] * (high - low))
+
+    thresholds = [value("threshold", 0)] * 2
+    thresholds[int(chance[2] < 0.5)] *= value("ratio", 1)
+    names = ("mismatch", "noise", "hot_fraction", "hot_noise", "refractory_us")
+    drawn = [value(name, 3 + at) for at, name in enumerate(names)]
+    is_paused = np.zeros(intervals, np.bool_)
+    paused = False
+    for at, one in enumerate(draw_uniforms(key, 0, 1, np.arange(intervals))):
+        is_paused[at] = paused = bool(one < ranges.pause[int(paused)])
+    return ClipDraw(
+        key,
+        np.array([*thresholds, *drawn, float(ranges.has_phase)]),
+        bool(chance[8] < ranges.flip),
+        float(chance[9]),
+        chance[10:13],
+        is_paused,
+    )
+
+
+def order_of_pass(seed: int, number: int, count: int) -> NDArray[np.int64]:
+    """Order in which a pass shows `count` sources: another one in every pass."""
+    at = np.arange(count)
+    words = draw_uniforms(frame_key(seed, -3 - number), at >> 16, at & 0xFFFF, 0)
+    return np.argsort(words, kind="stable")

@@ -1,0 +1,92 @@
+"""Sources of training clips: prompts and data sets bring truth at the times of frames."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.dataset.conftest import make_set
+
+from texvent.errors import ConfigError, InputError
+from texvent.sensor import SensorSize
+from texvent.training.clip_store import ClipStore
+from texvent.training.sources import TRUTH, PromptClips, VideoClips, find_source
+
+SIZE = SensorSize(16, 12)
+MOST = 10**9
+
+
+@pytest.fixture(scope="module", params=["prompts", "data set"])
+def source(request, tmp_path_factory):
+    """The same kind of scene in both kinds of sources that know their truth."""
+    if request.param == "prompts":
+        return PromptClips(["a red car drives left", "a red ball falls"], sensor="32x24",
+                           duration=0.1, seed=3)  # fmt: skip
+    folder = make_set(tmp_path_factory.mktemp("set") / "cars", truth=list(TRUTH),
+                      variants={}, splits={"train": 1.0},
+                      sources=[{"prompts": ["a red car drives left", "a red bus drives left"]}],
+                      options={"duration": 0.1, "sensor": "32x24"})  # fmt: skip
+    return find_source(folder, SIZE)
+
+
+def test_truth_is_of_the_frames(source):
+    assert tuple(source.known_truth) == TRUTH
+    assert len(source) >= 2
+    clip = source.read(0, TRUTH, MOST)
+    count = len(clip.times_us)
+    assert clip.frames.shape == (count, 24, 32)
+    assert clip.frames.dtype == np.uint8
+    assert np.ptp(clip.frames) > 50
+    assert clip.truth["flow"].shape == (count - 1, 2, 24, 32)
+    assert clip.truth["depth"].shape == (count, 24, 32)
+    assert set(clip.truth["boxes"]["t"]) <= set(clip.times_us)
+    assert len(clip.truth["boxes"])
+    # What moves by the flow looks alike there.
+    flow = clip.truth["flow"][0]
+    assert np.nanmax(np.abs(flow)) > 0.5
+
+
+def test_reading_again_gives_the_same_and_a_bound_gives_the_beginning(source):
+    whole, again = (source.read(1, ("depth",), MOST) for _ in range(2))
+    assert np.array_equal(whole.frames, again.frames)
+    part = source.read(1, ("depth",), 2 * 24 * 32)
+    assert np.array_equal(part.frames, whole.frames[: len(part.frames)])
+    assert len(part.truth["depth"]) == len(part.frames) == 2
+
+
+def test_clips_come_back_from_disk_with_their_truth(source):
+    size = source.read(0, TRUTH, MOST).nbytes
+    store = ClipStore(source, TRUTH, size, 4 * size)
+    first = store.get(0)
+    store.get(1)
+    again = store.get(0)
+    assert isinstance(again.frames, np.memmap)
+    assert np.array_equal(again.frames, first.frames)
+    assert np.array_equal(again.truth["boxes"], first.truth["boxes"])
+
+
+def test_lists_of_prompts_are_rendered_at_the_size_of_the_crops(tmp_path):
+    names = tmp_path / "prompts.txt"
+    names.write_text("a red car drives left\na red ball falls\n")
+    found = find_source(str(names), SIZE)
+    assert isinstance(found, PromptClips)
+    assert len(found) == 2
+    assert "a red car" in found.name(0)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: PromptClips("a red ball"), "a list, even of one"),
+        (lambda: PromptClips(["a red ball"], sensr="8x8"), "sensr"),
+        (lambda: VideoClips(["a.mp4"], fps=-2), "fps is -2"),
+        (lambda: find_source({"a"}, SIZE), "got set"),
+    ],
+)
+def test_sources_that_cannot_be_are_refused(make, message):
+    with pytest.raises(ConfigError, match=message):
+        make()
+
+
+def test_an_empty_folder_is_refused(tmp_path):
+    with pytest.raises(InputError, match="holds no video"):
+        find_source(tmp_path, SIZE)

@@ -1,0 +1,278 @@
+"""The training stream: the same for any ranks, drawn per clip, true, bounded, patient."""
+
+from __future__ import annotations
+
+import gc
+import itertools
+import pickle
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError, TexventWarning
+from texvent.represent.time_surface import time_surface
+from texvent.represent.voxel_grid import voxel_e2vid
+
+from .written import HEIGHT, STEP, WIDTH, Sliding, write_folders
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+from texvent.training import ClipRanges, EventStream  # noqa: E402
+
+SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
+WIDE = ClipRanges(
+    threshold=(0.1, 0.4), ratio=(1.0, 2.0), mismatch=(0.0, 0.1), noise=(0.0, 0.1),
+    hot_fraction=(0.0, 0.1), hot_noise=(0.1, 0.5), refractory_us=(0, 20_000), speed=(1, 2),
+)  # fmt: skip
+PASSES = 6
+"""Batches that are compared."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return write_folders(tmp_path_factory.mktemp("videos"))
+
+
+@pytest.fixture(scope="module")
+def batches(folder):
+    """The first batches of a stream with everything drawn and made."""
+    outputs = ("grids", "counts", "surfaces", "events")
+    return take(EventStream(folder, randomize=WIDE, outputs=outputs, **SMALL), 10)
+
+
+def take(stream: Any, count: int) -> list[Any]:
+    return list(itertools.islice(stream, count))
+
+
+def prints(batches: Any) -> dict[int, bytes]:
+    """Number of each batch → all of its frames and grids."""
+    return {
+        one.number: one.frames.numpy().tobytes() + one.grids.numpy().tobytes() for one in batches
+    }
+
+
+@pytest.mark.parametrize(("world", "workers"), [(2, 0), (3, 0), (1, 2), (2, 2)])
+def test_equal_seeds_give_equal_batches_on_any_ranks_and_workers(folder, world, workers):
+    expected = prints(take(EventStream(folder, seed=5, **SMALL), PASSES))
+    assert len(set(expected.values())) == PASSES
+    found: dict[int, bytes] = {}
+    for rank in range(world):
+        stream = EventStream(folder, seed=5, rank=rank, world=world, **SMALL)
+        loader = torch.utils.data.DataLoader(
+            stream, batch_size=None, num_workers=workers, collate_fn=lambda one: one
+        )
+        own = take(loader, PASSES // world)
+        assert [one.number for one in own] == list(range(rank, PASSES, world))
+        found |= prints(own)
+    assert found == expected
+
+
+@pytest.mark.parametrize(("before", "after"), [(1, 1), (2, 1), (1, 2), (2, 3)])
+def test_a_stream_goes_on_where_its_state_was_saved(folder, before, after):
+    expected = prints(take(EventStream(folder, **SMALL), 10))
+    streams = [EventStream(folder, rank=r, world=before, **SMALL) for r in range(before)]
+    found = prints(one for stream in streams for one in take(stream, 2))
+    (state,) = {tuple(stream.state_dict().items()) for stream in streams}
+    for rank in range(after):
+        stream = EventStream(folder, rank=rank, world=after, **SMALL)
+        stream.load_state_dict(dict(state))
+        found |= prints(take(stream, 2))
+    assert found == {number: expected[number] for number in range(2 * before + 2 * after)}
+
+
+def test_a_second_loop_goes_on_after_the_first_and_so_does_a_copy(folder):
+    stream = EventStream(folder, **SMALL)
+    expected = prints(take(EventStream(folder, **SMALL), 3))
+    found = prints(take(stream, 1))
+    found |= prints(take(pickle.loads(pickle.dumps(stream)), 1))
+    found |= prints(itertools.islice(stream, 1, 2))
+    assert found == expected
+
+
+def test_arrays_are_the_representations_of_the_events_of_the_batch(batches):
+    for batch in batches[:2]:
+        for clip, events in enumerate(batch.events):
+            edges = batch.times_us[clip].tolist()
+            stream = events.as_columns()
+            for window, (start, stop) in enumerate(itertools.pairwise(edges)):
+                inside = (stream.t >= start) & (stream.t < stop)
+                part = type(events).unchecked(
+                    *(getattr(events, name)[inside] for name in "xytp"), size=events.size
+                )
+                assert torch.equal(batch.grids[clip, window], voxel_e2vid(part, bins=5))
+                assert int(batch.counts[clip, window].sum()) == len(part)
+                expected = time_surface(part, at_us=stop)
+                assert torch.allclose(batch.surfaces[clip, window], expected)
+
+
+def test_every_range_is_drawn_from_for_each_clip(batches):
+    drawn = {
+        name: np.concatenate([batch.draws[name] for batch in batches]) for name in batches[0].draws
+    }
+    for name in ("mismatch", "noise", "hot_fraction", "hot_noise", "refractory_us"):
+        low, high = getattr(WIDE, name)
+        assert len(np.unique(drawn[name])) == len(drawn[name]), name
+        assert low <= drawn[name].min() < low + 0.2 * (high - low), name
+        assert high >= drawn[name].max() > high - 0.2 * (high - low), name
+    on, off = drawn["threshold_on"], drawn["threshold_off"]
+    ratio = np.maximum(on, off) / np.minimum(on, off)
+    assert np.minimum(on, off).min() >= 0.1
+    assert np.minimum(on, off).max() <= 0.4
+    assert 1.0 <= ratio.min() < 1.3
+    assert 1.7 < ratio.max() <= 2.0
+    assert (on > off).any()
+    assert (on < off).any()
+    assert set(drawn["speed"]) == {1, 2}
+    assert set(drawn["is_flipped"]) == {False, True}
+    for name in ("start", "top", "left"):
+        assert len(np.unique(drawn[name])) > 3, name
+    # As many of each source, to within the pass that has begun.
+    assert np.ptp(np.bincount(drawn["source"])) <= 1
+
+
+def test_thresholds_reach_the_events(folder):
+    numbers = []
+    for limit in (0.2, 0.6):
+        ranges = ClipRanges(threshold=(limit, limit), noise=(0, 0), pause=(0, 0))
+        batch = take(EventStream(folder, randomize=ranges, outputs="counts", **SMALL), 1)[0]
+        assert batch.grids is None
+        numbers.append(int(batch.counts.sum()))
+    assert numbers[1] < 0.6 * numbers[0]
+
+
+def test_flips_crops_and_pauses_keep_the_truth_of_a_clip():
+    ranges = ClipRanges(pause=(0.3, 0.5))
+    stream = EventStream(Sliding(), randomize=ranges, truth=("flow", "depth", "boxes"), **SMALL)
+    seen = set()
+    for batch in take(stream, 6):
+        frames = torch.cat([batch.first[:, None], batch.frames], 1).numpy()
+        assert np.array_equal(batch.truth["depth"], frames[:, 1:].astype(np.float32))
+        for clip, window in np.ndindex(SMALL["batch"], SMALL["frames"]):
+            flow = batch.truth["flow"][clip, window].numpy()
+            moved, (before, now) = int(flow[0, 0, 0]), frames[clip, window : window + 2]
+            assert (flow[0] == moved).all()
+            assert not flow[1].any()
+            if moved > 0:
+                assert np.array_equal(before[:, :-moved], now[:, moved:])
+            elif moved < 0:
+                assert np.array_equal(before[:, -moved:], now[:, :moved])
+            else:
+                assert np.array_equal(before, now)
+            seen.add(moved)
+            boxes = batch.truth["boxes"][clip][window]["boxes"].numpy()
+            assert (boxes >= 0).all()
+            assert (boxes <= [16, 12, 16, 12]).all()
+    assert seen == {-STEP, 0, STEP}
+
+
+def test_boxes_lie_where_their_objects_are_in_a_mirrored_crop():
+    whole = {**SMALL, "size": (WIDTH, HEIGHT)}
+    stream = EventStream(Sliding(), randomize="none", truth="boxes", **whole)
+    mirror = EventStream(
+        Sliding(), randomize=ClipRanges(flip=1.0, pause=(0, 0)), truth="boxes", **whole
+    )
+    for straight, turned in zip(take(stream, 2), take(mirror, 2), strict=True):
+        for one, other in zip(straight.truth["boxes"][0], turned.truth["boxes"][0], strict=True):
+            assert torch.equal(WIDTH - one["boxes"][:, [2, 0]], other["boxes"][:, [0, 2]])
+
+
+def test_decoded_clips_stay_within_memory_and_disk_and_leave_no_folder(folder):
+    size = 12 * HEIGHT * WIDTH + 12 * 8
+    stream = EventStream(folder, memory=2 * size, disk=size, **SMALL)
+    expected = prints(take(EventStream(folder, **SMALL), 6))
+    found = {}
+    for batch in itertools.islice(stream, 6):
+        found |= prints([batch])
+        assert stream._store.memory_bytes <= 2 * size
+        assert stream._store.disk_bytes <= size
+    assert found == expected
+    place = stream._store._folder
+    assert len(list(place.iterdir())) == 1
+    del stream
+    gc.collect()
+    assert not place.exists()
+
+
+def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass(tmp_path):
+    write_folders(tmp_path, 2)
+    write_folders(tmp_path / "short", 1, frames=3)
+    (tmp_path / "short" / "clip0").rename(tmp_path / "clip7")
+    (tmp_path / "short").rmdir()
+    (tmp_path / "clip1" / "005.png").write_bytes(b"\x89PNG broken")
+    stream = EventStream(tmp_path, **SMALL)
+    with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
+        found = take(stream, 4)
+    assert len(told) == 1
+    assert {int(source) for batch in found for source in batch.draws["source"]} == {0}
+    assert len(stream.skipped) == 2
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"size": (64, 8)}, InputError, "30x20, smaller than crops of 64x8"),
+        ({"frames": 12}, InputError, "has 12 frames, of which 13 are needed"),
+        ({"frames_per_grid": 3}, InputError, "of which 13 are needed"),
+        ({"truth": "flow"}, ConfigError, "brings no flow"),
+        ({"truth": "flwo"}, ConfigError, "'flwo'; .* did you mean 'flow'"),
+        ({"outputs": ("grid",)}, ConfigError, "did you mean 'grids'"),
+        ({"randomize": "v2w"}, ConfigError, "did you mean 'v2v'"),
+        ({"device": "cuda:77"}, ConfigError, "device is 'cuda:77'"),
+        ({"device": "tpu"}, ConfigError, "device is 'tpu'"),
+        ({"device": "meta"}, ConfigError, "device is 'meta'"),
+        ({"batch": 0}, ConfigError, "batch is 0"),
+        ({"rank": 2, "world": 2}, ConfigError, "rank is 2"),
+        ({"source": "nowhere/"}, InputError, "no such file or folder: nowhere"),
+        ({"source": 7}, ConfigError, "got int"),
+        (
+            {"source": Sliding(), "truth": "flow", "frames_per_grid": 2},
+            ConfigError,
+            "frame to frame",
+        ),
+    ],
+)
+def test_what_cannot_be_streamed_is_refused_at_construction(folder, options, error, message):
+    with pytest.raises(error, match=message):
+        EventStream(**{"source": folder, **SMALL, **options})
+
+
+@pytest.mark.parametrize(
+    ("ranges", "message"),
+    [
+        ({"threshold": (0.5, 0.1)}, "lowest value first"),
+        ({"threshold": 0.5}, "two numbers"),
+        ({"noise": (0.0, -1.0)}, "noise is -1"),
+        ({"flip": (0.1, 0.2)}, "one number"),
+        ({"speed": (0, 2)}, "speed is 0"),
+    ],
+)
+def test_ranges_that_nothing_can_be_drawn_from_are_refused(ranges, message):
+    with pytest.raises(ConfigError, match=message):
+        ClipRanges(**ranges)
+
+
+def test_the_state_of_another_stream_is_refused(folder):
+    with pytest.raises(ConfigError, match="seed 3"):
+        EventStream(folder, **SMALL).load_state_dict({"seed": 3, "next": 4})
+
+
+def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
+    page = Path(__file__).parents[2] / "docs" / "training.md"
+    (recipe,) = re.findall(r"```text\n(import itertools.*?)```", page.read_text("utf-8"), re.DOTALL)
+    small = {
+        '"videos", batch=12, frames=40, size=(128, 128)': f"{str(folder)!r}, **SMALL",
+        'device="cuda"': 'device="cpu"',
+        "10_000": "2",
+    }
+    for large, tiny in small.items():
+        assert large in recipe
+        recipe = recipe.replace(large, tiny)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(recipe, "recipe", "exec"), {"SMALL": SMALL})
+    state = torch.load("checkpoint.pt")["stream"]
+    EventStream(folder, **SMALL).load_state_dict(state)
+    assert state["next"] == 2
