@@ -74,6 +74,8 @@ class EventBatch:
     def packets(self, index: int) -> Iterator[EventStream]:
         """The events of one clip on the host, those of each interval as a packet."""
         ends = self.frame_ends[index]
+        if len(ends) == 1:  # only the first frame was seen: nothing to wait for
+            return
         columns = self._copied(self._part(index))
         for first, last in itertools.pairwise((ends - ends[0]).tolist()):
             yield self._stream([column[first:last] for column in columns])
