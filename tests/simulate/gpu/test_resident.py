@@ -55,7 +55,7 @@ def simulation(video, **options):
 
 
 def on(device, run):
-    return replace(run, device=RunDevice(torch.device(device)))
+    return replace(run, device=RunDevice(find_gpu(device) or torch.device(device)))
 
 
 def packets(run):
