@@ -22,7 +22,7 @@ RATE = {"min": 0.001, "max": 1e6, "step": 0.01, "round": False}
 
 
 def _common_inputs() -> dict[str, Any]:
-    run = widgets(RunConfig(), ("sensor", "seed"))
+    run = widgets(RunConfig(), ("sensor", "seed", "device"))
     seed_type, seed = run["seed"]
     return {**run, "seed": (seed_type, {**seed, "min": 0, "control_after_generate": True})}
 

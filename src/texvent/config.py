@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import numbers
+import re
 import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -140,8 +141,16 @@ class RunConfig:
     randomize: Literal["none", "stoffregen", "v2v"] = "none"
     """Draw contrast thresholds and noise from the seed, for training sets: in the ranges of
     Stoffregen 2020 or of V2V. The drawn values replace those given and are stored."""
+    device: str = "auto"
+    """Device of the pixel model and of rife: auto, cpu, cuda or cuda:N. auto takes a GPU where
+    torch finds one and the model has kernels for it, and says so (docs/gpu.md)."""
 
     def __post_init__(self) -> None:
+        if not re.fullmatch("auto|cpu|cuda(:[0-9]{1,3})?", str(self.device)):
+            raise ConfigError(
+                f"device is {shown(self.device)}; it must be auto, cpu, cuda or a numbered GPU "
+                "such as cuda:1"
+            )
         check_range("seed", self.seed, 0, 2**63 - 1)
         check_range("target_rate", self.target_rate, 1e-3, 1e12)
 

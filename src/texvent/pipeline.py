@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS
@@ -29,6 +29,7 @@ from texvent.runtime.progress import Progress
 from texvent.settings.provenance import describe_run
 from texvent.settings.resolution import Settings
 from texvent.simulate.build import benefits_from_denser_frames, build_simulator
+from texvent.simulate.gpu.support import RunDevice, choose_device
 from texvent.simulate.model_options import draw_training_config
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.signal_tally import SignalTally
@@ -75,7 +76,12 @@ def video_to_events(
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
         settings = replace(settings, simulate=drawn)
     video, config = adapt_transfer(video, settings.run.simulator, settings.simulate)
-    return Simulation(video=video, settings=replace(settings, simulate=config), prompt=prompt)
+    return Simulation(
+        video=video,
+        settings=replace(settings, simulate=config),
+        prompt=prompt,
+        device=choose_device(settings.run, config),
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,6 +93,8 @@ class Simulation:
     prompt: str | None = None
     warns: bool = False
     """Whether the end of the video warns of a run with hardly a signal."""
+    device: RunDevice = field(default_factory=RunDevice)
+    """GPU on which frames, network and pixels stay; by default all is on the CPU."""
 
     def steps(
         self, on_scene_change: OnSceneChange | None = None
@@ -117,7 +125,8 @@ class Simulation:
 
     def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
         """A simulator at rest, and the pairs of frames that it advances through."""
-        simulator = build_simulator(self.settings.run, self.settings.simulate)
+        resident = self.device.resident
+        simulator = build_simulator(self.settings.run, self.settings.simulate, resident)
         pairs = plan_pairs(
             self.video,
             self.settings.interpolate,
@@ -125,6 +134,8 @@ class Simulation:
             balance=simulator.balance,
             contrast_threshold=simulator.contrast_threshold,
             counts_motion=benefits_from_denser_frames(simulator),
+            gpu=self.device.gpu,
+            is_resident=resident is not None,
         )
         return simulator, pairs
 
@@ -147,7 +158,8 @@ class Simulation:
     @property
     def provenance(self) -> dict[str, Any]:
         """Provenance: stored in every output, enough to make the events again."""
-        return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
+        facts = describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
+        return facts | self.device.facts
 
 
 def select_events(packet: EventStream, run: RunConfig) -> EventStream:

@@ -156,6 +156,13 @@ class Frame:
             return luma
         return np.asarray(luma, dtype=np.float32)
 
+    def sampled_luma(self, step: int) -> PixelArray:
+        """`luma` of every `step`-th row and column; only these are computed."""
+        if "luma" in vars(self):
+            return self.luma[::step, ::step]
+        sample = Frame(self.pixels[::step, ::step], self.t_us, is_source=False)
+        return sample.luma
+
     @cached_property
     def float_luma(self) -> NDArray[np.float32]:
         """Luma as float32, C-contiguous; 8-bit levels convert exactly."""

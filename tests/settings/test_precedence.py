@@ -27,6 +27,7 @@ TRIED: Mapping[str, tuple[Any, ...]] = {
     "noise_curve": ("0:1 9:2", "0:2 9:3"),
     "constants": ("5 20 1e-4 1e-7 5e-9 1e-5", "6 20 1e-4 1e-7 5e-9 1e-5"),
     "interpolate": ("none", "blend"),
+    "device": ("cpu", "cuda"),
 }
 NUMBERS = (1, 2, 0, 0.25, 0.5, 16, 33, 720, 768)
 Case: TypeAlias = tuple[str, Any, Any]

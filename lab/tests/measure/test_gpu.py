@@ -18,7 +18,7 @@ def test_every_figure_is_measured_and_stored():
     pytest.importorskip("triton")
     plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
-        copy_bytes=2**20,
+        copy_bytes=2**20, pair_sizes=(),
     )  # fmt: skip
     document = json.loads(
         json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))
@@ -35,3 +35,25 @@ def test_every_figure_is_measured_and_stored():
             assert share > 0.1
     text = gpu.as_markdown(document)
     assert text.count("| paper |") == len(plan.densities) + len(plan.batches)
+
+
+@pytest.mark.torch
+def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("triton")
+    from tests.interpolate.rife.rife_files import save_published
+
+    from texvent.interpolate.rife.network import RIFE_4_0
+
+    weights = save_published(torch, RIFE_4_0, tmp_path / "rife.pkl")
+    plan = gpu.Plan(pair_sizes=(TINY,), pairs=2)
+    is_gpu = torch.cuda.is_available()
+    rows = list(gpu.measure_pairs(plan, "cuda" if is_gpu else "cpu", weights))
+    assert [(row["size"], row["preset"]) for row in rows] == [
+        (str(TINY), "paper"),
+        (str(TINY), "accurate"),
+    ]
+    for row in rows:
+        assert row["ms_per_pair"] > 0
+        assert row["frames_between"] > 0
+        assert row["levels_from_float32"] <= (1.0 if is_gpu else 0.0)

@@ -30,7 +30,9 @@ SIGNALLED = 128
 
 def print_settings(settings: Settings) -> int:
     """Write the resolved options to stdout as TOML; returns exit code 0."""
-    write_out(tomli_w.dumps(settings.as_tables()))
+    tables = settings.as_tables()
+    tables["run"]["device"] = settings.run.device
+    write_out(tomli_w.dumps(tables))
     return 0
 
 
@@ -150,6 +152,8 @@ def _notes(simulation: Simulation) -> Iterator[str]:
     yield from describe_scene(simulation.video.metadata)
     run = simulation.settings.run
     yield f"model    {run.simulator}, preset {run.preset}"
+    if simulation.device.note is not None:
+        yield f"device   {simulation.device.note}"
     unmeasured = unmeasured_sensor(run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"

@@ -10,6 +10,8 @@ import numpy as np
 from texvent.brightness import balanced_log
 from texvent.config import InterpolateConfig
 from texvent.interpolate.protocol import Interpolator
+from texvent.pairs.pair_measures import PairMeasures, measure_pair
+from texvent.runtime.devices import Device, explain_device_memory
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream, Motion, PixelArray
 
 if TYPE_CHECKING:
@@ -47,6 +49,7 @@ class CountPolicy:
         balance: float,
         contrast_threshold: float,
         counts_motion: bool = False,
+        device: Device | None = None,
     ) -> None:
         """A policy for one stream.
 
@@ -58,7 +61,10 @@ class CountPolicy:
             contrast_threshold: the simulator's δ.
             counts_motion: whether motion counts, up to `MOTION_LIMIT`, where the options do not
                 say it.
+            device: torch.device of the frames; None: they are on the host.
         """
+        self._device = device
+        self._measures: PairMeasures | None = None
         self._config = config
         self._balance, self._threshold = balance, contrast_threshold
         self._is_limited = config.frames_per_pixel is None
@@ -70,6 +76,13 @@ class CountPolicy:
         counts_motion = counts_motion and config.fixed_count is None
         self._pair_flow = _pair_flow(interpolator) if counts_motion else None
         self._flicker_hz = _flicker_hz(stream, config)
+
+    def look_at(self, first: Frame, second: Frame) -> None:
+        """Measure a pair on the device, once for its count and for scene changes."""
+        if self._device is None or self._config.interpolate == "none":
+            return
+        with explain_device_memory(self._device, second.size):
+            self._measures = measure_pair(first, second, self._balance, self._device)
 
     def count(self, first: Frame, second: Frame) -> int:
         """Number of intermediate frames between two source frames.
@@ -90,13 +103,17 @@ class CountPolicy:
         if config.fixed_count is not None:
             return config.fixed_count
         cap = config.max_intermediate
-        count = count_intermediate(
-            first.luma,
-            second.luma,
-            balance=self._balance,
-            contrast_threshold=self._threshold,
-            cap=cap,
-        )
+        agreed = None if self._measures is None else _agreed(*self._measures, self._threshold)
+        if agreed is not None:
+            count = min(agreed, cap)
+        else:
+            count = count_intermediate(
+                first.luma,
+                second.luma,
+                balance=self._balance,
+                contrast_threshold=self._threshold,
+                cap=cap,
+            )
         limit = min(cap, MOTION_LIMIT * count) if self._is_limited else cap
         count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
         if count == cap:
@@ -163,9 +180,8 @@ def count_intermediate(
         11
     """
     if balance >= 1.0:
-        low, high = _bound_largest_change(earlier, later, balance)
-        count = math.floor(low / contrast_threshold)
-        if count == math.floor(high / contrast_threshold):
+        count = _agreed(*_bound_largest_change(earlier, later, balance), contrast_threshold)
+        if count is not None:
             return min(count, cap)
     change = np.abs(balanced_log(earlier, balance) - balanced_log(later, balance))
     return min(math.floor(float(change.max()) / contrast_threshold), cap)
@@ -215,6 +231,15 @@ def longest_vector_px(first: Motion | None, second: Motion | None) -> float:
     ]
     longest = (float(np.max(one, initial=0.0, where=np.isfinite(one))) for one in lengths)
     return max(longest, default=0.0)
+
+
+def _agreed(low: float, high: float, threshold: float) -> int | None:
+    """Thresholds in a change between two bounds; None if the bounds do not agree."""
+    if not (low > -math.inf and high < math.inf):
+        return None
+    count = math.floor(low / threshold)
+    # A change of 0 has a bound below it.
+    return max(count, 0) if count == math.floor(high / threshold) or high < threshold else None
 
 
 def _bound_largest_change(

@@ -16,8 +16,10 @@ from texvent.pairs.frame_pair import (
     hold_earlier,
 )
 from texvent.pairs.instants import intermediate_times_us
+from texvent.pairs.on_device import pixels_on
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.time_jump import watch_steps
+from texvent.runtime.devices import Device
 from texvent.runtime.memory import release_freed_memory
 from texvent.runtime.prefetch import prefetch
 from texvent.video import Frame, FrameStream, MovingStream, StreamChecker
@@ -39,6 +41,8 @@ def plan_pairs(
     balance: float,
     contrast_threshold: float,
     counts_motion: bool = False,
+    gpu: Device | None = None,
+    is_resident: bool = False,
 ) -> Iterator[FramePair]:
     """The pairs of a video, prepared in threads that run ahead of the caller.
 
@@ -54,6 +58,8 @@ def plan_pairs(
         contrast_threshold: the simulator's δ, for Eq. 4.
         counts_motion: whether the simulator gains from more frames under fast motion; then
             motion counts unless `config.frames_per_pixel` is set.
+        gpu: torch.device of an interpolator's network; None: the CPU.
+        is_resident: whether the simulator is on it too, so that frames go up and stay there.
 
     Raises:
         ConfigError: there is no such interpolator.
@@ -63,7 +69,10 @@ def plan_pairs(
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
         video = video.with_motion()
         config = replace(config, detect_cuts=False, deflicker=False)
-    interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
+    kind = INTERPOLATORS.load(config.interpolate)
+    on_gpu = {"device": gpu} if gpu is not None and getattr(kind, "takes_device", False) else {}
+    interpolator = kind(config, video, **on_gpu)
+    device = gpu if is_resident else None
     policy = CountPolicy(
         config,
         video,
@@ -71,12 +80,14 @@ def plan_pairs(
         balance=balance,
         contrast_threshold=contrast_threshold,
         counts_motion=counts_motion,
+        device=device,
     )
     watched = watch_steps(video, is_live=video.is_live)
     if video.is_live:
         pairs = pair_frames(watched, interpolator, config, policy)
         return _release_memory(pairs)
-    frames = threads.enter_context(closing(prefetch(_with_luma(watched), depth=FRAMES_AHEAD)))
+    ready = _with_luma(watched) if device is None else _begin_copies(watched, device)
+    frames = threads.enter_context(closing(prefetch(ready, depth=FRAMES_AHEAD)))
     pairs = pair_frames(frames, interpolator, config, policy)
     ahead = threads.enter_context(closing(prefetch(pairs, depth=PAIRS_AHEAD)))
     return _release_memory(ahead)
@@ -126,6 +137,7 @@ def _make_pair(
     config: InterpolateConfig,
     policy: CountPolicy,
 ) -> FramePair:
+    policy.look_at(previous, frame)
     change = _scene_change(previous, frame, config)
     if change is not SceneChange.NONE:
         return FramePair(previous, frame, change, (), hold_earlier(previous, frame))
@@ -147,6 +159,13 @@ def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
     """The frames with their luma computed; it is cached, so it costs the reading thread only."""
     for frame in frames:
         frame.luma  # noqa: B018  (a cached property)
+        yield frame
+
+
+def _begin_copies(frames: Iterable[Frame], device: Device) -> Iterator[Frame]:
+    """The frames, each on its way to the device."""
+    for frame in frames:
+        pixels_on(frame, device)
         yield frame
 
 

@@ -35,6 +35,7 @@ class RunOptions(TypedDict, total=False):
     label_noise: bool | None
     target_rate: float | None
     randomize: Literal["none", "stoffregen", "v2v"] | None
+    device: str | None
 
 
 class InterpolateOptions(TypedDict, total=False):

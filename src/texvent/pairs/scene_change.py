@@ -32,6 +32,8 @@ BLOCK_CELLS = 8
 SEARCH_CELLS = 8
 LEAST_SIDE_PX = LEAST_CELL_PX * BLOCK_CELLS
 """Frames with a side below this have no structure to judge and never count as a scene change."""
+CELL_SUMS = "_cell_sums"
+"""Attribute of frames whose cells were added up on a device (`pair_measures`)."""
 LOG_BALANCE = 30.0
 """Balance of the logarithm of thumbnails, independent of the simulator's own."""
 
@@ -161,16 +163,24 @@ class _Match:
     """Share of the blocks that have structure."""
 
 
-def _thumbnail(frame: Frame) -> _Thumbnail:
-    luma = matching_luma(frame)
-    height, width = luma.shape
+def cell_px(width: int, height: int) -> int:
+    """Side of a cell of the thumbnail of such frames, px; 0 for those too small to judge."""
+    if min(width, height) < LEAST_SIDE_PX:
+        return 0
     cell = max(LEAST_CELL_PX, -(-max(height, width) // SIDE_CELLS))
     # A long strip keeps at least one block across.
-    cell = min(cell, min(height, width) // BLOCK_CELLS)
-    rows, columns = height // cell, width // cell
-    # Rows first: whole rows add up faster than the cells of a row.
-    strips = luma[: rows * cell, : columns * cell].reshape(rows, cell, columns * cell)
-    sums = strips.sum(axis=1, dtype=np.float64).reshape(rows, columns, cell).sum(axis=2)
+    return min(cell, min(height, width) // BLOCK_CELLS)
+
+
+def _thumbnail(frame: Frame) -> _Thumbnail:
+    cell = cell_px(*frame.size)
+    sums = vars(frame).get(CELL_SUMS)
+    if sums is None:
+        luma = matching_luma(frame)
+        rows, columns = luma.shape[0] // cell, luma.shape[1] // cell
+        # Rows first: whole rows add up faster than the cells of a row.
+        strips = luma[: rows * cell, : columns * cell].reshape(rows, cell, columns * cell)
+        sums = strips.sum(axis=1, dtype=np.float64).reshape(rows, columns, cell).sum(axis=2)
     levels = sums / cell**2
     return _Thumbnail(levels, balanced_log(levels, LOG_BALANCE))
 

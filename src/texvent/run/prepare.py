@@ -21,6 +21,7 @@ from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import describe_weights
 from texvent.settings.resolution import Settings
+from texvent.simulate.gpu.support import choose_device
 from texvent.video import FrameStream
 
 UNMEASURED = 200
@@ -36,8 +37,10 @@ def check_run(settings: Settings) -> None:
         MissingDependencyError: a network needs a package.
     """
     describe_weights(settings)
+    device = choose_device(settings.run, settings.simulate)
     if settings.size is not None:
         check_memory(settings, settings.size)
+        device.check_memory(settings.size)
 
 
 def estimate_bytes(settings: Settings, size: SensorSize) -> int:
@@ -204,6 +207,7 @@ def prepare_video(
     check_run(settings)
     check_memory(settings, video.size)
     simulation = video_to_events(video, settings, prompt=prompt)
+    simulation.device.check_memory(video.size)
     return reach_target_rate(simulation, progress=progress)
 
 

@@ -70,8 +70,12 @@ class Settings:
         }
 
     def as_tables(self) -> dict[str, Any]:
-        """Nested plain values, ready for TOML and JSON; reading them back gives these settings."""
+        """Nested plain values, ready for TOML and JSON; reading them back gives these settings.
+
+        The device is none of them: it does not decide the events.
+        """
         tables: dict[str, Any] = plain(self.groups())
+        del tables["run"]["device"]
         if self.generator:
             tables["generate"] = {"generator": self.generator, **tables["generate"]}
         return tables

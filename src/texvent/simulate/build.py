@@ -8,9 +8,11 @@ from typing import Any, cast
 import numpy as np
 
 from texvent._registry import SIMULATORS
+from texvent._require import require
 from texvent.config import RunConfig
 from texvent.errors import TexventError
 from texvent.events import EventStream
+from texvent.runtime.devices import EXTRA, Device
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.streaming import SteppingSimulator
 from texvent.video import Frame
@@ -37,18 +39,26 @@ def benefits_from_denser_frames(simulator: Simulator) -> bool:
     return bool(getattr(simulator, "benefits_from_denser_frames", False))
 
 
-def build_simulator(run: RunConfig, config: Any) -> Simulator:
+def build_simulator(run: RunConfig, config: Any, device: Device | None = None) -> Simulator:
     """The simulator of a run, before its first frame.
 
     Args:
         run: its simulator and seed.
         config: the simulator's options.
+        device: torch.device of its kernels; None: those of the CPU.
 
     Raises:
         ConfigError: there is no such simulator.
         TexventError: a simulator of another package cannot be loaded.
     """
-    return with_advance(SIMULATORS.load(run.simulator)(config, seed=run.seed))
+    simulator = with_advance(SIMULATORS.load(run.simulator)(config, seed=run.seed))
+    if device is None:
+        return simulator
+    require("triton", extra=EXTRA)
+    from texvent.simulate.gpu.resident import ResidentSimulator  # brings torch and Triton
+
+    resident: Any = ResidentSimulator(simulator, config, run.seed, device)
+    return cast("Simulator", resident)
 
 
 def with_advance(simulator: Any) -> Simulator:

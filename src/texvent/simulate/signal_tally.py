@@ -48,12 +48,11 @@ class SignalTally:
 
     def see(self, frame: Frame) -> None:
         """Note the levels of a source frame."""
-        luma = frame.luma
-        step = math.ceil(math.sqrt(luma.size / SAMPLE))
-        sample = luma[::step, ::step]
+        pixels = frame.size.width * frame.size.height
+        sample = frame.sampled_luma(math.ceil(math.sqrt(pixels / SAMPLE)))
         if self._pixels == 0:
             self._low = self._high = sample.copy()
-            self._pixels = luma.size
+            self._pixels = pixels
         self._low, self._high = np.minimum(self._low, sample), np.maximum(self._high, sample)
 
     def count(self, packet: EventStream) -> None:

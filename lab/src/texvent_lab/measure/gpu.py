@@ -5,28 +5,38 @@
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
 wait for their number included. A few calls follow each other without another wait, as in a loop
 over batches. Warm-up calls, which compile the kernels, are not timed. The CPU's kernels see the
-first clip of a batch, frame by frame with all cores. It ends within a minute.
+first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole runs: frames in the
+host's memory → packets; they need its weights, else their rows are left out. It ends within six
+minutes.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from texvent.extending import SIMULATORS, require
+from texvent.config import InterpolateConfig
+from texvent.errors import InputError
+from texvent.extending import INTERPOLATORS, SIMULATORS, require
+from texvent.interpolate.rife.weights import find_rife_weights
+from texvent.pipeline import video_to_events
+from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.launch import EXTRA
+from texvent.simulate.gpu.support import RunDevice
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
-from texvent.video import Frame
+from texvent.video import Frame, Video
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
@@ -51,6 +61,9 @@ class Plan:
     calls: int = 4
     """Calls of the simulator that are timed together."""
     copy_bytes: int = 2**30
+    pair_sizes: tuple[SensorSize, ...] = (SensorSize(640, 480), HD)
+    pairs: int = 48
+    """Pairs of a run with RIFE; the first half is not timed."""
 
 
 def measure(plan: Plan, device: str) -> dict[str, Any]:
@@ -61,7 +74,66 @@ def measure(plan: Plan, device: str) -> dict[str, Any]:
         "environment": describe(device),
         "copy_gb_per_s": copy,
         "simulation": list(measure_simulation(plan, device, copy["median"])),
+        "pairs": list(measure_pairs(plan, device)),
     }
+
+
+def measure_pairs(plan: Plan, device: str, weights: Path | None = None) -> Iterator[dict[str, Any]]:
+    """Milliseconds per pair of source frames with RIFE, by size and preset, and its precision.
+
+    Args:
+        plan: sizes and number of pairs.
+        device: of everything but decoding and files.
+        weights: those of RIFE; None: those that were pulled. Without any there is no row.
+    """
+    try:
+        find_rife_weights(weights)
+    except InputError as error:
+        print(f"pairs with RIFE were left out: {error}", file=sys.stderr)
+        return
+    chosen = RunDevice(find_gpu(device) or require("torch", extra=EXTRA).device(device))
+    for size, preset in itertools.product(plan.pair_sizes, ("paper", "accurate")):
+        video = moving_texture(size, plan.pairs + 1)
+        options = {"preset": preset, "interpolate": "rife", "device": "cpu"}
+        settings = resolve("simulate", {**options, "interpolator_weights": weights})
+        run = replace(video_to_events(video, settings), device=chosen)
+        events, between, times = 0, 0, [time.perf_counter()]
+        for frame, packet in run.steps():
+            events, between = events + len(packet), between + (not frame.is_source)
+            if frame.is_source:
+                times.append(time.perf_counter())
+        late = np.diff(times[1 + plan.pairs // 2 :])
+        yield {
+            "preset": preset,
+            "size": str(size),
+            "pairs": plan.pairs,
+            "events_per_pair": rounded(events / plan.pairs),
+            "frames_between": rounded(between / plan.pairs),
+            "ms_per_pair": rounded(float(late.mean()) * 1e3),
+            "levels_from_float32": measure_precision(video, settings.interpolate, chosen.gpu),
+        }
+
+
+def measure_precision(video: Video, config: InterpolateConfig, device: Any) -> float:
+    """Largest difference of a frame at the middle from that of the float32 network, levels."""
+    images = []
+    for one in (device, None):
+        kind: Any = INTERPOLATORS.load("rife")
+        first, second = video[0], video[1]
+        middle = [(first.t_us + second.t_us) // 2]
+        (frame,) = kind(config, video, device=one).between(first, second, middle)
+        images.append(frame.pixels)
+    return rounded(float(np.abs(images[0] - images[1]).max()))
+
+
+def moving_texture(size: SensorSize, count: int) -> Video:
+    """Colour noise of 8 px that moves by 3 px per frame, at 25 frames per second."""
+    height, width = size.shape
+    random = np.random.default_rng(0)
+    cells = random.integers(40, 200, (height // 8 + 2, (width + 3 * count) // 8 + 2, 3))
+    wide = np.kron(cells, np.ones((8, 8, 1), np.int64)).astype(np.uint8)
+    frames = [wide[:height, 3 * index : 3 * index + width] for index in range(count)]
+    return Video(np.stack(frames), [40_000 * index for index in range(count)])
 
 
 def describe(device: str) -> dict[str, Any]:
@@ -199,6 +271,9 @@ def as_markdown(document: dict[str, Any]) -> str:
     lines = [f"{name}: {value}" for name, value in document["environment"].items()]
     lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s\n")
     lines.append(markdown_table(head, simulation))
+    names = ("preset", "size", "frames_between", "ms_per_pair", "levels_from_float32")
+    pairs = [tuple(str(row[name]) for name in names) for row in document["pairs"]]
+    lines.append(markdown_table(names, pairs))
     return "\n".join(lines)
 
 

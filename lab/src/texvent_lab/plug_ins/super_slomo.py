@@ -45,11 +45,14 @@ class SuperSlomoInterpolator(RifeInterpolator):
 
     bytes_per_pixel: ClassVar[int] = 2_000
 
-    def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
+    def __init__(
+        self, config: InterpolateConfig, stream: FrameStream, *, device: Any = None
+    ) -> None:
         """An interpolator with its weights loaded; every stream has the same."""
         del stream
         torch = require("torch", extra=EXTRA)
-        self._device = "cuda" if torch.cuda.is_available() else "cpu"
+        self._device = torch.device("cpu") if device is None else device
+        self._is_shared = True
         self._path = find_super_slomo(config.interpolator_weights)
         self._nets: Any = read_super_slomo(self._path).to(self._device)
         self.pair_flow = self
@@ -64,16 +67,19 @@ class SuperSlomoInterpolator(RifeInterpolator):
         """Longest vector of the flows both ways, px."""
         what = f"frames of {first.size} do not fit into the memory of device {self._device}"
         with explain_memory(what), require("torch", extra=EXTRA).inference_mode():
-            _, flows = self._prepare(image_tensors(first, second))
+            _, flows = self._prepare(image_tensors(first, second, self._device))
             return float(flows.unflatten(1, (2, 2)).norm(dim=2).max())
 
     def _prepare(self, images: Sequence[Tensor]) -> Any:
         """Both images less the mean colour, [1, 6, H, W]; flows there and back, [1, 4, H, W]."""
         torch = require("torch", extra=EXTRA)
-        mean = torch.tensor(MEAN_COLOUR).reshape(1, 3, 1, 1)
-        padded = [pad_to_multiple(image - mean, PAD_TO) for image in images]
-        both = torch.cat(padded, 1).to(self._device)
+        mean = torch.tensor(MEAN_COLOUR, device=self._device).reshape(1, 3, 1, 1)
+        both = torch.cat([pad_to_multiple(image - mean, PAD_TO) for image in images], 1)
         return both, _run_unet(self._nets[FLOW], both)
+
+    def _lumas_at(self, pair: Any, lumas: Sequence[Tensor], positions: Sequence[float]) -> Tensor:
+        torch = require("torch", extra=EXTRA)
+        return torch.stack([self._luma_at(pair, lumas, at) for at in positions])
 
     def _luma_at(self, pair: Any, lumas: Sequence[Tensor], at: float) -> Tensor:
         """Eqs. 1, 4 and 5 of the source."""

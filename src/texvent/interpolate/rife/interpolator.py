@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
@@ -18,13 +19,19 @@ from texvent.interpolate.rife.weights import (
     read_rife_weights,
 )
 from texvent.pairs.instants import matching_levels, position
-from texvent.runtime.memory import explain_memory
-from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
+from texvent.pairs.on_device import levels_on, luma_on
+from texvent.runtime.devices import Device, explain_device_memory, to_device
+from texvent.transfer import WHITE, Transfer
+from texvent.video import Frame, FrameStream
 
 if TYPE_CHECKING:
     from texvent.interpolate.rife.network import Motion
 
-WHITE = 255.0
+BYTES_PER_PIXEL = {True: 100, False: 1_000}
+"""About what one intermediate frame takes while it is drawn, for each pixel: by a motion that the
+frames share, and with the network run anew."""
+DRAWN_BYTES = 2 << 30
+"""Frames are drawn in one batch on a GPU; so much memory for it, at most."""
 
 
 class RifeInterpolator:
@@ -37,15 +44,22 @@ class RifeInterpolator:
         (ECCV 2022); section 3.2.1 of the paper.
     Deviation: unless `rife_flow` is "each", the motion is estimated once per pair, at its middle,
         and points move straight and evenly. Grey frames are shown to the network as colour, edges
-        are padded by repetition instead of with black, and the result is not clipped.
+        are padded by repetition instead of with black, and the result is not clipped. On a GPU the
+        network computes in float16.
     """
 
-    def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
+    takes_device: ClassVar[bool] = True
+    """Whether it can be built with `device`."""
+
+    def __init__(
+        self, config: InterpolateConfig, stream: FrameStream, *, device: Device | None = None
+    ) -> None:
         """An interpolator with its weights loaded.
 
         Args:
             config: the weights, and how often the motion is estimated.
             stream: not used; every interpolator is built alike.
+            device: torch.device of the network; None: the CPU.
 
         Raises:
             MissingDependencyError: torch or safetensors is not installed.
@@ -54,10 +68,15 @@ class RifeInterpolator:
         """
         del stream
         torch = import_torch()
-        self._device = "cuda" if torch.cuda.is_available() else "cpu"
+        self._device = torch.device("cpu") if device is None else device
         self._path = find_rife_weights(config.interpolator_weights)
         self._network = read_rife_weights(self._path).to(self._device)
         self._is_shared = config.rife_flow == "once"
+        self._run: Callable[..., Motion] = self._network
+        if self._device.type == "cuda":
+            from texvent.interpolate.rife.recorded import RecordedNetwork  # needs torch
+
+            self._run = RecordedNetwork(self._network)
 
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
@@ -69,7 +88,7 @@ class RifeInterpolator:
         import_torch()
         return describe_rife_weights(find_rife_weights(config.interpolator_weights))
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> RifeFrames:
         """Frames with every point moved along its path from `first` to `second`.
 
         Args:
@@ -77,55 +96,95 @@ class RifeInterpolator:
             second: the later source frame.
             times_us: times of the intermediate frames, µs.
 
-        Yields:
-            One frame per time, [H, W] float32 luma, 0..255 scale.
+        Returns:
+            One frame per time, [H, W] float32 luma, 0..255 scale; the motion that they share is
+            estimated at once, each frame is drawn when it is asked for.
 
         Raises:
             InputError: the frames do not fit into the device's memory.
-            FileFormatError: the weights give numbers that are NaN or infinite.
         """
-        lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
-        images, prepared, torch = image_tensors(first, second), None, import_torch()
-        what = (
-            f"a pair of frames does not fit into the memory of device {self._device}; choose a "
-            "smaller `sensor`, or hide the GPU with CUDA_VISIBLE_DEVICES="
-        )
-        for t_us in times_us:
-            at = position(first, second, t_us)
-            # Not around the yield: the caller must not inherit the mode.
-            with torch.inference_mode(), explain_memory(what):
-                prepared = prepared or self._prepare(images)
-                luma = self._luma_at(prepared, lumas, at)
-            if not bool(luma.isfinite().all()):
-                raise FileFormatError(f"{self._path}: the network's output is NaN or infinite")
-            yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
+        with explain_device_memory(self._device, first.size), import_torch().inference_mode():
+            lumas = tuple(luma_on(one, self._device).float()[None, None] for one in (first, second))
+            prepared = self._prepare(image_tensors(first, second, self._device))
+        positions = [position(first, second, t_us) for t_us in times_us]
+
+        def draw(start: int, stop: int) -> Tensor:
+            with explain_device_memory(self._device, first.size), import_torch().inference_mode():
+                return self._lumas_at(prepared, lumas, positions[start:stop])
+
+        bytes_each = BYTES_PER_PIXEL[self._is_shared] * first.size.width * first.size.height
+        is_cpu = self._device.type == "cpu"
+        at_once = 1 if is_cpu else max(1, DRAWN_BYTES // bytes_each)
+        return RifeFrames(times_us, at_once, draw, first.transfer, self._path)
 
     def _prepare(self, images: Sequence[Tensor]) -> Any:
         """Shared by all instants of a pair: the motion at its middle, or only its images."""
-        from texvent.interpolate.rife.network import MIDDLE  # needs torch
+        if not self._is_shared:
+            return images
+        return self._cropped(images, self._run(*self._padded(images)))
 
-        return self._estimate(images, MIDDLE) if self._is_shared else images
+    def _padded(self, images: Sequence[Tensor]) -> list[Tensor]:
+        return [pad_to_multiple(image, self._network.layout.pad_to) for image in images]
 
-    def _estimate(self, images: Sequence[Tensor], at: float) -> Motion:
+    def _cropped(self, images: Sequence[Tensor], motion: Motion) -> Motion:
         from texvent.interpolate.rife.network import Motion  # needs torch
 
         height, width = images[0].shape[-2:]
-        pad_to = self._network.layout.pad_to
-        padded = (pad_to_multiple(image, pad_to).to(self._device) for image in images)
-        motion = self._network(*padded, at)
         return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
 
-    def _luma_at(self, prepared: Any, lumas: Sequence[Tensor], at: float) -> Tensor:
+    def _estimate(self, images: Sequence[Tensor], positions: Sequence[float]) -> Motion:
+        """The motion at each instant anew."""
+        torch, count = import_torch(), len(positions)
+        at = to_device(np.array(positions, np.float32)[:, None, None, None], self._device)
+        padded = [one.expand(count, -1, -1, -1) for one in self._padded(images)]
+        half = torch.autocast("cuda", torch.float16, enabled=self._device.type == "cuda")
+        with half:
+            motion = self._network(*padded, at)
+        return self._cropped(images, motion)
+
+    def _lumas_at(
+        self, prepared: Any, lumas: Sequence[Tensor], positions: Sequence[float]
+    ) -> Tensor:
+        """Luma at K instants, [K, H, W]."""
         from texvent.interpolate.rife.network import move_motion, warp  # needs torch
 
-        shared = self._is_shared
-        motion = move_motion(prepared, at) if shared else self._estimate(prepared, at)
+        make = move_motion if self._is_shared else self._estimate
+        motion = make(prepared, positions)
         weight = import_torch().sigmoid(motion.mask)
-        first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
-        return (second + (first - second) * weight)[0, 0]
+        images = (one.expand(len(positions), -1, -1, -1) for one in lumas)
+        flows = motion.flow[:, :2], motion.flow[:, 2:]
+        first, second = (warp(*one) for one in zip(images, flows, strict=True))
+        return (second + (first - second) * weight)[:, 0]
 
 
-def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
+@dataclass(frozen=True, eq=False)
+class RifeFrames:
+    """Intermediate frames of one pair, drawn on the device; see `pairs.on_device.DrawnOnDevice`."""
+
+    times_us: Sequence[int]
+    at_once: int
+    draw: Callable[[int, int], Tensor]
+    transfer: Transfer
+    weights: Path
+
+    def __iter__(self) -> Iterator[Frame]:
+        """The frames on the host.
+
+        Raises:
+            FileFormatError: the weights give numbers that are NaN or infinite.
+        """
+        for start in range(0, len(self.times_us), self.at_once):
+            stop = min(start + self.at_once, len(self.times_us))
+            lumas = self.draw(start, stop).cpu().numpy()
+            if not np.isfinite(lumas).all():
+                raise FileFormatError(f"{self.weights}: the network's output is NaN or infinite")
+            for luma, t_us in zip(lumas, self.times_us[start:stop], strict=True):
+                yield Frame(luma, t_us, is_source=False, transfer=self.transfer)
+
+
+def image_tensors(
+    first: Frame, second: Frame, device: Device | None = None
+) -> tuple[Tensor, Tensor]:
     """Both frames of a pair as a network expects them.
 
     Grey frames are repeated in all three channels. Levels above white are compressed
@@ -133,30 +192,26 @@ def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
     the range the network knows.
 
     Returns:
-        Two tensors [1, 3, H, W] float32, 0..1, on the CPU.
+        Two tensors [1, 3, H, W] float32, 0..1, on the device; None: on the CPU.
     """
     torch = import_torch()
-    levels = [_levels(first), _levels(second)]
-    scale = np.float32(1.0 / max(WHITE, *(float(one.max()) for one in levels)))
-    earlier, later = (
-        torch.from_numpy(np.ascontiguousarray(one * scale)).expand(1, 3, -1, -1) for one in levels
-    )
+    levels = [_levels(one, device or torch.device("cpu")) for one in (first, second)]
+    highest = torch.stack([one.max() for one in levels]).max().clamp(min=WHITE)
+    scale = (1.0 / highest.double()).float()
+    earlier, later = ((one * scale).expand(1, 3, -1, -1) for one in levels)
     return earlier, later
 
 
-def _levels(frame: Frame) -> NDArray[np.float32]:
+def _levels(frame: Frame, device: Device) -> Tensor:
     """[1 or 3, H, W] float32, 0..255 scale, as `pairs.instants.matching_levels` has them."""
-    pixels = np.asarray(frame.pixels, dtype=np.float32)
-    if frame.pixels.dtype == np.uint16:
-        pixels = pixels / np.float32(UINT16_PER_LEVEL)
-    pixels = matching_levels(pixels, frame.transfer)
-    return pixels[None] if pixels.ndim == 2 else np.moveaxis(pixels, 2, 0)
-
-
-def _luma_tensor(frame: Frame, device: str) -> Tensor:
-    """Luma of a frame, [1, 1, H, W] float32, 0..255 scale, on the device."""
-    luma = np.array(frame.luma, dtype=np.float32)
-    return import_torch().from_numpy(luma)[None, None].to(device)
+    torch = import_torch()
+    levels = levels_on(frame, device)
+    if frame.transfer is Transfer.LINEAR:
+        levels = to_device(matching_levels(levels.cpu().numpy(), frame.transfer), device)
+    else:
+        bright = WHITE * (1 + torch.log(levels.clamp(min=WHITE) / WHITE))
+        levels = torch.where(levels > WHITE, bright, levels)
+    return levels[None] if levels.ndim == 2 else levels.movedim(2, 0)
 
 
 def pad_to_multiple(image: Tensor, multiple: int) -> Tensor:

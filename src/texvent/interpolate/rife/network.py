@@ -10,11 +10,14 @@ Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Int
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from texvent.interpolate.rife.weights import Tensor, import_torch
+from texvent.runtime.devices import to_device
 
 torch: Any = import_torch()
 nn: Any = torch.nn
@@ -101,9 +104,9 @@ class Motion:
     """Flow from the pixels of an instant to both frames, and the weights of the frames."""
 
     flow: Tensor
-    """[1, 4, H, W] float32, px: to the first frame (x, y), to the second (x, y)."""
+    """[K, 4, H, W] float32, px: to the first frame (x, y), to the second (x, y)."""
     mask: Tensor
-    """[1, 1, H, W] float32: the first frame's weight as a logit."""
+    """[K, 1, H, W] float32: the first frame's weight as a logit."""
 
 
 class RifeNetwork(_Module):
@@ -128,20 +131,20 @@ class RifeNetwork(_Module):
         if layout.encoded_channels:
             self.encode = _Encoder(layout.encoded_channels)
 
-    def forward(self, first: Tensor, second: Tensor, position: float = MIDDLE) -> Motion:
-        """The motion at one instant.
+    def forward(self, first: Tensor, second: Tensor, position: float | Tensor = MIDDLE) -> Motion:
+        """The motion at K instants.
 
         Args:
-            first: the earlier image, [1, 3, H, W], 0..1, sides a multiple of `layout.pad_to`.
+            first: the earlier image, [K, 3, H, W], 0..1, sides a multiple of `layout.pad_to`.
             second: the later image, alike.
-            position: τ, 0 = first image, 1 = second.
+            position: τ, 0 = first image, 1 = second; or one for each, [K, 1, 1, 1] float32.
         """
         images: tuple[Tensor, ...] = (first, second)
         encodings = tuple(map(self.encode, images)) if self.layout.encoded_channels else ()
         both = images
         if encodings:
             both = tuple(torch.cat(parts, 1) for parts in zip(images, encodings, strict=True))
-        instant = torch.full_like(first[:, :1], position)
+        instant = torch.ones_like(first[:, :1]) * position
         moved = (*images, *encodings)
         flow: Tensor = None
         mask: Tensor = None
@@ -199,7 +202,8 @@ class _Block(_Module):
         x = self.conv0(x)
         x = self.convblock(x) + x if self._layout.learned_slopes else self.convblock(x)
         grown = scale if self._layout.shuffles else 2 * scale
-        x = _resize(self.lastconv(x), grown)
+        # Of a network in float16, the flow and its sums are float32.
+        x = _resize(self.lastconv(x).float(), grown)
         end = FLOW_CHANNELS + 1
         kept = x[:, end : end + self._layout.features]
         return x[:, :FLOW_CHANNELS] * grown, x[:, FLOW_CHANNELS:end], kept
@@ -267,8 +271,8 @@ def warp(image: Tensor, flow: Tensor) -> Tensor:
     )
 
 
-def move_motion(middle: Motion, position: float) -> Motion:
-    """The motion at an instant, from that at the middle, if points move straight and evenly.
+def move_motion(middle: Motion, positions: Sequence[float]) -> Motion:
+    """The motion at K instants, from that at the middle, if points move straight and evenly.
 
     A point that is at x at the instant was at x − (τ − 1/2)·V at the middle, where its path
     V = flow to the second − flow to the first; its flows there are scaled by the time left. The
@@ -276,15 +280,22 @@ def move_motion(middle: Motion, position: float) -> Motion:
     weights shift towards the nearer one.
 
     Args:
-        middle: the motion at τ = 1/2.
-        position: τ, 0..1, both excluded.
+        middle: the motion at τ = 1/2, of one instant.
+        positions: τ of each instant, 0..1, both excluded.
 
     Source: the linear motion model of Jiang et al., Super SloMo (CVPR 2018), section 3.2, with the
         flow looked up where the point was instead of in place.
     """
     path = middle.flow[:, 2:] - middle.flow[:, :2]
-    back = path * (MIDDLE - position)
-    flow = warp(middle.flow, back)
-    flow[:, :2] *= position / MIDDLE
-    flow[:, 2:] *= (1.0 - position) / MIDDLE
-    return Motion(flow, warp(middle.mask, back) + math.log((1.0 - position) / position))
+    rows = [
+        (MIDDLE - at, at / MIDDLE, (1.0 - at) / MIDDLE, math.log((1.0 - at) / at))
+        for at in positions
+    ]
+    columns = to_device(np.array(rows, np.float32).T[..., None, None, None], path.device)
+    share, before, after, logit = columns
+    back = path * share
+    count = len(positions)
+    flow = warp(middle.flow.expand(count, -1, -1, -1), back)
+    flow[:, :2] *= before
+    flow[:, 2:] *= after
+    return Motion(flow, warp(middle.mask.expand(count, -1, -1, -1), back) + logit)

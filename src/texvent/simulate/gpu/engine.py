@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from texvent.simulate.gpu.kernel_types import Call, Frames, Intervals, NoiseRule
 from texvent.simulate.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
 from texvent.simulate.gpu.ordering import order_events
 from texvent.simulate.gpu.passes import GpuPixels, run_passes
+from texvent.simulate.gpu.support import check_supported
 from texvent.simulate.random.draws import frame_keys
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu.noise import noise_rules
@@ -67,14 +69,35 @@ class EventBatch:
 
     def stream(self, index: int) -> EventStream:
         """The events of one clip, copied to the host."""
-        part = self._part(index)
-        x, y, t, p, label = (
-            column[part].cpu().numpy() for column in (self.x, self.y, self.t, self.p, self.label)
-        )
-        return EventStream(
-            x.astype(np.uint16), y.astype(np.uint16), t, p.astype(np.uint8), self.size,
-            label=label.astype(np.uint8),
-        )  # fmt: skip
+        return self._stream(self._copied(self._part(index)))
+
+    def packets(self, index: int) -> Iterator[EventStream]:
+        """The events of one clip on the host, those of each interval as a packet."""
+        ends = self.frame_ends[index]
+        if len(ends) == 1:  # only the first frame was seen: nothing to wait for
+            return
+        columns = self._copied(self._part(index))
+        for first, last in itertools.pairwise((ends - ends[0]).tolist()):
+            yield self._stream([column[first:last] for column in columns])
+
+    def _stream(self, columns: Sequence[NDArray[Any]]) -> EventStream:
+        t, x, y, p, label = columns
+        return EventStream.unchecked(x, y, t, p, size=self.size, label=label)
+
+    def _copied(self, part: slice) -> list[NDArray[Any]]:
+        """t, x, y, p, label on the host, as an `EventStream` has them."""
+        torch = require("torch", extra=EXTRA)
+        kinds = (torch.int64, torch.int16, torch.int16, torch.int8, torch.int8)
+        columns = (self.t, self.x, self.y, self.p, self.label)
+        narrow = [
+            column[part].to(kind).contiguous().view(torch.uint8)
+            for column, kind in zip(columns, kinds, strict=True)
+        ]
+        # In one piece: the host waits once.
+        together = torch.cat(narrow).cpu().numpy()
+        ends = np.cumsum([len(one) for one in narrow])[:-1]
+        t, x, y, p, label = np.split(together, ends)
+        return [t.view(np.int64), x.view(np.uint16), y.view(np.uint16), p, label]
 
     def _part(self, index: int) -> slice:
         ends = self.frame_ends[index]
@@ -240,12 +263,10 @@ class GpuSimulator:
 
 
 def _make_pixels(config: object, clips: int) -> GpuPixels[Any]:
+    check_supported(config)
     if isinstance(config, TexventConfig):
         return TexventPixels(config, clips)
-    if isinstance(config, EsimConfig):
-        return EsimPixels(config)
-    model = type(config).__name__.removesuffix("Config").lower()
-    raise ConfigError(f"simulator {model!r} does not run on a GPU; texvent and esim do")
+    return EsimPixels(cast("EsimConfig", config))
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:

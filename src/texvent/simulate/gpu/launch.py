@@ -7,14 +7,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from texvent._require import require
 from texvent.errors import ConfigError
+from texvent.runtime.devices import EXTRA as EXTRA
+from texvent.runtime.devices import to_device as to_device
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 
-EXTRA = "gpu"
 LAUNCH = {"enable_fp_fusion": False}
 """Options of every launch. A fused multiply-add rounds once where the CPU rounds twice, and an
 event at the threshold would show it."""
@@ -121,12 +119,3 @@ def make_records(count: int, reference: Tensor, *, has_order: bool) -> Records:
     pixel = torch.empty(count, dtype=torch.int32, device=reference.device)
     order = torch.empty_like(pixel) if has_order else None
     return Records(pixel, order, torch.empty(count, dtype=reference.dtype, device=pixel.device))
-
-
-def to_device(array: NDArray[Any], device: Any) -> Tensor:
-    """A copy of a small array; the host does not wait for it."""
-    torch = require("torch", extra=EXTRA)
-    tensor = torch.from_numpy(np.ascontiguousarray(array))
-    if device.type == "cuda":
-        return tensor.pin_memory().to(device, non_blocking=True)
-    return tensor.clone()

@@ -13,7 +13,6 @@ import triton
 import triton.language as tl
 
 from texvent._require import require
-from texvent.errors import ConfigError
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
@@ -190,20 +189,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
 
         Args:
             config: the options.
-
-        Raises:
-            ConfigError: thresholds that are drawn for every frame, or a refractory period.
         """
-        if config.refractory_period_us > 0:
-            raise ConfigError(
-                f"refractory_period_us is {config.refractory_period_us}, which is not kept on a "
-                "GPU; use 0"
-            )
-        if config.threshold_sigma > 0:
-            raise ConfigError(
-                f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
-                "pixel and frame, which is not done on a GPU; use 0"
-            )
         super().__init__(config, RAMP_LAUNCH)
 
     def begin(self, frames: Tensor) -> None:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import ConfigError
 from texvent.simulate.gpu.intervals import Float64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
@@ -37,15 +36,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         Args:
             config: the options.
             clips: how many there are.
-
-        Raises:
-            ConfigError: Gaussian noise.
         """
-        if config.noise == "gaussian":
-            raise ConfigError(
-                "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
-                "done on a GPU; use noise 'adaptive', 'random' or 'none'"
-            )
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(config, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH)
         self._schedules = [
