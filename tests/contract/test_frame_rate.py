@@ -70,9 +70,9 @@ def events_at(rate: int, simulator: str, preset: str) -> texvent.EventStream:
 def times_by_pixel(events: texvent.EventStream, band: int) -> dict[Any, list[int]]:
     """(y, x, polarity) → times of its events, µs."""
     found: dict[Any, list[int]] = defaultdict(list)
-    inside = events[events.y // ROWS == band]
-    for *where, t in zip(*(getattr(inside, name).tolist() for name in "yxpt"), strict=True):
-        found[tuple(where)].append(t)
+    for x, y, t, p in zip(events.x, events.y, events.t.tolist(), events.p, strict=True):
+        if y // ROWS == band:
+            found[y, x, p].append(t)
     return found
 
 
