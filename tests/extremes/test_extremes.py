@@ -91,7 +91,7 @@ def sizes() -> Iterator[tuple[str, Run]]:
     """Extreme sizes; the largest are views of one pixel."""
     rate = {"fps": 100}
     small = frames(2, dtype="uint8")
-    for width, height in ((1, 1), (65535, 1), (1, 65535), (65536, 1), (60_000, 60_000)):
+    for width, height in ((1, 1), (65535, 1), (1, 65535), (65536, 1), (10_000, 10_000)):
         shape = (2, height, width)
         yield f"frames of {width}x{height}", (np.broadcast_to(np.uint8(9), shape), rate)
     for sensor in ("1x1", "1x65535", "65535x1", "65535x65535", "60000x60000", "0x5", "9" * 400):
@@ -115,6 +115,7 @@ def test_extreme_inputs_end_in_events_or_in_one_short_line(simulator, inputs, mo
             assert "\n" not in text, name
             assert len(text) < 300, name
             continue
+        assert events.size.width * events.size.height < 10**8, name  # memory holds no more
         assert not len(events) or events.x.max() < events.size.width, name
         assert not len(events) or events.y.max() < events.size.height, name
         assert not (np.diff(events.t) < 0).any(), name

@@ -62,7 +62,7 @@ CONTENTS = {
     + struct.pack("<2I", 8 << 28 | 1, 1 << 28) * COUNT,
     "aedat2.aedat": b"#!AER-DAT2.0\r\n# AEChip: DVS128\r\n" + struct.pack(">2I", 5, 7) * COUNT,
     "aedat3.aedat": b"#!AER-DAT3.1\r\n#Size: 9x9\r\n#!END-HEADER\r\n"
-    + struct.pack("<2h6i2I", 1, 1, 8, 4, 0, 1, 1, 1, 1, 5) * COUNT,
+    + (struct.pack("<2h6i", 1, 1, 8, 4, 0, 16, 16, 16) + struct.pack("<2I", 1, 5) * 16) * 3_750,
     "e.es": b"Event Stream\x02\x00\x00\x01" + struct.pack("<2H", 9, 9) + b"\3\1\0\1\0" * COUNT,
     "e.txt": b"0.5 1 2 1\n" * COUNT,
     "e.csv": b"t,x,y,p\n" + b"5,1,2,1\n" * COUNT,

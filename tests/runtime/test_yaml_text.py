@@ -25,7 +25,7 @@ def doubling(form: str, levels: int = 40) -> str:
         (doubling("[{0}, {0}]"), "aliases stand for"),
         (doubling("{{x: {0}, y: {0}}}"), "aliases stand for"),
         ("a: &a [*a]", "aliases stand for"),
-        ("[" * 5000, "nested too deeply"),
+        ("[" * 1000, "nested too deeply"),
         ("fps: 3\nfps: 4", "'fps' is named twice"),
         ("a: [", "expected the node content"),
         ("a: !!timestamp 2001-99-99", "month must be"),
