@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from texvent import api
 from texvent.capture.open import open_frames
+from texvent.class_ids import class_ids_of
 from texvent.config import CaptureConfig
 from texvent.dataset.generation.recipe import SPECIFICATION_FILE, load_recipe
 from texvent.dataset.layouts.frames import clip_frames
 from texvent.dataset.specification.entries import entries_of
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, InputError, few, shown
-from texvent.scenes.models.tables import class_ids_of
-from texvent.scenes.spec.scene import Scene
+from texvent.generate.subjects import Subject
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
@@ -150,7 +150,7 @@ class PromptClips:
 
     known_truth: Sequence[str] = TRUTH
 
-    def __init__(self, prompts: Sequence[str | Scene], **options: Any) -> None:
+    def __init__(self, prompts: Sequence[Subject], **options: Any) -> None:
         """Clips of prompts or scenes.
 
         Args:
@@ -161,7 +161,7 @@ class PromptClips:
         Raises:
             ConfigError: one prompt instead of several, or an option is unknown or out of range.
         """
-        if isinstance(prompts, str | Scene) or not prompts:
+        if isinstance(prompts, str) or not isinstance(prompts, Sequence) or not prompts:
             raise ConfigError("prompts are a list, even of one prompt")
         resolve("generate", options)
         self._prompts, self._options = tuple(prompts), options
