@@ -56,4 +56,4 @@ def in_image(scene: ComposedScene, actor: Actor, time_s: float) -> np.ndarray:
 def middle(actor: Actor, time_s: float) -> np.ndarray:
     """The middle of a body, also where its box leans."""
     lift = 0.0 if actor.is_centred else 0.5 * actor.model.height
-    return actor.trajectory.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])
+    return actor.track.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])

@@ -11,7 +11,7 @@ from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unse
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.spec.scene import SceneObject
-from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
 
 CAR = SceneObject("car")
@@ -20,7 +20,7 @@ CAR = SceneObject("car")
 def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
-        scene = replace(scene, camera_path=CameraTrajectory(pose(position, target), (), DURATION_S))
+        scene = replace(scene, camera_path=CameraTrack(pose(position, target), (), DURATION_S))
     return find_unseen(scene, SceneDescription(objects=objects), SIZE, DURATION_S)
 
 

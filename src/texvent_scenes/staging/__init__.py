@@ -1,1 +1,1 @@
-"""Scene description → animated scene: environment, positions, trajectories, camera, weather."""
+"""Scene description → animated scene: environment, positions, tracks, camera, weather."""

@@ -1,4 +1,4 @@
-"""Actors: models on trajectories; and parts of placed models as the renderer's arrays of shapes."""
+"""Actors: models on tracks; and parts of placed models as the renderer's arrays of shapes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from texvent_scenes.models.people.outfit import Prop
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import bounds, compose, moved
 from texvent_scenes.rendered_scene import Float64Array, Primitives
-from texvent_scenes.staging.trajectories.track import Track
+from texvent_scenes.staging.tracks.track import Track
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 """Corners of a box two units wide."""
@@ -69,7 +69,7 @@ class Actor:
     """Index into `SceneDescription.objects`."""
     noun: Noun
     model: Model
-    trajectory: Track
+    track: Track
     is_mover: bool
     instance: int
     """Ground-truth id, from 1."""
@@ -117,12 +117,12 @@ class Actor:
 
     def place(self, time_s: float) -> PlacedModel:
         """All that is drawn of it in the world at that instant."""
-        to_world = self.trajectory.at(time_s).to_world()
+        to_world = self.track.at(time_s).to_world()
         return PlacedModel(self.own_parts(self.pose(time_s)), to_world, self.instance)
 
     def pose(self, time_s: float) -> Pose:
         """State of its limbs at that instant."""
-        state = self.trajectory.at(time_s)
+        state = self.track.at(time_s)
         return Pose(
             state.tempo * time_s + 0.37 * self.lead_m,
             state.distance_m + self.lead_m,
@@ -138,12 +138,12 @@ class Actor:
         if not self._has_limbs:
             return None, 1.0
         earlier, later = time_s - CHANGE_S, time_s
-        before = self.trajectory.at(earlier).activity
+        before = self.track.at(earlier).activity
         if before == activity:
             return None, 1.0
         for _ in range(_HALVINGS):
             middle = 0.5 * (earlier + later)
-            if self.trajectory.at(middle).activity == activity:
+            if self.track.at(middle).activity == activity:
                 later = middle
             else:
                 earlier = middle
@@ -153,12 +153,12 @@ class Actor:
     def anchor(self, name: str, time_s: float) -> Float64Array:
         """[3, 4] axes at a named place of it, in the world: see `anchors.locate`."""
         return compose(
-            self.trajectory.at(time_s).to_world(), locate(self.model, name, self.pose(time_s))
+            self.track.at(time_s).to_world(), locate(self.model, name, self.pose(time_s))
         )
 
     def middle(self, time_s: float) -> Float64Array:
         """[3] world position of its middle, m."""
-        to_world = self.trajectory.at(time_s).to_world()
+        to_world = self.track.at(time_s).to_world()
         return np.asarray(to_world @ np.array([0.0, 0.0, self.lift_m, 1.0]))
 
     def corners(self, time_s: float) -> Float64Array:
@@ -168,7 +168,7 @@ class Actor:
             self._boxes[time_s] = self._box(time_s)
         low, high = self._boxes[time_s]
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        to_world = self.trajectory.at(time_s).to_world()
+        to_world = self.track.at(time_s).to_world()
         return np.asarray((middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3])
 
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:

@@ -17,7 +17,7 @@ from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Pr
 from texvent_scenes.spec.scene import CameraMove, Motion
 from texvent_scenes.staging.actors import Actor, assemble, join_primitives, seeded
 from texvent_scenes.staging.camera.camera_placement import place_camera
-from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
 from texvent_scenes.staging.particles.choose import (
     Staged,
@@ -57,7 +57,7 @@ class ComposedScene:
     """Scenery: the same at every instant."""
     particles: Staged
     """Weather, smoke, sparks, pieces ..."""
-    camera_path: CameraTrajectory
+    camera_path: CameraTrack
     place: PlaceModel
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
@@ -164,7 +164,7 @@ def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str
 def _describe_view(
     description: SceneDescription,
     place: PlaceModel,
-    path: CameraTrajectory,
+    path: CameraTrack,
     actors: Sequence[Actor],
     duration_s: float,
 ) -> ViewClearance:

@@ -45,7 +45,7 @@ from texvent_scenes.spec.scene import (
     Scene,
     SceneObject,
 )
-from texvent_scenes.staging.camera.camera_trajectory import time_moves
+from texvent_scenes.staging.camera.camera_track import time_moves
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 from texvent_scenes.staging.surroundings.lighting import choose_lighting
 

@@ -243,7 +243,7 @@ def test_objects_and_camera_stand_where_metres_say(kind):
     )
     nouns, size = list_nouns(), SensorSize(64, 48)
     staged = compose_scene(describe_scene(scene, nouns), seed=3, size=size, duration_s=1.0)
-    at_start = {one.noun.name: one.trajectory.at(0.0) for one in staged.actors}
+    at_start = {one.noun.name: one.track.at(0.0) for one in staged.actors}
     places = {name: state.position for name, state in at_start.items()}
     np.testing.assert_allclose(places["car"][:2], (-3.0, 2.0), atol=1e-9)
     assert math.degrees(at_start["car"].yaw) == pytest.approx(30.0)

@@ -11,7 +11,7 @@ from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.camera import project
 from texvent_scenes.spec.scene import Camera, CameraMove, Motion, MoveKind, SceneObject
-from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import (
     come_near,
     fit,
@@ -45,7 +45,7 @@ def prominence_of(*boxes):
 
 
 def camera_at(framing):
-    return CameraTrajectory(framing, (), 2.0, has_floor=False).at(0.0)
+    return CameraTrack(framing, (), 2.0, has_floor=False).at(0.0)
 
 
 @pytest.mark.parametrize("goal", [0.2, 0.5, 0.9, 5.0])

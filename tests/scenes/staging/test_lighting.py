@@ -31,7 +31,7 @@ def test_headlights_are_on_at_night_and_off_by_day():
 def test_lamps_move_with_what_carries_them():
     scene = stage(CAR, light="night", place="road")
     before, after = (scene.environment(t).lamps for t in (0.2, 0.4))
-    car = scene.actors[0].trajectory
+    car = scene.actors[0].track
     moved = np.subtract(car.at(0.4).position, car.at(0.2).position)
     carried = before["full"] >= -1.0
     np.testing.assert_allclose(

@@ -11,9 +11,9 @@ from tests.scenes.staged import stage, thing
 
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, bounce_height
-from texvent_scenes.staging.trajectories.phases import build_path, schedule
-from texvent_scenes.staging.trajectories.track import Term, Track, seated, steady
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, bounce_height
+from texvent_scenes.staging.tracks.phases import build_path, schedule
+from texvent_scenes.staging.tracks.track import Term, Track, seated, steady
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
          "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
@@ -172,12 +172,12 @@ def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution(rounds, height):
      ("disc", (("rise",),))],
 )  # fmt: skip
 def test_a_flat_pattern_faces_the_camera_all_along(noun, said):
-    path = stage(thing(noun, *said), place=None, duration_s=1.0).actors[0].trajectory
+    path = stage(thing(noun, *said), place=None, duration_s=1.0).actors[0].track
     fronts = [path.at(time).to_world()[:, 0] for time in (0.0, 0.3, 0.7, 1.0)]
     np.testing.assert_allclose(fronts, np.tile([0.0, -1.0, 0.0], (4, 1)), atol=1e-9)
 
 
 def test_a_flat_pattern_turns_clockwise_for_the_viewer():
-    path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].trajectory
+    path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].track
     up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]
     assert up[0] > 0.1  # its upper edge goes to the right

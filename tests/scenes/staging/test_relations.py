@@ -60,7 +60,7 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
     *people, table = stage(*objects, relations=(("at", 0, 1),), place="indoor").actors
     assert len({tuple(np.round(one.middle(0.0)[:2], 2)) for one in people}) == count
     for one in people:
-        state = one.trajectory.at(0.0)
+        state = one.track.at(0.0)
         inwards = (table.middle(0.0) - one.middle(0.0))[:2]
         assert state.activity == "sit"
         assert state.to_world()[:2, 0] @ inwards > 0.4 * np.linalg.norm(inwards)
@@ -71,7 +71,7 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
 @pytest.mark.parametrize(("motions", "doing"), [((), "sit"), ((("stand",),), "stand")])
 def test_who_is_on_a_seat_sits_unless_they_stand(motions, doing):
     man, chair = stage(thing("man", *motions), thing("chair"), relations=(("on", 0, 1),)).actors
-    assert man.trajectory.at(0.0).activity == doing
+    assert man.track.at(0.0).activity == doing
     assert overlap(man, chair, 0.0) > 0.4
 
 

@@ -12,8 +12,8 @@ from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor, corners_over
-from texvent_scenes.staging.camera.camera_trajectory import (
-    CameraTrajectory,
+from texvent_scenes.staging.camera.camera_track import (
+    CameraTrack,
     Tie,
     TimedMove,
     time_moves,
@@ -59,7 +59,7 @@ class _Shooting:
     seed: int
     aspect: float
     """Image height over width."""
-    path: CameraTrajectory
+    path: CameraTrack
     """The camera's moves, around nothing yet."""
 
     @property
@@ -76,7 +76,7 @@ def place_camera(
     aspect: float,
     duration_s: float,
     travel: TravelPlan | None = None,
-) -> CameraTrajectory:
+) -> CameraTrack:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
     `place` is a key of `PLACES`, `aspect` the image's height over its width; the seed decides the
@@ -86,7 +86,7 @@ def place_camera(
     main = choose_main(description, actors) if actors else None
     watched = main if travel is None and shot.position_m is None else None
     moves = _plan_moves(description, watched, duration_s)
-    path = CameraTrajectory(
+    path = CameraTrack(
         _surroundings_of(description, place, travel), moves, duration_s,
         Tie.of(moves, main) if main is not None and travel is None else None,
         has_floor=PLACES[place].ground is not Ground.NONE and shot.position_m is None,
@@ -144,7 +144,7 @@ def _watch(shooting: _Shooting, main: Actor) -> Framing:
     return come_near(framings, prominence, [view.goal for view in views[1:]])
 
 
-def _keep_in_view(path: CameraTrajectory, main: Actor, aspect: float) -> CameraTrajectory:
+def _keep_in_view(path: CameraTrack, main: Actor, aspect: float) -> CameraTrack:
     """The path with smaller moves if the subject would leave the picture."""
     for _ in range(_TRIES):
         if _is_visible(path, main, aspect):
@@ -159,7 +159,7 @@ def _keep_in_view(path: CameraTrajectory, main: Actor, aspect: float) -> CameraT
     return path
 
 
-def _is_visible(path: CameraTrajectory, main: Actor, aspect: float) -> bool:
+def _is_visible(path: CameraTrack, main: Actor, aspect: float) -> bool:
     """Whether the middle of the subject is in the picture for nearly all of the clip."""
     half = np.array([0.49, 0.49 * aspect])
     times = np.linspace(0.0, path.duration_s, _CHECKS)
@@ -168,9 +168,7 @@ def _is_visible(path: CameraTrajectory, main: Actor, aspect: float) -> bool:
     return bool(is_inside.mean() >= _VISIBLE_SHARE)
 
 
-def _keep_in_room(
-    path: CameraTrajectory, shooting: _Shooting, travel: TravelPlan | None
-) -> CameraTrajectory:
+def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | None) -> CameraTrack:
     """The path in a room that holds the camera and the objects."""
     actors, objects = shooting.actors, shooting.description.objects
     if travel is not None:

@@ -13,10 +13,10 @@ import numpy as np
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.rendered_scene import Ground
-from texvent_scenes.staging.camera.camera_trajectory import Journey, TimedMove, time_moves
+from texvent_scenes.staging.camera.camera_track import Journey, TimedMove, time_moves
 from texvent_scenes.staging.surroundings.environment import RoadLine
-from texvent_scenes.staging.trajectories.keys import Key
-from texvent_scenes.staging.trajectories.track import Track
+from texvent_scenes.staging.tracks.keys import Key
+from texvent_scenes.staging.tracks.track import Track
 
 NORTH = 0.5 * math.pi
 """Heading of a route."""

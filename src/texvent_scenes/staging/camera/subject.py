@@ -13,7 +13,7 @@ from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOU
 from texvent_scenes.models.places import is_room
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, corners_over, seeded
-from texvent_scenes.staging.camera.camera_trajectory import Tie, TimedMove
+from texvent_scenes.staging.camera.camera_track import Tie, TimedMove
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
@@ -59,7 +59,7 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     """Whether it is a hand that stays, or a person who acts with arms and head all along."""
     if actor.noun.name in HAND_NOUNS:
-        return actor.trajectory.is_resting
+        return actor.track.is_resting
     activities = {actor.pose(float(time)).activity for time in times}
     return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
 
@@ -73,8 +73,8 @@ def choose_angles(
 ) -> tuple[float, float]:
     """Azimuth and elevation of the camera, radians."""
     wander = float(seeded(seed, "camera").uniform(-0.14, 0.14))
-    yaw = main.trajectory.at(0.0).yaw
-    step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
+    yaw = main.track.at(0.0).yaw
+    step = np.subtract(main.track.at(0.5).position, main.track.at(0.0).position)
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
     length = main.model.length  # all of a train or a ship from the side would be a thin line
     is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)

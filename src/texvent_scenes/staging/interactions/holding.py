@@ -17,8 +17,8 @@ from texvent_scenes.models.shapes import Affine, shift
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
-from texvent_scenes.staging.trajectories.keys import Vector
-from texvent_scenes.staging.trajectories.track import Grips, Track, attached, rotation, seated
+from texvent_scenes.staging.tracks.keys import Vector
+from texvent_scenes.staging.tracks.track import Grips, Track, attached, rotation, seated
 
 _LARGE_M = 0.36
 """Size above which a thing is held in both arms."""
@@ -72,34 +72,34 @@ def _gripping(path: Track, grips: Grips) -> Track:
 
 
 def moving(actor: Actor, path: Track) -> Actor:
-    """The actor on another trajectory, with nothing in its hands."""
-    return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())
+    """The actor on another track, with nothing in its hands."""
+    return replace(actor, track=path, is_mover=True, lead_m=0.0, props=())
 
 
 def held_at(
     holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False, activity: str = "stand"
 ) -> Track:
-    """A trajectory fixed to a named place of a body: `offset` [3, 4] are axes at that place.
+    """A track fixed to a named place of a body: `offset` [3, 4] are axes at that place.
 
     What is upright faces as its holder does.
     """
     axes = partial(_upright, holder, anchor) if is_upright else partial(holder.anchor, anchor)
-    return attached(holder.trajectory, offset, activity, axes)
+    return attached(holder.track, offset, activity, axes)
 
 
 def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
-    yaw = holder.trajectory.at(time_s).yaw
+    yaw = holder.track.at(time_s).yaw
     return np.column_stack([rotation(yaw, 0.0, 0.0), holder.anchor(anchor, time_s)[:, 3]])
 
 
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
-    doing = subject.trajectory.at(0.0).activity
+    doing = subject.track.at(0.0).activity
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
     hold = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
-        subject = replace(subject, trajectory=_gripping(subject.trajectory, hold.grips))
+        subject = replace(subject, track=_gripping(subject.track, hold.grips))
     held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
 
@@ -116,14 +116,14 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
 
 
 def carried(target: Actor, held: Track, holder: Actor) -> Actor:
-    """The thing on a trajectory that its holder gives it."""
-    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
+    """The thing on a track that its holder gives it."""
+    return replace(target, track=held, is_mover=holder.is_mover, lead_m=0.0)
 
 
 def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
     """Place of a thing that is held in a style, and places of the hands."""
     model, size = thing.model, size_of(holder.model)
-    if style == "in both arms" and holder.trajectory.at(0.0).activity in _HANDS_FREE:
+    if style == "in both arms" and holder.track.at(0.0).activity in _HANDS_FREE:
         return _in_both_arms(thing, size)
     hand = _STYLES.get(style)
     grips: Grips = () if hand is None else (("right hand", scaled(hand, size)),)
@@ -134,7 +134,7 @@ def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
         below = model.height - 0.02
     elif model.height < 1.6 * model.length:
         x = min(0.5 * model.length, 0.06)
-    if holder.trajectory.at(0.0).activity == "drink":
+    if holder.track.at(0.0).activity == "drink":
         below = 0.8 * model.height  # so that the rim is at the mouth
     return Hold("right hand", shift(x, 0.0, thing.foot_m - below), grips=grips)
 
@@ -181,13 +181,11 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
         grips = _both_hands(reach, min(0.16 * size, 0.45 * model.width), height)
         subject = replace(
-            subject, trajectory=replace(_gripping(subject.trajectory, grips), activity="push along")
+            subject, track=replace(_gripping(subject.track, grips), activity="push along")
         )
     offset = shift(reach + 0.02 + 0.5 * model.length, 0.0, target.foot_m)
     path = held_at(subject, "ground", offset, is_upright=True, activity="move")
-    return subject, replace(
-        target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover
-    )
+    return subject, replace(target, track=path, lead_m=subject.lead_m, is_mover=subject.is_mover)
 
 
 def board(subject: Actor, ridden: Actor) -> tuple[Actor | None, Actor]:
@@ -221,9 +219,9 @@ def mount(rider: Actor, ridden: Actor) -> Actor:
         support = find_support(ridden.model)
         seat = (*support.middle, support.height + up * size)
         props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
-    path = seated(ridden.trajectory, seat, doing)
+    path = seated(ridden.track, seat, doing)
     return replace(
-        rider, trajectory=_gripping(path, grips), is_mover=ridden.is_mover, lead_m=0.0, props=props
+        rider, track=_gripping(path, grips), is_mover=ridden.is_mover, lead_m=0.0, props=props
     )
 
 

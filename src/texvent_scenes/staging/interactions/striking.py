@@ -19,8 +19,8 @@ from texvent_scenes.staging.interactions.holding import (
     is_person,
     moving,
 )
-from texvent_scenes.staging.trajectories.keys import Key, Vector, ahead
-from texvent_scenes.staging.trajectories.track import (
+from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
+from texvent_scenes.staging.tracks.track import (
     BodyState,
     Term,
     Track,
@@ -65,7 +65,7 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     subject, contact_s = _strike(
         subject, "kick" if is_person(subject) else "stand", KICK, duration_s
     )
-    home, tip = subject.trajectory.at(0.0), subject.anchor("right foot", contact_s)[:, 3]
+    home, tip = subject.track.at(0.0), subject.anchor("right foot", contact_s)[:, 3]
     model, inset = thing.model, 0.0
     radius = 0.5 * model.length
     if abs(model.length - model.height) < 0.1 * radius:
@@ -83,13 +83,13 @@ def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     anchor = "right hand" if is_person(subject) else "mouth"
     held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
     start = state_of(held.at(release_s).to_world(), thing.lift_m)
-    flight = _fly_off(THROW, thing, start, subject.trajectory.at(0.0), (release_s, duration_s))
+    flight = _fly_off(THROW, thing, start, subject.track.at(0.0), (release_s, duration_s))
     return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=release_s))
 
 
 def _strike(subject: Actor, activity: str, act: Strike, duration_s: float) -> tuple[Actor, float]:
     """The subject in its place, doing that, and the instant of contact, s."""
-    contact_s, home = contact_time(duration_s, act.share), subject.trajectory.at(0.0)
+    contact_s, home = contact_time(duration_s, act.share), subject.track.at(0.0)
     rest = steady(home.position, home.yaw, activity=activity)
     return moving(subject, replace(rest, contact_s=contact_s)), contact_s
 
@@ -122,7 +122,7 @@ def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Act
         duration_s: length of the clip, s.
     """
     contact_s = contact_time(duration_s, 0.5)
-    homes = [actor.trajectory.at(0.0).position for actor in (subject, other)]
+    homes = [actor.track.at(0.0).position for actor in (subject, other)]
     yaws = (0.0, math.pi) if homes[0][0] <= homes[1][0] else (math.pi, 0.0)
     if other.noun.habitat == "fixed":
         return _run_into(subject, other, yaws[0], contact_s)
@@ -141,9 +141,9 @@ def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple
     """The mover rebounds; the still object faces it."""
     if still.model.length < _THIN * still.model.width:
         yaw += _ASLANT if yaw == 0.0 else -_ASLANT
-        place = still.trajectory.at(0.0).position
-        still = replace(still, trajectory=steady(place, yaw + math.pi, activity="stand"))
-    touching = _find_contact(mover, still, yaw, mover.trajectory.at(0.0).position[2])
+        place = still.track.at(0.0).position
+        still = replace(still, track=steady(place, yaw + math.pi, activity="stand"))
+    touching = _find_contact(mover, still, yaw, mover.track.at(0.0).position[2])
     return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
 
 
@@ -151,7 +151,7 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
     """Origin of a body at its contact with another's middle, along a heading at a height, m."""
     frame = rotation(-yaw, 0.0, 0.0)
     parts = still.own_parts(still.pose(0.0))
-    parts = moved(parts, frame @ still.trajectory.at(0.0).to_world())
+    parts = moved(parts, frame @ still.track.at(0.0).to_world())
     y = float((frame @ still.middle(0.0))[1])
     low = level_m + mover.lift_m - 0.5 * mover.model.height
     boxes = [bounds([part]) for part in parts]

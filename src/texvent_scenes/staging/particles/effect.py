@@ -16,7 +16,7 @@ from texvent_scenes.rendered_scene import (
     Texture,
 )
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.camera_track import CameraTrack
 
 _NO_GROUND = ("sky", "space", "underwater")
 TINY_M = 5e-6
@@ -28,7 +28,7 @@ class Setting:
     """Context of effects in the scene."""
 
     actors: Sequence[Actor]
-    camera: CameraTrajectory
+    camera: CameraTrack
     place: str
     duration_s: float
     seed: int
@@ -106,11 +106,11 @@ class Source:
         """[n, 3] where the point is at [n] times, m."""
         if self.actor is None:
             return np.tile(self.fixed, (len(times_s), 1))
-        maps = [self.actor.trajectory.at(float(time)).to_world() for time in times_s]
+        maps = [self.actor.track.at(float(time)).to_world() for time in times_s]
         return np.array([one[:, :3] @ self.fixed + one[:, 3] for one in maps]).reshape(-1, 3)
 
     def turn(self, time_s: float) -> Float64Array:
         """[3, 3] axes of the object; of the world where there is none."""
         if self.actor is None:
             return np.eye(3)
-        return np.asarray(self.actor.trajectory.at(time_s).to_world()[:, :3])
+        return np.asarray(self.actor.track.at(time_s).to_world()[:, :3])

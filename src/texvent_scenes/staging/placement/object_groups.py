@@ -22,10 +22,10 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
-from texvent_scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
-from texvent_scenes.staging.trajectories.keys import Vector
-from texvent_scenes.staging.trajectories.motion_plan import MotionPlan
-from texvent_scenes.staging.trajectories.track import sample_places
+from texvent_scenes.staging.tracks.choose_track import ORBIT_SIZES
+from texvent_scenes.staging.tracks.keys import Vector
+from texvent_scenes.staging.tracks.motion_plan import MotionPlan
+from texvent_scenes.staging.tracks.track import sample_places
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""

@@ -38,13 +38,13 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
-from texvent_scenes.staging.trajectories.choose_trajectory import (
-    choose_trajectory,
+from texvent_scenes.staging.tracks.choose_track import (
+    choose_track,
     orbit,
 )
-from texvent_scenes.staging.trajectories.keys import Vector
-from texvent_scenes.staging.trajectories.motion_plan import plan_motion
-from texvent_scenes.staging.trajectories.track import Track, seated
+from texvent_scenes.staging.tracks.keys import Vector
+from texvent_scenes.staging.tracks.motion_plan import plan_motion
+from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -79,7 +79,7 @@ class ObjectPlacer:
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
 
     def place_all(self) -> list[Actor]:
-        """Every copy of every object, with its trajectory."""
+        """Every copy of every object, with its track."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
@@ -257,16 +257,16 @@ class ObjectPlacer:
         return wanted + _ATTEMPTS * step * np.abs(slide)
 
     def _populate(self, group: ObjectGroup, before: int) -> list[Actor]:
-        """The copies of a group on their trajectories."""
+        """The copies of a group on their tracks."""
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
         actors = []
         said = (group.plan.motion, *group.scene_object.motions[1:])
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
             x, y, z = group.centre + np.array(offset)
-            trajectory = self._choose(group, model, (x, y, z), number, rng)
+            track = self._choose(group, model, (x, y, z), number, rng)
             actors.append(
                 Actor(
-                    group.index, group.noun, model, trajectory,
+                    group.index, group.noun, model, track,
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
@@ -278,7 +278,7 @@ class ObjectPlacer:
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
     ) -> Track:
-        """The trajectory of a copy that is at `home` in the middle of the clip."""
+        """The track of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             x, y, _ = group.orbits.centre
             reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
@@ -289,7 +289,7 @@ class ObjectPlacer:
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        return choose_trajectory(plan, model, home, rng)
+        return choose_track(plan, model, home, rng)
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Track:
         """On what carries it, which moves as a whole."""

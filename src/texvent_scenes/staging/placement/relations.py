@@ -24,7 +24,7 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.trajectories.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 
 class Goal(NamedTuple):

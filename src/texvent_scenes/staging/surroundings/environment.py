@@ -25,14 +25,14 @@ from texvent_scenes.rendered_scene import (
 )
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.camera.camera_trajectory import CameraTrajectory
+from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.surroundings.lighting import (
     DEPTHS,
     Lighting,
     choose_lighting,
     wave_level,
 )
-from texvent_scenes.staging.trajectories.track import steady
+from texvent_scenes.staging.tracks.track import steady
 
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
@@ -106,14 +106,14 @@ def _straight_road(
         crossing = [one for one in movers if one.goes_across]
         middle = crossing[len(crossing) // 2]
         x, y, _ = middle.middle(0.5 * _USUAL_S)
-        return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
+        return RoadLine(movers[0].track.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     nouns = {one.noun.name for one in actors}
     drive = any(one.noun.motion == "drive" for one in actors)
     may_be_beside = not drive and (has_pavement or nouns & nouns_with("beside a road"))
     if nouns and may_be_beside and not nouns & nouns_with("on a road"):
         farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
         return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
-    y = grounded[0].trajectory.at(0.0).position[1] if grounded else usual_y
+    y = grounded[0].track.at(0.0).position[1] if grounded else usual_y
     return RoadLine(offset=(0.0, float(y)))
 
 
@@ -126,15 +126,15 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
         lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
 
     def centre_line(time_s: float) -> tuple[float, float, float]:
-        state = first.trajectory.at(time_s)
+        state = first.track.at(time_s)
         x, y, _ = state.position
         # Traffic keeps to the right: the centre line is on its left.
         return x - lane * math.sin(state.yaw), y + lane * math.cos(state.yaw), state.yaw
 
     x, y, yaw = centre_line(0.0)
     crossings: list[tuple[float, float, float]] = []
-    if not first.trajectory.terms:
-        ends = (0.5 * first.trajectory.duration_s, first.trajectory.duration_s)
+    if not first.track.terms:
+        ends = (0.5 * first.track.duration_s, first.track.duration_s)
         crossings = [
             line
             for line in map(centre_line, ends)
@@ -147,13 +147,13 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     """The actors, with what is painted across a road turned to it."""
     painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
     return [
-        replace(one, trajectory=steady(one.trajectory.at(0.0).position, yaw))
+        replace(one, track=steady(one.track.at(0.0).position, yaw))
         if one.noun.name in painted else one
         for one in actors
     ]  # fmt: skip
 
 
-def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrajectory) -> RoadLine:
+def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
     It runs through objects that float or swim, and behind those on land.
@@ -163,14 +163,14 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrajector
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
     swimmers = [
-        one for one in actors if one.trajectory.at(0.0).activity in _AFLOAT
-        or (one.noun.habitat == "water" and one.trajectory.anchor is None)
+        one for one in actors if one.track.at(0.0).activity in _AFLOAT
+        or (one.noun.habitat == "water" and one.track.anchor is None)
     ]  # fmt: skip
     gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
     if not actors:
         gap = half
     elif swimmers and place.ground is Ground.RIVER:
-        gap, state = 0.0, swimmers[0].trajectory.at(0.0)
+        gap, state = 0.0, swimmers[0].track.at(0.0)
         angle = state.yaw if swimmers[0].is_mover else angle
         x, y = float(state.position[0]), float(state.position[1])
     elif swimmers:

@@ -21,7 +21,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, PlacedModel
 from texvent_scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
 from texvent_scenes.staging.surroundings.environment import RoadLine
-from texvent_scenes.staging.trajectories.track import BodyState
+from texvent_scenes.staging.tracks.track import BodyState
 
 _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""
@@ -129,7 +129,7 @@ class _Scatterer:
     ) -> None:
         self.items: list[SceneryItem] = []
         self._view, self._nouns, self._rng = view, nouns, rng
-        self._yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
+        self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
         rows = [
             (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))

@@ -59,7 +59,7 @@ def test_the_foot_touches_the_ball_when_it_leaves(who, what, seed):
     gap = math.dist(tip, middle(ball, contact_s)) - 0.5 * ball.model.length
     assert abs(gap) < CONTACT_M
     assert middle(ball, contact_s - 0.1) == pytest.approx(middle(ball, contact_s))
-    ahead = kicker.trajectory.at(contact_s).to_world()[:, 0]
+    ahead = kicker.track.at(contact_s).to_world()[:, 0]
     assert (middle(ball, contact_s + 0.3) - middle(ball, contact_s)) @ ahead > 0.4
 
 
@@ -89,7 +89,7 @@ def test_a_rider_sits_on_the_back_with_a_leg_on_each_side(what):
     rider, mount = act("ride", "man", what).actors
     back = top_heights(mount.model.parts(Pose(0.0, 0.0, 0.0, "stand")), np.zeros(1), np.zeros(1))
     for time_s in (0.0, 1.3):
-        to_mount = np.linalg.inv(np.vstack([mount.trajectory.at(time_s).to_world(), [0, 0, 0, 1]]))
+        to_mount = np.linalg.inv(np.vstack([mount.track.at(time_s).to_world(), [0, 0, 0, 1]]))
         seat = to_mount @ [*rider.anchor("seat", time_s)[:, 3], 1.0]
         assert seat[2] == pytest.approx(back[0], abs=CONTACT_M)
         assert abs(seat[1]) < CONTACT_M
@@ -104,13 +104,13 @@ def test_hands_stay_at_the_back_of_what_is_pushed():
     pusher, box = act("push", "man", "box").actors
     gaps = []
     for time_s in (0.0, 0.8, 1.9):
-        ahead = pusher.trajectory.at(time_s).to_world()[:, 0]
+        ahead = pusher.track.at(time_s).to_world()[:, 0]
         hand = pusher.anchor("right hand", time_s)[:, 3]
-        back = box.trajectory.at(time_s).to_world()[:, 3] - 0.5 * box.model.length * ahead
+        back = box.track.at(time_s).to_world()[:, 3] - 0.5 * box.model.length * ahead
         gaps.append(float((back - hand) @ ahead))
     np.testing.assert_allclose(gaps, gaps[0], atol=CONTACT_M)
     assert 0.0 <= gaps[0] < 0.05
-    assert box.trajectory.at(2.0).distance_m > 0.8
+    assert box.track.at(2.0).distance_m > 0.8
 
 
 @pytest.mark.parametrize(

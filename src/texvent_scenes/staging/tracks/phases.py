@@ -13,8 +13,8 @@ from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.trajectories.keys import HOP_PAUSE_S, Key, flight_s
-from texvent_scenes.staging.trajectories.track import Track, centred
+from texvent_scenes.staging.tracks.keys import HOP_PAUSE_S, Key, flight_s
+from texvent_scenes.staging.tracks.track import Track, centred
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""

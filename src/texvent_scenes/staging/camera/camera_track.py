@@ -15,7 +15,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.framing import Framing, direction, look_at
-from texvent_scenes.staging.trajectories.track import Term, Track, add_up
+from texvent_scenes.staging.tracks.track import Term, Track, add_up
 
 AMOUNTS = {
     "pan": 0.36, "tilt": 0.24, "roll": 0.7, "orbit": 1.0, "truck": 0.4, "pedestal": 0.3,
@@ -129,7 +129,7 @@ class Tie:
         if not tied or not subject.is_mover:
             return None
         begin_s, end_s = min(one.begin_s for one in tied), max(one.end_s for one in tied)
-        return cls(subject.trajectory, begin_s, end_s, subject.noun.habitat != "ground")
+        return cls(subject.track, begin_s, end_s, subject.noun.habitat != "ground")
 
     def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
@@ -143,7 +143,7 @@ class Tie:
 
 
 @dataclass(frozen=True)
-class CameraTrajectory:
+class CameraTrack:
     """Camera moves over a clip; a pure, smooth function of time."""
 
     framing: Framing
@@ -187,7 +187,7 @@ class CameraTrajectory:
         camera = look_at(position, position + ahead, framing.focal * math.exp(by["zoom"]))
         return _rolled(camera, roll)
 
-    def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrajectory:
+    def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrack:
         """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
         places = np.array([self.at(float(time)).position for time in times])
         reach = float(np.max(np.abs(places[:, :2])))

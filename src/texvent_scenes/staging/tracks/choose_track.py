@@ -11,10 +11,10 @@ from texvent_scenes.description import SPIN_RATE_HZ
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.trajectories.keys import GRAVITY_M_S2, Key, Vector, ahead
-from texvent_scenes.staging.trajectories.motion_plan import MotionPlan
-from texvent_scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent_scenes.staging.trajectories.track import TO_CAMERA, Term, Track, steady
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead
+from texvent_scenes.staging.tracks.motion_plan import MotionPlan
+from texvent_scenes.staging.tracks.phases import NO_FLOOR_M, PATH_KINDS, activity_of
+from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
@@ -37,7 +37,7 @@ _MOST_DRIFTING_M = 2.5
 """Size from which on what hovers drifts no further."""
 
 
-def choose_trajectory(
+def choose_track(
     plan: MotionPlan,
     model: Model,
     home: Vector,

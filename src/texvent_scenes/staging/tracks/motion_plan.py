@@ -18,14 +18,14 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.trajectories.phases import (
+from texvent_scenes.staging.tracks.phases import (
     GOING,
     PATH_KINDS,
     YAWS,
     build_path,
     needs_steering,
 )
-from texvent_scenes.staging.trajectories.track import Track
+from texvent_scenes.staging.tracks.track import Track
 
 MAX_LENGTHS_PER_S = 0.95
 """A usual speed is kept below this many of the object's own lengths per second, so that it stays

@@ -19,7 +19,7 @@ import numpy as np
 from texvent_scenes.models.shapes import compose, point, shift
 from texvent_scenes.models.shapes import rotation as about
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staging.trajectories.keys import (
+from texvent_scenes.staging.tracks.keys import (
     Key,
     Knot,
     Vector,

@@ -1,0 +1,1 @@
+"""Tracks: positions as pure functions of time."""

@@ -1,1 +1,0 @@
-"""Trajectories: positions as pure functions of time."""
