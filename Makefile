@@ -49,7 +49,7 @@ UNHURRIED := --timeout 3600 -o faulthandler_timeout=3660
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
 # Tests of kernels that end in minutes where nothing is compiled: machine code counts as never run.
-IN_PYTHON := $(addprefix tests/, simulate/kernels simulate/crossing simulate/random simulate/esim simulate/v2e pairs \
+IN_PYTHON := $(addprefix tests/, simulation/kernels simulation/crossing simulation/random simulation/esim simulation/v2e pairs \
 	io/prophesee transform)
 
 # Tests start many processes: without compiled modules each would compile texvent anew.

@@ -33,7 +33,7 @@ for number, handler in {
 
 # The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers, which
 # looks for it once.
-sys.path.insert(0, str(Path(__file__).parent / "generate" / "stand_ins"))
+sys.path.insert(0, str(Path(__file__).parent / "generation" / "stand_ins"))
 
 # The first example may compile a kernel, and machines are busy: no property is held to a time.
 UNTIMED = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.pairs.frame_pair import FramePair
 from texvent.pairs.scene_change import SceneChange
-from texvent.simulate.protocol import Simulator
-from texvent.video import Frame
+from texvent.simulation.protocol import Simulator
 
 
 def pairs_of(frames: Iterable[Frame]) -> Iterator[FramePair]:

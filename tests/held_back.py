@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.simulate.esim.simulator import EsimSimulator
+from texvent.simulation.esim.simulator import EsimSimulator
 
 
 class HeldBack(EsimSimulator):

@@ -18,7 +18,7 @@ from texvent.io.files import save
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.video import Frame, frame_time_us
+from texvent.frames import Frame, frame_time_us
 
 class Long:
     size, fps, is_live, metadata = SensorSize(256, 192), Fraction(25), False, {}

@@ -8,13 +8,13 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
+from texvent.frames import Video, frame_time_us
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import select_events, video_to_events
 from texvent.settings.resolution import resolve
-from texvent.simulate.build import benefits_from_denser_frames
-from texvent.video import Video, frame_time_us
+from texvent.simulation.build import benefits_from_denser_frames
 
 
 def moving_clip(count=8, *, height=40, width=48, colour=True):

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.io.files import extension_of, writable_formats
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import PALETTES
 from texvent.view.windows import cut_windows

@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from texvent.simulate.physical.cameras import CAMERAS
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.cameras import CAMERAS
+from texvent.simulation.physical.config import PhysicalConfig
 
 NOT_OF_A_CAMERA = ("gamma", "initial_phase", "sensor_seed", "threshold_map")
 """Options of the frames, the run or the model."""

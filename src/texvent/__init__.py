@@ -14,29 +14,12 @@ from __future__ import annotations
 
 import importlib
 import re
-import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 _STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _HOME_OF = {name: home for home, name in re.findall(r"from (\S+) import (\w+) as", _STUB)}
 __all__ = sorted(_HOME_OF)
-
-
-class _Package(ModuleType):
-    """This package: where a module inside it has the name of a function, the function stays.
-
-    Python makes every imported module an attribute of its package: `import texvent.simulate.esim`
-    would put the package `simulate` in the place of the function.
-    """
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if not (isinstance(value, ModuleType) and _HOME_OF.get(name, __name__) != __name__):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> Any:

@@ -18,6 +18,9 @@ from texvent.errors import TexventWarning as TexventWarning
 from texvent.event_camera import EventCamera as EventCamera
 from texvent.event_packets import EventPackets as EventPackets
 from texvent.events import EventStream as EventStream
+from texvent.frames import Frame as Frame
+from texvent.frames import FrameStream as FrameStream
+from texvent.frames import Video as Video
 from texvent.listings import formats as formats
 from texvent.listings import generators as generators
 from texvent.listings import interpolators as interpolators
@@ -29,11 +32,8 @@ from texvent.run.truth import TruthFolder as TruthFolder
 from texvent.sensor import SENSORS as SENSORS
 from texvent.sensor import Sensor as Sensor
 from texvent.sensor import SensorSize as SensorSize
-from texvent.simulate.build import check_simulator as check_simulator
+from texvent.simulation.build import check_simulator as check_simulator
 from texvent.truth.clip import load_truth as load_truth
 from texvent.truth.recorder import save_truth as save_truth
-from texvent.video import Frame as Frame
-from texvent.video import FrameStream as FrameStream
-from texvent.video import Video as Video
 from texvent_scenes import rig as rig
 from texvent_scenes.scene_input import read as read

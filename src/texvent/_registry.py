@@ -159,9 +159,9 @@ DEFAULT_GENERATOR = "procedural"
 GENERATORS = Registry(
     "generator",
     {
-        "opensora": "texvent.generate.opensora:OpenSoraGenerator",
+        "opensora": "texvent.generation.opensora:OpenSoraGenerator",
     },
-    table="texvent.generate.video_models.known_models",
+    table="texvent.generation.video_models.known_models",
 )
 SCENES = Registry("scene package", {})
 INTERPOLATORS = Registry(
@@ -178,12 +178,12 @@ INTERPOLATORS = Registry(
 SIMULATORS = Registry(
     "simulator",
     {
-        "texvent": "texvent.simulate.texvent.simulator:TexventSimulator",
-        "physical": "texvent.simulate.physical.simulator:PhysicalSimulator",
-        "esim": "texvent.simulate.esim.simulator:EsimSimulator",
-        "v2e": "texvent.simulate.v2e.simulator:V2eSimulator",
-        "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
-        "senpi": "texvent.simulate.senpi.simulator:SenpiSimulator",
+        "texvent": "texvent.simulation.texvent.simulator:TexventSimulator",
+        "physical": "texvent.simulation.physical.simulator:PhysicalSimulator",
+        "esim": "texvent.simulation.esim.simulator:EsimSimulator",
+        "v2e": "texvent.simulation.v2e.simulator:V2eSimulator",
+        "voltmeter": "texvent.simulation.voltmeter.simulator:VoltmeterSimulator",
+        "senpi": "texvent.simulation.senpi.simulator:SenpiSimulator",
     },
 )
 CODECS = Registry(

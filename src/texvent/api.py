@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.generate.subjects import Subject
+from texvent.frames import FrameStream
+from texvent.generation.subjects import Subject
 from texvent.io.files import load
 from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
@@ -26,7 +27,6 @@ from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
-from texvent.video import FrameStream
 
 if TYPE_CHECKING:
     from texvent.metrics.protocol import Metric

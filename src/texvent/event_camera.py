@@ -20,6 +20,7 @@ from texvent.capture.scale_check import check_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.options.arrays import whole_us
 from texvent.options.keywords import SimulateOptions, naming_options
 from texvent.pairs.frame_pair import FramePair
@@ -27,8 +28,7 @@ from texvent.pipeline import select_events, video_to_events
 from texvent.run.prepare import check_memory, check_run
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.settings.resolution import Settings, resolve
-from texvent.simulate.protocol import Simulator
-from texvent.video import Frame
+from texvent.simulation.protocol import Simulator
 
 USED_CAPTURE = ("white_level", "fit", "transfer")
 """Options of recorded frames that have a meaning for single ones."""

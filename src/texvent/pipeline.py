@@ -22,18 +22,18 @@ from texvent.config import CaptureConfig, RunConfig
 from texvent.errors import warn
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.generate.subjects import Subject, check_takes, prompt_of
+from texvent.frames import Frame, FrameStream
+from texvent.generation.subjects import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_change
 from texvent.runtime.progress import Progress
 from texvent.settings.provenance import describe_run
 from texvent.settings.resolution import Settings
-from texvent.simulate.build import benefits_from_denser_frames, build_simulator
-from texvent.simulate.gpu.support import RunDevice, choose_device
-from texvent.simulate.model_options import draw_training_config
-from texvent.simulate.protocol import Simulator
-from texvent.simulate.signal_tally import SignalTally
-from texvent.video import Frame, FrameStream
+from texvent.simulation.build import benefits_from_denser_frames, build_simulator
+from texvent.simulation.gpu.support import RunDevice, choose_device
+from texvent.simulation.model_options import draw_training_config
+from texvent.simulation.protocol import Simulator
+from texvent.simulation.signal_tally import SignalTally
 
 
 def text_to_events(

@@ -6,14 +6,14 @@ simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.3), seed=1)
 packet = simulator.step(frame)  # a texvent.Frame
 """
 
-from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
-from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.simulator import TexventSimulator
-from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
-from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulation.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
+from texvent.simulation.senpi.simulator import SenpiConfig, SenpiSimulator
+from texvent.simulation.texvent.config import TexventConfig
+from texvent.simulation.texvent.simulator import TexventSimulator
+from texvent.simulation.v2e.simulator import V2eConfig, V2eSimulator
+from texvent.simulation.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 
 __all__ = [
     "EsimConfig",

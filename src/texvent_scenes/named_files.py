@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, InputError
-from texvent.generate.subjects import Subject
+from texvent.generation.subjects import Subject
 from texvent_scenes.spec.scene import Scene
 
 

@@ -21,26 +21,26 @@ from numpy.typing import NDArray
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
-from texvent.generate.subjects import Subject, describe_subject
+from texvent.frames import (
+    MICROSECONDS,
+    Frame,
+    MotionVectors,
+    NotebookFrames,
+    describe_stream,
+    frame_time_us,
+)
+from texvent.generation.subjects import Subject, describe_subject
 from texvent.options.values import plain
 from texvent.prompt_report import REPORT_KEY
 from texvent.runtime.prefetch import prefetch
 from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
-from texvent.video import (
-    MICROSECONDS,
-    Frame,
-    Motion,
-    NotebookFrames,
-    describe_stream,
-    frame_time_us,
-)
 from texvent_scenes.description import report_of
 from texvent_scenes.scene_input import list_nouns, nouns_of, understand
 
 if TYPE_CHECKING:
     from texvent.camera import PosedCamera
-    from texvent.generate.kept_frames import KeptFrames
+    from texvent.generation.kept_frames import KeptFrames
     from texvent.ground_truth import GroundTruth
     from texvent.prompt_report import PromptReport
     from texvent.runtime.progress import Progress
@@ -233,14 +233,14 @@ class ProceduralVideo(NotebookFrames):
     ) -> Iterator[NDArray[np.float32]]:
         from texvent_scenes.raycast.incremental import DrawnInstant, block_speeds
 
-        start, stop = first.motion or Motion(), second.motion or Motion()
+        start, stop = first.motion or MotionVectors(), second.motion or MotionVectors()
         speeds = block_speeds(self.size, start.forward, stop.backward)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
         before = DrawnInstant(0, first.float_luma, getattr(first, "codes", None))
         after = DrawnInstant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
         return self._renderer.render_between(before, after, speeds, times)
 
-    def _motion(self, index: int) -> Motion:
+    def _motion(self, index: int) -> MotionVectors:
         """Motion from a frame to its neighbours."""
         from texvent_scenes.raycast.ground_truth import frame_motion
 
@@ -250,7 +250,7 @@ class ProceduralVideo(NotebookFrames):
         last = self.frame_count - 1
         neighbours = before if index else None, after if index < last else None
         make = partial(frame_motion, self.scene, now, *neighbours, self.size)
-        return cast(Motion, self._once("motion", index, make=make))
+        return cast(MotionVectors, self._once("motion", index, make=make))
 
     @cached_property
     def _renderer(self) -> IncrementalRenderer:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
-from texvent.generate.subjects import Subject
+from texvent.generation.subjects import Subject
 from texvent.prompt_report import PromptReport
 from texvent_scenes.spec.data import checked_scene
 from texvent_scenes.spec.limits import Vocabulary

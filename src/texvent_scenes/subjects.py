@@ -1,4 +1,4 @@
-"""Scenes as texvent asks for them: functions of `texvent.generate.subjects.ScenePackage`."""
+"""Scenes as texvent asks for them: functions of `texvent.generation.subjects.ScenePackage`."""
 
 from __future__ import annotations
 

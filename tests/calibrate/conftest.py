@@ -8,10 +8,10 @@ import pytest
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical.cameras import PRESETS
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.video import Video
+from texvent.frames import Video
+from texvent.simulation.physical.cameras import PRESETS
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
 
 TRUTH = dataclasses.replace(
     PRESETS["default"],

@@ -7,11 +7,11 @@ import dataclasses
 import numpy as np
 
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.circuit import WHITE
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.video import MICROSECONDS, Frame
+from texvent.simulation.physical.circuit import WHITE
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
 
 STATIC_STEP_US = 500_000
 """Time between frames of a scene at rest, µs."""

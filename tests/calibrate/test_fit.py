@@ -6,7 +6,7 @@ from texvent.calibrate.estimates import write_preset
 from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.simulate.physical.cameras import PRESETS
+from texvent.simulation.physical.cameras import PRESETS
 
 from .conftest import TRUTH, moving_blobs, record
 

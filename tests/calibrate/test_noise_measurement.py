@@ -11,7 +11,7 @@ from texvent.calibrate.noise import (
 )
 from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.events import EventStream
-from texvent.video import Video
+from texvent.frames import Video
 
 from .conftest import TRUTH, record
 

@@ -11,7 +11,7 @@ from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull
 from texvent.io.files import load
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.cameras import PRESETS
+from texvent.simulation.physical.cameras import PRESETS
 
 
 @pytest.mark.network

@@ -5,8 +5,8 @@ from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.frames import Video
 from texvent.sensor import SensorSize
-from texvent.video import Video
 
 from .conftest import TRUTH, moving_blobs
 

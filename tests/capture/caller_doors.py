@@ -7,8 +7,8 @@ import numpy as np
 
 import texvent
 from texvent.events import EventStream
+from texvent.frames import Frame, Video
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Video
 
 STEP_US = 10_000
 

@@ -12,7 +12,7 @@ from PIL import Image
 import texvent
 from texvent._registry import SIMULATORS
 from texvent.errors import InputError, TexventWarning
-from texvent.video import Frame
+from texvent.frames import Frame
 
 from .caller_doors import DOORS, OF_IMAGES, ONE_BY_ONE, Stream, through_array
 

@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.capture.fit_to_sensor import fit_motion, fit_pixels, fit_place
+from texvent.frames import MotionVectors
 from texvent.sensor import SensorSize
-from texvent.video import Motion
 
 sides = st.integers(1, 40)
 
@@ -64,7 +64,7 @@ def motion_of(height, width):
     """Every pixel's vector, depth and id say where the pixel is."""
     row, column = np.mgrid[:height, :width]
     vectors = np.stack([column, row], axis=-1).astype(np.float32)
-    return Motion(vectors, -vectors, (row + 1).astype(np.float32), column.astype(np.int32))
+    return MotionVectors(vectors, -vectors, (row + 1).astype(np.float32), column.astype(np.int32))
 
 
 def test_motion_is_cut_and_scaled_as_the_pixels_are():
@@ -111,7 +111,7 @@ def test_both_axes_are_fitted_alike(width, height, new_width, new_height, fit):
     turned_size = SensorSize(new_height, new_width)
     turned = fit_pixels(pixels.T.copy(), turned_size, fit).T
     assert np.allclose(fit_pixels(pixels, size, fit), turned, atol=1e-3)
-    upright = Motion(
+    upright = MotionVectors(
         motion.forward.transpose(1, 0, 2)[..., ::-1].copy(),
         None,
         motion.depth.T.copy(),

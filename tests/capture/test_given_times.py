@@ -8,7 +8,7 @@ from texvent.capture.given_times import listed_times, read_timestamps
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
-from texvent.video import Video
+from texvent.frames import Video
 from texvent.view.video.writer import write_images
 
 

@@ -10,9 +10,9 @@ from PIL import Image
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.frames import Frame
 from texvent.run.check import check_source
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 
 
 def save_images(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png", step=1):

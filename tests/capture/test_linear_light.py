@@ -11,8 +11,8 @@ from texvent.capture.linear_light import to_light
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
+from texvent.frames import Video, transfer_of
 from texvent.transfer import Transfer
-from texvent.video import Video, transfer_of
 
 FPS = Fraction(30)
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
+from texvent.frames import Video, frame_time_us
 from texvent.sensor import SensorSize
-from texvent.video import Video, frame_time_us
 
 
 @given(

@@ -7,12 +7,12 @@ import pytest
 
 import texvent
 from texvent.capture.transfer_adaptation import gamma_coded
+from texvent.frames import Frame, MotionVectors, Video, transfer_of
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.transfer import Transfer, decode_srgb, encode_srgb
-from texvent.video import Frame, Motion, Video, transfer_of
 
 QUIET = {"simulator": "physical", "preset": "clean"}
 
@@ -113,7 +113,7 @@ def test_a_cut_is_seen_in_dark_linear_frames():
 
 
 def test_known_motion_adds_light_up_and_stays_linear():
-    motion = Motion(np.zeros((48, 64, 2), np.float32), np.zeros((48, 64, 2), np.float32))
+    motion = MotionVectors(np.zeros((48, 64, 2), np.float32), np.zeros((48, 64, 2), np.float32))
     frames = [
         Frame(one.pixels, one.t_us, motion=motion, transfer=Transfer.LINEAR) for one in video(2)
     ]

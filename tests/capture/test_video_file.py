@@ -23,10 +23,10 @@ from texvent.capture.video_file import PresentationClock, VideoFile
 from texvent.cli.app import main
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
-from texvent.generate.videos.stored_video import open_stored
+from texvent.frames import FrameStream, frame_time_us
+from texvent.generation.videos.stored_video import open_stored
 from texvent.run.check import check_source
 from texvent.sensor import SensorSize
-from texvent.video import FrameStream, frame_time_us
 
 EXCERPT = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 GREY = np.tile(np.arange(64, dtype=np.uint8) * 4, (48, 1))

@@ -11,9 +11,9 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.cli.dry_run import MOST_PAIRS, estimate_run
+from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
-from texvent.video import Video
 
 pytestmark = pytest.mark.usefixtures("folder")
 FRAMES = np.random.default_rng(1).integers(0, 256, (7, 12, 16), dtype=np.uint8)

@@ -72,8 +72,6 @@ def test_a_public_name_has_an_example_that_can_be_pasted(name):
 
 @pytest.mark.parametrize("name", MODULES)
 def test_other_examples_are_true(name):
-    # Not pytest's own collection of doctests: it imports modules its own way and would put the
-    # package texvent.generate in the place of the function texvent.generate.
     found = doctest.DocTestFinder().find(importlib.import_module(name))
     for example in found:
         if example.name not in HOMES:

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from texvent._registry import GENERATORS
+from texvent.frames import Video
 from texvent.pipeline import text_to_events, video_to_events
 from texvent.settings.resolution import resolve
-from texvent.video import Video
 
 ROOT = Path(__file__).parents[2]
 ROW = re.compile(r"^\| (\d)(?: \(.\))? \| `([\w.]+)` \| `([\w./]+)::(\w+)` \| .+ \|$", re.MULTILINE)

@@ -19,7 +19,7 @@ from texvent.run.prepare import estimate_bytes
 from texvent.runtime.memory import usable_bytes
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.simulate import packets
+from texvent.simulation import packets
 
 SIMULATORS = ("texvent", "esim", "v2e", "voltmeter", "senpi", "physical")
 DAY_US = 86_400 * 10**6

@@ -12,7 +12,7 @@ import numpy as np
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.generate.videos.stored_video import open_stored, reopen, write_video
+from texvent.generation.videos.stored_video import open_stored, reopen, write_video
 
 from ..capture.dsec_sequence import write_sequence
 from ..capture.test_aedat4_frames import grey, write_file

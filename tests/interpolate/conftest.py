@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from texvent.video import Frame, Video
+from texvent.frames import Frame, Video
 
 
 @pytest.fixture(scope="session")

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from texvent.brightness import balanced_log
+from texvent.frames import Frame
 from texvent.interpolate.count_policy import count_intermediate
 from texvent.pairs.instants import intermediate_times_us
-from texvent.video import Frame
 
 BLACK = np.zeros((2, 2), np.uint8)
 WHITE = np.full((2, 2), 255, np.uint8)

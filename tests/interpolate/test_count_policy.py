@@ -5,11 +5,11 @@ import pytest
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.pairing import pair_frames
 from texvent.interpolate.simple import BlendInterpolator
-from texvent.video import Frame, Motion, Video
 
 
 @pytest.fixture
@@ -99,13 +99,13 @@ def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
     first, second = pair(*[np.full((4, 4), 100, np.uint8)] * 2, interval_us=40_000)
     forward = np.zeros((4, 4, 2), np.float32)
     forward[1, 2], forward[0, 0] = (6.0, -8.0), np.nan
-    moving = [Frame(one.pixels, one.t_us, motion=Motion(forward)) for one in (first, second)]
+    moving = [Frame(one.pixels, one.t_us, motion=MotionVectors(forward)) for one in (first, second)]
     blend = BlendInterpolator(InterpolateConfig(), stream)
     assert policy(blend, interpolate="motion").count(*moving) == 10
     assert policy(blend, interpolate="motion", frames_per_pixel=2.0).count(*moving) == 20
     assert policy(blend, interpolate="motion", frames_per_pixel=0.0).count(*moving) == 10
     assert policy(blend, interpolate="motion", max_intermediate=3).count(*moving) == 3
     assert policy(blend, interpolate="motion").count(first, second) == 0
-    back = Frame(second.pixels, second.t_us, motion=Motion(backward=forward))
+    back = Frame(second.pixels, second.t_us, motion=MotionVectors(backward=forward))
     assert policy(blend, interpolate="motion").count(first, back) == 10
     assert policy().count(*moving) == 0

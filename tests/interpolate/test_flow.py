@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from texvent.config import InterpolateConfig
+from texvent.frames import Frame
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.simple import BlendInterpolator
 from texvent.pairs import motion_interpolation
-from texvent.video import Frame
 
 
 @pytest.fixture

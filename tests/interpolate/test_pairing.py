@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
+from texvent.frames import Frame, Video
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
-from texvent.video import Frame, Video
 
 
 def pairs_of(video, options=None, *, threshold=0.2):

@@ -9,8 +9,8 @@ import pytest
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
+from texvent.frames import Frame, Video
 from texvent.interpolate.simple import BlendInterpolator, ExactInterpolator
-from texvent.video import Frame, Video
 
 
 def test_blend_mixes_by_the_share_of_time_that_passed(pair, stream):

@@ -14,10 +14,10 @@ from tests.scenes.assets.glb_bar import write_bar
 
 import texvent
 from texvent.cli.app import main
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.physical.threshold_map import ThresholdMap, write_threshold_map
-from texvent.video import Video
+from texvent.frames import Video
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
+from texvent.simulation.physical.threshold_map import ThresholdMap, write_threshold_map
 
 RIG = """
 cam0:

@@ -116,7 +116,7 @@ ELSEWHERE: dict[tuple[str, str], str] = {
     ("simulate", "keep-partial"): "tests/cli/test_nothing_lost.py",
     ("simulate", "interpolator-weights"): "tests/interpolate/rife",
     ("simulate", "rife-flow"): "tests/interpolate/rife",
-    ("simulate", "device"): "tests/simulate/gpu",
+    ("simulate", "device"): "tests/simulation/gpu",
     ("convert", "frames"): "tests/capture/test_aedat4_frames.py",
     ("convert", "triggers"): "tests/io/test_side_data.py",
     ("convert", "imu"): "tests/io/test_side_data.py",

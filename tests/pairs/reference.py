@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.paths_cpu import (
+from texvent.pairs.contested_paths import (
     CLEARLY_BETTER,
     CONTESTED_PX2,
     CONTESTED_RELATIVE,
@@ -256,7 +256,7 @@ def warp_between(
     Where both flows agree, the path is (1 − τ) times the one minus τ times the other.
 
     Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4,
-        which are −τ and 1 − τ times the path below; the weights are ours: see `paths_cpu`.
+        which are −τ and 1 − τ times the path below; the weights are ours: see `contested_paths`.
     """
     position = first.dtype.type(position)
     rest = first.dtype.type(1.0) - position

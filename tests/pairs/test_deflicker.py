@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
+from texvent.frames import Frame, Video
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.deflicker import PASSED_SHARE, global_gain, steady_frames
-from texvent.video import Frame, Video
 
 
 def clip(moving_texture, gains, *, speed=1.0, dtype=np.float32):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tests.pairs import reference
 from tests.pairs.test_warp import warp_between
 
-from texvent.pairs import paths_cpu
+from texvent.pairs import contested_paths
 
 KERNELS = [reference.warp_between, warp_between]
 
@@ -22,7 +22,7 @@ def ball_flows(step, size=3, shape=(9, 24), x=2):
     return forward, backward
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
 def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find):
     sweep = find(*ball_flows(12), 0)
     # In columns 2 to 4 it is at first, in 14 to 16 at last; it passes 5 to 13.
@@ -31,7 +31,7 @@ def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find
     assert not sweep[:, 14:].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
 def test_a_path_along_the_edge_stays_in_the_image(find):
     forward, backward = np.zeros((2, 3, 24, 2), np.float32)
     for row, slope in ((0, -0.4), (2, 0.4)):
@@ -41,7 +41,7 @@ def test_a_path_along_the_edge_stays_in_the_image(find):
     assert not sweep[1].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
 @pytest.mark.parametrize("backward", [-12, 0])
 def test_nothing_sweeps_where_all_moves_or_the_later_frame_contradicts(find, backward):
     forward = np.broadcast_to(np.float32([12, 0]), (9, 24, 2)).copy()
@@ -75,7 +75,7 @@ def test_compiled_paths_equal_their_definition(seed, shape, shift, position):
     forward, backward = rng.normal(0, 4, (2, *vectors, 2)).astype(np.float32)
     forward[rng.random(vectors) < 0.5] = (5, 1)
     backward[rng.random(vectors) < 0.5] = (-5, -1)
-    sweep = paths_cpu.find_sweep(forward, backward, shift)
+    sweep = contested_paths.find_sweep(forward, backward, shift)
     expected = reference.find_sweep(forward, backward, shift)
     np.testing.assert_array_equal(sweep if sweep.size else np.zeros_like(forward), expected)
     images = rng.uniform(0, 255, (2, *shape)).astype(np.float32)

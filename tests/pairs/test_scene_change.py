@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 import pytest
 
+from texvent.frames import Frame
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144
 

@@ -7,9 +7,9 @@ import pytest
 
 import texvent
 from texvent.errors import InputError, TexventWarning
+from texvent.frames import Frame
 from texvent.pairs.time_jump import watch_steps
 from texvent.run.check import check_source
-from texvent.video import Frame
 
 S = 1_000_000
 PIXELS = np.zeros((2, 2), np.uint8)

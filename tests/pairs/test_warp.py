@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.pairs import reference
 
-from texvent.pairs import warp_cpu
+from texvent.pairs import warping
 
 
 def warp_between(*arrays):
     """One intermediate frame at the last argument, compiled."""
-    return warp_cpu.warp_pair(warp_cpu.prepare_pair(*arrays[:-1], arrays[-1:]), 0, 1)[0]
+    return warping.warp_pair(warping.prepare_pair(*arrays[:-1], arrays[-1:]), 0, 1)[0]
 
 
 KERNELS = [reference.warp_between, warp_between]
@@ -69,12 +69,12 @@ def test_some_points_of_an_image_are_those_of_the_whole_image():
     rng = np.random.default_rng(7)
     first, second = (rng.uniform(0, 255, (30, 21)).astype(np.float32) for _ in range(2))
     forward = rng.normal(0, 3, (30, 21, 2)).astype(np.float32)
-    pair = warp_cpu.prepare_pair(first, second, forward, -forward, [0.2, 0.7])
+    pair = warping.prepare_pair(first, second, forward, -forward, [0.2, 0.7])
     pixel = np.sort(rng.choice(630, 100, replace=False))
-    room, shown = warp_cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
-    warp_cpu.take_points(pair, pixel, room.points)
-    warp_cpu.warp_points(pair, room, pixel.size, 1, shown)
-    whole = warp_cpu.warp_pair(pair, 0, 2)
+    room, shown = warping.make_room(pixel.size), np.empty(pixel.size, np.float32)
+    warping.take_points(pair, pixel, room.points)
+    warping.warp_points(pair, room, pixel.size, 1, shown)
+    whole = warping.warp_pair(pair, 0, 2)
     np.testing.assert_array_equal(shown, whole[1].reshape(-1)[pixel])
 
 

@@ -9,7 +9,7 @@ import texvent
 from texvent.cli.app import main
 from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.errors import InputError, MissingDependencyError
-from texvent.generate.videos.stored_video import write_video
+from texvent.generation.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
 from texvent.settings.resolution import resolve
 from texvent_lab.bench.fidelity.entries import simulate_video

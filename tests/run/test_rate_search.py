@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
+from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.run.rate_search import (
     HIGHEST,
@@ -13,7 +14,6 @@ from texvent.run.rate_search import (
     match_rate,
 )
 from texvent.settings.resolution import resolve
-from texvent.video import Video
 
 
 def moving_waves(count: int = 13) -> Video:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.simulate.physical.cameras import CAMERAS
+from texvent.simulation.physical.cameras import CAMERAS
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
+from texvent.frames import MotionVectors
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
 from texvent.truth.source import Snapshot
-from texvent.video import Motion
 from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
 from texvent_scenes.rendered_scene import Shape
 
@@ -28,7 +28,7 @@ def events_at(columns, row=0, size=SMALL, t=0):
 
 def snapshot(t_us, ids, depth=None, flow_x=None):
     flow = None if flow_x is None else np.stack([[flow_x], np.zeros((1, 8))], axis=2)
-    motion = Motion(
+    motion = MotionVectors(
         None if flow is None else flow.astype(np.float32),
         depth=None if depth is None else np.array([depth], np.float32),
         instance=np.array([ids], np.int32),

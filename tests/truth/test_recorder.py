@@ -16,12 +16,12 @@ import texvent
 from texvent.camera import PosedCamera
 from texvent.class_ids import CLASS_IDS
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.sinks import encode_flow, write_png
-from texvent.video import Frame, Motion, Video
 
 from .hand_video import SIZE, board_video, level
 
@@ -162,7 +162,7 @@ class MotionFrames:
             flow[0, 0] = np.nan
             pixels = np.where(ids == 5, 40, 200).astype(np.uint8)
             depth = np.where(ids == 5, 2.0, 9.0).astype(np.float32)
-            motion = Motion(flow, back, depth=depth, instance=ids if self.has_ids else None)
+            motion = MotionVectors(flow, back, depth=depth, instance=ids if self.has_ids else None)
             yield Frame(pixels, index * 40_000, motion=motion)
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 import av
 import numpy as np
 
-from texvent.video import Frame, frame_time_us
+from texvent.frames import Frame, frame_time_us
 
 
 def texture(height=96, width=320, seed=3, blur=3):

@@ -7,9 +7,9 @@ import cv2
 import numpy as np
 import pytest
 
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer, decode_srgb
-from texvent.video import Frame
 from texvent.video_check.checks import CHECKS, check_video
 from texvent.video_check.measurements import (
     VideoMeasurer,

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
+from texvent.frames import Frame, frame_time_us
 from texvent.sensor import SensorSize
-from texvent.video import Frame, frame_time_us
 
 SIZE = SensorSize(32, 24)
 FPS = Fraction(30_000, 1001)

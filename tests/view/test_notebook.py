@@ -19,8 +19,8 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import Frame, Video
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Video
 
 SIZE = SensorSize(64, 48)
 HOSTILE = 'a <script>alert("x")</script> & "car"'

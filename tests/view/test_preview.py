@@ -10,8 +10,8 @@ import pytest
 
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.preview import Preview
 
 SIZE = SensorSize(32, 24)

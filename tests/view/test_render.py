@@ -13,8 +13,8 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import Video
 from texvent.sensor import SensorSize
-from texvent.video import Video
 from texvent.view.render import RenderConfig, render_events
 
 SIZE = SensorSize(32, 24)

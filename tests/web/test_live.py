@@ -21,9 +21,9 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError, TexventError
 from texvent.event_camera import EventCamera
+from texvent.frames import Frame
 from texvent.io.block_writer import BlockWriter
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.web.live import LiveEvents
 from texvent.web.live_page import LiveServer
 

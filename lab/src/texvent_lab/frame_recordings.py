@@ -13,8 +13,8 @@ from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets
+from texvent.frames import MICROSECONDS, FrameStream
 from texvent.io.files import open_events
-from texvent.video import MICROSECONDS, FrameStream
 
 WITH_FRAMES = ("slider_depth", "davis346")
 """Data sets that hold frames and events."""

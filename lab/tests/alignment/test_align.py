@@ -16,7 +16,7 @@ torch = pytest.importorskip("torch")
 transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
-from tests.generate import tiny_pipelines  # noqa: E402
+from tests.generation import tiny_pipelines  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402

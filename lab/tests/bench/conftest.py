@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.video import Video
 from texvent_lab.bench.oracle.scenes import ValueNoise
 from texvent_lab.frame_recordings import FrameRecording
 

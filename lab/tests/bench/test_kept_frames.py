@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tests.interpolate.rife.rife_files import save_published
 
+from texvent.frames import Frame, Video
 from texvent.run.prepare import prepare_video
 from texvent.settings.resolution import resolve
-from texvent.video import Frame, Video
 from texvent_lab.bench import kept_frames
 from texvent_lab.bench.kept_frames import FrameStore, keep_frames
 

@@ -15,7 +15,7 @@ transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
 from PIL import Image  # noqa: E402
-from tests.generate import tiny_pipelines  # noqa: E402
+from tests.generation import tiny_pipelines  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent_lab.nt_imagenet import images  # noqa: E402

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from texvent.simulate.packets import FrameInterval
-from texvent.simulate.random.draws import frame_key
+from texvent.simulation.packets import FrameInterval
+from texvent.simulation.random.draws import frame_key
 from texvent_lab.plug_ins.v2ce import sample_density, sample_events
 
 PART_US = 1_000_000

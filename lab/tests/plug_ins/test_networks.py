@@ -13,13 +13,13 @@ import texvent
 from texvent.cli.app import main
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
+from texvent.frames import Frame, Video
 from texvent.io.files import open_events
 from texvent.networks.weight_files import BATCH_COUNTER, shapes_of
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
-from texvent.simulate.packets import FrameInterval, make_packet
-from texvent.simulate.random.draws import frame_key
-from texvent.video import Frame, Video
+from texvent.simulation.packets import FrameInterval, make_packet
+from texvent.simulation.random.draws import frame_key
 from texvent_lab.plug_ins import super_slomo, v2ce
 from texvent_lab.plug_ins.super_slomo import FLOW, REFINE, SuperSlomoInterpolator
 from texvent_lab.plug_ins.v2ce import SEQUENCE, V2ceConfig, V2ceSimulator

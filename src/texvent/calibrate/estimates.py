@@ -15,7 +15,7 @@ from texvent._version import full_version
 from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import PhysicalConfig
 
 
 class Estimate(NamedTuple):

@@ -18,7 +18,7 @@ from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
 from texvent.calibrate.search import COORDINATES, Distance, Report, Search, measure_distance
 from texvent.calibrate.uncertainty import judge_fit
 from texvent.events import EventStream
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import PhysicalConfig
 
 MOST_ON = 0.95
 """Share of ON among noise above which OFF events no longer measure it."""

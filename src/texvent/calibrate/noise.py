@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from texvent.calibrate.bootstrap import Float64Array, bootstrap
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.recording import Recording, TimeSpan
+from texvent.frames import MICROSECONDS, Frame
 from texvent.represent.event_frame import count_events
-from texvent.simulate.physical.circuit import linearize
-from texvent.simulate.physical.config import NoiseCurve
-from texvent.video import MICROSECONDS, Frame
+from texvent.simulation.physical.circuit import linearize
+from texvent.simulation.physical.config import NoiseCurve
 
 EDGES = (0, 2, 5, 10, 20, 30, 45, 70, 100, 140, 190, 256)
 """Ranges of linear intensity, levels 0..255, whose pixels are counted together."""

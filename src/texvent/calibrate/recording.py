@@ -11,11 +11,11 @@ from texvent.capture.frame_source import FrameSource
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, FrameStream
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
 
 WARM_UP_US = 100_000
 """Simulated before a span, so that pixels have left their initial phase, µs."""

@@ -11,10 +11,10 @@ import numpy as np
 
 from texvent.calibrate.recording import TimeSpan, simulate_span
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.metrics.spike_trains import Trains
 from texvent.metrics.stpp import Stpp
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.video import Frame
+from texvent.simulation.physical.config import PhysicalConfig
 
 NOTHING = 10.0
 """Stands for a distance that an empty simulation leaves undefined: worse than any other."""

@@ -20,7 +20,7 @@ from texvent.calibrate.estimates import Estimate, Measurement, UnidentifiedOptio
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.search import COORDINATES, STEPS, Search, measure_distance
 from texvent.events import EventStream
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import PhysicalConfig
 
 BLOCK_US = 10_000
 """Shortest block."""

@@ -22,11 +22,11 @@ import numpy as np
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError
+from texvent.frames import Frame, PixelArray
 from texvent.io.aedat.aedat4_container import FRAMES, MAGIC, Container, open_container, stored_size
 from texvent.io.aedat.aedat4_tables import StreamInfo, Table
 from texvent.io.input_checks import begins_with
 from texvent.sensor import SensorSize, checked_size
-from texvent.video import Frame, PixelArray
 
 PIXELS: Mapping[int, tuple[int, str]] = {
     **{0: (1, "u1"), 16: (3, "u1"), 24: (4, "u1")},

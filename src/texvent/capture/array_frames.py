@@ -12,11 +12,11 @@ from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.capture.intensity_scale import caller_pixels, shape_hint
 from texvent.errors import InputError, shown, warn
+from texvent.frames import Frame, PixelArray
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.options.arrays import as_array, is_array_like
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
-from texvent.video import Frame, PixelArray
 
 ONE_IMAGE = ". One image holds no change; stack at least two"
 SLENDER = 8

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.intensity_scale import float_levels
+from texvent.frames import MotionVectors, PixelArray
 from texvent.sensor import SensorSize
-from texvent.video import Motion, PixelArray
 
 
 def fit_pixels(pixels: PixelArray, size: SensorSize, fit: str) -> PixelArray:
@@ -37,7 +37,7 @@ def fit_pixels(pixels: PixelArray, size: SensorSize, fit: str) -> PixelArray:
     return _pad(_resample(levels, _inside(SensorSize(width, height), size)), size)
 
 
-def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
+def fit_motion(motion: MotionVectors, size: SensorSize, fit: str) -> MotionVectors:
     """Motion of a frame that `fit_pixels` fits: arguments as there.
 
     Returns:
@@ -56,7 +56,7 @@ def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
     def moved(field: NDArray[np.float32] | None) -> NDArray[np.float32] | None:
         return None if field is None else np.asarray(fitted(field, 0.0) * scale, dtype=np.float32)
 
-    return Motion(
+    return MotionVectors(
         moved(motion.forward),
         moved(motion.backward),
         fitted(motion.depth, np.inf),

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from texvent.frames import Frame, FrameStream, NotebookFrames, Video, describe_stream
 from texvent.sensor import SensorSize
-from texvent.video import Frame, FrameStream, NotebookFrames, Video, describe_stream
 
 
 class FrameSource(NotebookFrames, ABC):

@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import ConfigError, FileFormatError, InputError, few, one_line, shown, warn
+from texvent.frames import MICROSECONDS, frame_time_us
 from texvent.options.arrays import HOW_TO_ROUND, whole_numbers
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
-from texvent.video import MICROSECONDS, frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
 """Units in a second."""

@@ -19,6 +19,7 @@ from texvent.capture.given_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, few, shown, warn
+from texvent.frames import Frame, PixelArray
 from texvent.options.arrays import usable_pixels
 from texvent.runtime.file_names import (
     IMAGE_EXTENSIONS,
@@ -28,7 +29,6 @@ from texvent.runtime.file_names import (
 )
 from texvent.runtime.image_files import HEAD_BYTES, PHOTOMETRIC, decode_image, tiff_tags
 from texvent.sensor import checked_size
-from texvent.video import Frame, PixelArray
 
 TIMESTAMP_NAMES = ("timestamps.txt", "images.txt", "info.txt")
 """Names under which a timestamp file is found in the folder or beside it."""

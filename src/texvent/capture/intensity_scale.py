@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError, shown
+from texvent.frames import UINT16_PER_LEVEL, PixelArray
 from texvent.options.arrays import as_array, usable_pixels
-from texvent.video import UINT16_PER_LEVEL, PixelArray
 
 FULL_SCALE = 255.0
 """Intensity of white."""

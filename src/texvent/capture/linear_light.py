@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import ChangedFrames
 from texvent.config import CaptureConfig
+from texvent.frames import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
 from texvent.transfer import DECODERS, WHITE, Transfer
-from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
 
 UINT16_FULL = WHITE * UINT16_PER_LEVEL
 AUTO, GAMMA, LINEAR, HALF = "auto", "gamma", "linear", "half"

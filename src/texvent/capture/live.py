@@ -15,6 +15,7 @@ from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_p
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password
+from texvent.frames import MICROSECONDS, Frame
 from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.media_files import (
     is_timeless,
@@ -24,7 +25,6 @@ from texvent.runtime.media_files import (
 )
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
-from texvent.video import MICROSECONDS, Frame
 
 STANDARD_INPUT = "-"
 ARRIVAL = "arrival"

@@ -22,13 +22,13 @@ from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open
 from texvent.capture.scale_check import check_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, is_address
+from texvent.frames import FrameStream, NotebookFrames, RenderableStream, Video
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import usable_path
 from texvent.runtime.image_files import HEAD_BYTES, is_animation
 from texvent.sensor import SensorSize
-from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video
 
 
 def open_frames(

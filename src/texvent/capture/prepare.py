@@ -13,14 +13,14 @@ from texvent.capture.frame_source import ChangedFrames, known_times_us
 from texvent.capture.intensity_scale import scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
-from texvent.sensor import SensorSize
-from texvent.video import (
+from texvent.frames import (
     MICROSECONDS,
     Frame,
     FrameStream,
     StreamChecker,
     frame_time_us,
 )
+from texvent.sensor import SensorSize
 
 FEWEST_FRAMES = 2
 """Events are changes between frames, so one frame has none."""

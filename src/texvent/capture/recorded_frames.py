@@ -35,10 +35,10 @@ from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.given_times import FrameTimes, check_seconds, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
+from texvent.frames import MICROSECONDS, Frame
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame
 
 DSEC_EVENTS = Path("events/left/events.h5")
 RECTIFY_MAP = Path("events/left/rectify_map.h5")

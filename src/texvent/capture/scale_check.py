@@ -20,8 +20,7 @@ from texvent.capture.linear_light import FULL_SCALE as FULL_SCALE_FACT
 from texvent.capture.linear_light import GAMMA, LINEAR, find_coding
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
-from texvent.transfer import Transfer
-from texvent.video import (
+from texvent.frames import (
     MICROSECONDS,
     SYMMETRIC,
     Frame,
@@ -32,6 +31,7 @@ from texvent.video import (
     Video,
     transfer_of,
 )
+from texvent.transfer import Transfer
 
 GIVE_WHITE = (
     "Give white_level=1 if 1 means white, or white_level=255 if the images really are that dark"

@@ -15,9 +15,9 @@ import numpy as np
 from texvent._registry import SIMULATORS
 from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.intensity_scale import float_levels
+from texvent.frames import Frame, FrameStream, transfer_of
 from texvent.options.values import option_names
 from texvent.transfer import WHITE, Transfer, encode_srgb
-from texvent.video import Frame, FrameStream, transfer_of
 
 
 def adapt_transfer(video: FrameStream, simulator: str, config: Any) -> tuple[FrameStream, Any]:

@@ -25,12 +25,12 @@ from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_p
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
+from texvent.frames import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 from texvent.io.input_checks import begins_with, refuse_missing
 from texvent.runtime.image_files import HEAD_BYTES
 from texvent.runtime.media_files import is_timeless, open_media_file, raise_scarcity
 from texvent.runtime.memory import usable_bytes
 from texvent.sensor import checked_size
-from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 
 SLACK_US = 100_000
 """A file may end this much before its header says, or three frames, before it counts as cut."""

@@ -11,7 +11,7 @@ from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import ConfigError
-from texvent.generate.subjects import Subject, scenes
+from texvent.generation.subjects import Subject, scenes
 from texvent.io.atomic import protect_inputs
 from texvent.options.values import option_names
 from texvent.settings.config_files import Command

@@ -15,6 +15,7 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import few
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.prompt_report import PromptReport
@@ -22,7 +23,6 @@ from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings, unmeasured_sensor
-from texvent.video import MICROSECONDS, Frame
 
 SIGNALLED = 128
 """Exit code of a process ended by signal n is this + n, as shells expect."""

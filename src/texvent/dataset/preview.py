@@ -15,8 +15,8 @@ from texvent.dataset.generation.make_sample import PREVIEW_US, preview_png
 from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import InputError, shown
+from texvent.frames import MICROSECONDS
 from texvent.io.atomic import atomic_file
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.page.html_parts import count_text, fill_template
 

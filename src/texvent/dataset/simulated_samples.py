@@ -15,13 +15,13 @@ from texvent.config import check_range
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.frames import Frame, FrameStream, RenderableStream
 from texvent.pipeline import Simulation
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
-from texvent.simulate.random.draws import frame_key
+from texvent.simulation.random.draws import frame_key
 from texvent.truth.boxes import box_records, detection_target
-from texvent.video import Frame, FrameStream, RenderableStream
 
 Target: TypeAlias = Literal["frame", "flow", "depth", "instance", "boxes"]
 

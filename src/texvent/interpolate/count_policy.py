@@ -9,10 +9,17 @@ import numpy as np
 
 from texvent.brightness import balanced_log
 from texvent.config import InterpolateConfig
+from texvent.frames import (
+    MICROSECONDS,
+    FlickeringStream,
+    Frame,
+    FrameStream,
+    MotionVectors,
+    PixelArray,
+)
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.pair_measures import PairMeasures, measure_pair
 from texvent.runtime.devices import Device, explain_device_memory
-from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream, Motion, PixelArray
 
 if TYPE_CHECKING:
     from texvent.interpolate.flow import PairFlow
@@ -214,7 +221,7 @@ def count_for_flicker(
     return min(math.ceil(STEPS_PER_BEAT * beats) - 1, cap)
 
 
-def longest_vector_px(first: Motion | None, second: Motion | None) -> float:
+def longest_vector_px(first: MotionVectors | None, second: MotionVectors | None) -> float:
     """Displacement of the fastest part of a pair whose motion is known.
 
     Args:

@@ -9,10 +9,10 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.config import InterpolateConfig
+from texvent.frames import Frame, FrameStream
 from texvent.interpolate.dis_flow.estimator import DisFlow, FlowArray
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.motion_interpolation import MotionInterpolation
-from texvent.video import Frame, FrameStream
 
 FAST_PERCENTILE = 99.9
 """The motion of a pair is that of its fastest thousandth. The maximum would often be an outlier at

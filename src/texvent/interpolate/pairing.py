@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
+from texvent.frames import Frame, FrameStream, MovingStream, StreamChecker
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
@@ -22,7 +23,6 @@ from texvent.pairs.time_jump import watch_steps
 from texvent.runtime.devices import Device
 from texvent.runtime.memory import release_freed_memory
 from texvent.runtime.prefetch import prefetch
-from texvent.video import Frame, FrameStream, MovingStream, StreamChecker
 
 FRAMES_AHEAD = 2
 PAIRS_AHEAD = 1

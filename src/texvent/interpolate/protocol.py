@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
-from texvent.video import Frame
+from texvent.frames import Frame
 
 
 class Interpolator(Protocol):

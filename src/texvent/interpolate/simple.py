@@ -7,8 +7,8 @@ from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
+from texvent.frames import Frame, FrameStream, RenderableStream
 from texvent.pairs.motion_interpolation import MotionInterpolation
-from texvent.video import Frame, FrameStream, RenderableStream
 
 
 class NoInterpolator:

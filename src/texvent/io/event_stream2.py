@@ -77,7 +77,7 @@ def _read_size(path: Path) -> tuple[int, int]:
 
 
 def _read_stream(path: Path, top: int) -> Iterator[Columns]:
-    from texvent.io.event_stream2_cpu import decode_events  # brings Numba
+    from texvent.io.event_stream2_coding import decode_events  # brings Numba
 
     rest = b""
     now = 0

@@ -13,9 +13,9 @@ from pathlib import Path
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.io.atomic import atomic_folder
 from texvent.io.files import codec_for, extension_of, save
-from texvent.video import MICROSECONDS
 
 TIMES, LABELS = "timestamps.txt", "labels.csv"
 """Files beside the events: the times between the intervals, or what each file shows."""

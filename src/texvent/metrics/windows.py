@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.represent import array_ops
-from texvent.video import MICROSECONDS
 
 Int64Array = NDArray[np.int64]
 

@@ -14,9 +14,9 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.brightness import Float64Array
+from texvent.frames import UINT16_PER_LEVEL, Frame
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.transfer import Transfer
-from texvent.video import UINT16_PER_LEVEL, Frame
 
 SIDE_CELLS = 64
 """Frames are compared as means over cells, at most this many along the longer side."""

@@ -9,9 +9,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.frames import Frame
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.pairs.scene_change import SceneChange
-from texvent.video import Frame
 
 CHANGE_DURATION_US = 1_000
 """A cut or flash takes at most this long, µs; the earlier image is held until then."""

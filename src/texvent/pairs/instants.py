@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from texvent.frames import Frame, PixelArray
 from texvent.transfer import WHITE, Transfer, encode_srgb
-from texvent.video import Frame, PixelArray
 
 
 def position(first: Frame, second: Frame, t_us: int) -> float:

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.frames import Frame
 from texvent.pairs.instants import position
 from texvent.runtime.kernel_arrays import read_only
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
-from texvent.video import Frame
 
 FloatImage = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -29,7 +29,7 @@ class MotionInterpolation:
 
     Every pixel of every intermediate frame depends on the two source frames and their flow alone.
     So a simulator can compute the brightness of some pixels with the functions of
-    `pairs.warp_cpu`, and gets the same bits as from the drawn frame.
+    `pairs.warping`, and gets the same bits as from the drawn frame.
     """
 
     earlier: FloatImage
@@ -94,21 +94,21 @@ class MotionInterpolation:
     def _draw(self, start: int, stop: int) -> Iterator[FloatImage]:
         stop = min(stop, len(self))
         if self.flows is not None:
-            from texvent.pairs import warp_cpu  # blending needs no Numba
+            from texvent.pairs import warping  # blending needs no Numba
 
-            yield from warp_cpu.warp_pair(self.prepared, start, stop)
+            yield from warping.warp_pair(self.prepared, start, stop)
             return
         for place in self.positions[start:stop]:
             yield self.earlier + np.float32(place) * (self.later - self.earlier)
 
     @cached_property
     def prepared(self) -> Any:
-        """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`; only with flow."""
+        """The pair as the compiled kernels read it, a `pairs.warping.WarpPair`; only with flow."""
         if self.flows is None:
             raise ValueError("the frames of the pair are blended, and no pixel moves")
-        from texvent.pairs import warp_cpu  # as above
+        from texvent.pairs import warping  # as above
 
-        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows, self.positions)
+        return warping.prepare_pair(self.earlier, self.later, *self.flows, self.positions)
 
 
 class UndrawnFrame(Frame):

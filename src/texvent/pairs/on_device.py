@@ -15,12 +15,12 @@ import numpy as np
 
 from texvent._require import require
 from texvent.brightness import LUMA_WEIGHTS
+from texvent.frames import UINT16_PER_LEVEL, Frame
 from texvent.pairs.frame_pair import FramePair
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.runtime.devices import EXTRA, Device, Tensor, to_device
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
-from texvent.video import UINT16_PER_LEVEL, Frame
 
 BATCH_BYTES = 256 << 20
 """Intermediate frames that are simulated in one call, float32: at most so many bytes of them."""

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent._require import require
+from texvent.frames import Frame
 from texvent.pairs.on_device import luma_on
 from texvent.pairs.scene_change import CELL_SUMS, cell_px
 from texvent.runtime.devices import EXTRA, Device, Tensor
 from texvent.transfer import WHITE, Transfer
-from texvent.video import Frame
 
 FLOAT64_ERROR = 1e-12
 """Largest difference of a change of brightness on a device from the host's."""

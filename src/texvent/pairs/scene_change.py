@@ -21,9 +21,9 @@ from enum import Enum
 import numpy as np
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.frames import Frame
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.shift_correlation import shift_agreement
-from texvent.video import Frame
 
 SIDE_CELLS = 64
 """Cells of a thumbnail along its longer side, at most."""

@@ -15,7 +15,7 @@ from typing import NamedTuple, Protocol, TypeVar
 import numpy as np
 
 from texvent.errors import InputError, warn
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
 
 SHORTEST_US = 10 * MICROSECONDS
 """Shorter gaps are pauses."""

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.options.arrays import as_array
-from texvent.video import MICROSECONDS
 
 Float64Array: TypeAlias = NDArray[np.float64]
 

@@ -13,6 +13,7 @@ from texvent.brightness import balanced_log
 from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, ReadingConfig
+from texvent.frames import Frame, FrameStream
 from texvent.interpolate.dis_flow.estimator import DisFlow
 from texvent.options.keywords import ReadingOptions
 from texvent.options.values import with_options
@@ -20,7 +21,6 @@ from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
-from texvent.video import Frame, FrameStream
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
 

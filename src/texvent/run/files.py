@@ -11,6 +11,7 @@ from typing import Any
 
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.io.block_writer import BlockWriter
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import OnSceneChange
@@ -19,7 +20,6 @@ from texvent.run.truth import TruthFolder
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
 from texvent.truth.layout import truth_folder
-from texvent.video import Frame
 
 PREVIEW_SUFFIX = ".events"
 """Stands before the extension of previews, so that none takes the name of a source video."""

@@ -12,7 +12,8 @@ from typing import Any, cast
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError, warn
-from texvent.generate.subjects import SceneValue, Subject, check_takes, scenes
+from texvent.frames import FrameStream
+from texvent.generation.subjects import SceneValue, Subject, check_takes, scenes
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.prompt_report import PromptReport
 from texvent.run.rate_search import reach_target_rate
@@ -21,8 +22,7 @@ from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import describe_weights
 from texvent.settings.resolution import Settings
-from texvent.simulate.gpu.support import choose_device
-from texvent.video import FrameStream
+from texvent.simulation.gpu.support import choose_device
 
 UNMEASURED = 200
 """Bytes per pixel of a part that declares none."""
@@ -222,7 +222,7 @@ def _stored_video(source: Any) -> FrameStream | None:
     """A video file that texvent wrote, with what made it; None for any other source."""
     if not isinstance(source, str | Path) or not Path(source).is_file():
         return None
-    from texvent.generate.videos.stored_video import reopen  # brings PyAV
+    from texvent.generation.videos.stored_video import reopen  # brings PyAV
 
     video = reopen(Path(source))
     if video is None:

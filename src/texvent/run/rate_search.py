@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from texvent.config import check_range
 from texvent.errors import InputError
+from texvent.frames import MICROSECONDS
 from texvent.pipeline import Simulation
 from texvent.runtime.progress import Progress
-from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
-from texvent.video import MICROSECONDS
+from texvent.simulation.model_options import contrast_threshold_of, with_contrast_threshold
 
 LOWEST, HIGHEST = 0.01, 1.2
 """Thresholds that are tried, log units."""

@@ -8,10 +8,10 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import InputError, shown, warn
-from texvent.generate.protocol import renders_instants
-from texvent.generate.subjects import scenes, stored_subject
+from texvent.frames import FrameStream, RenderableStream
+from texvent.generation.protocol import renders_instants
+from texvent.generation.subjects import scenes, stored_subject
 from texvent.settings.resolution import Settings, resolve
-from texvent.video import FrameStream, RenderableStream
 
 
 def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> FrameStream | None:

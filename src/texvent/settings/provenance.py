@@ -13,7 +13,7 @@ from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
-from texvent.generate.subjects import SCENE_KEY, Subject, scenes
+from texvent.generation.subjects import SCENE_KEY, Subject, scenes
 from texvent.prompt_report import REPORT_KEY
 from texvent.runtime.file_names import IMAGE_EXTENSIONS
 from texvent.settings.resolution import Settings

@@ -26,7 +26,7 @@ from texvent.options.values import option_names, plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
 from texvent.settings.config_files import Command, read_config
 from texvent.settings.presets import find_preset
-from texvent.simulate.model_options import with_contrast_threshold
+from texvent.simulation.model_options import with_contrast_threshold
 
 DEFAULT_SENSOR = "davis346"
 """Size of a generated scene when no sensor is named and the generator has no wish of its own."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.errors import ConfigError, shown
-from texvent.simulate.model_options import RATIO_LIMIT, THRESHOLDS
-from texvent.simulate.random.draws import draw_uniforms, frame_key
+from texvent.simulation.model_options import RATIO_LIMIT, THRESHOLDS
+from texvent.simulation.random.draws import draw_uniforms, frame_key
 
 Limits: TypeAlias = tuple[float, float]
 """The lowest and the highest value, both possible; draws are uniform between them."""

@@ -22,12 +22,12 @@ from texvent.dataset.layouts.frames import clip_frames
 from texvent.dataset.specification.entries import entries_of
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, InputError, few, shown
-from texvent.generate.subjects import Subject
+from texvent.frames import FrameStream, transfer_of
+from texvent.generation.subjects import Subject
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
 from texvent.truth.boxes import BOX_RECORD, box_records
-from texvent.video import FrameStream, transfer_of
 
 TRUTH = ("flow", "depth", "boxes")
 """Truth that a clip can bring."""

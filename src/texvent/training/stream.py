@@ -19,7 +19,7 @@ from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.prefetch import prefetch
 from texvent.sensor import SensorSize, checked_size
-from texvent.simulate.clips.pixels import (
+from texvent.simulation.clips.pixels import (
     ClipArrays,
     ClipOutputs,
     ClipPixels,
@@ -332,10 +332,10 @@ def _run(
 ) -> ClipArrays:
     """Arrays of the clips, on the device of the frames."""
     if frames.device.type != "cpu":
-        from texvent.simulate.clips.scan_triton import simulate_on_gpu
+        from texvent.simulation.clips.scan_triton import simulate_on_gpu
 
         return simulate_on_gpu(frames, times_us, pixels, outputs)
-    from texvent.simulate.clips.scan_cpu import simulate_on_cpu
+    from texvent.simulation.clips.scan_cpu import simulate_on_cpu
 
     made = simulate_on_cpu(frames.numpy(), times_us, pixels, outputs)
     grids, counts, latest, words = (

@@ -13,6 +13,7 @@ from texvent.config import check_whole
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, describe_outside
 from texvent.transform.packets import (
@@ -23,7 +24,6 @@ from texvent.transform.packets import (
     note_edit,
     packets_of,
 )
-from texvent.video import MICROSECONDS
 
 Axes = Literal["x", "y", "xy"]
 QUARTER_TURNS = (0, 90, 180, 270)

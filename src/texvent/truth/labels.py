@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from texvent.capture.fit_to_sensor import fit_place
 from texvent.errors import FileFormatError, InputError, one_line, shown
+from texvent.frames import MICROSECONDS, frame_time_us
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD, Label, clip_boxes
-from texvent.video import MICROSECONDS, frame_time_us
 
 
 def read_coco(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:

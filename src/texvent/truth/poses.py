@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.camera import PosedCamera
+from texvent.frames import MICROSECONDS
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS
 
 POSE_HEADER = "# timestamp tx ty tz qx qy qz qw\n"
 INTRINSICS_HEADER = "# t_us fx fy cx cy\n"

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.frames import Frame, FrameStream
 from texvent.io.atomic import AtomicOutput
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene
 from texvent.truth.layout import PARTS, parse_parts
 from texvent.truth.sinks import FolderSink, SampleSink
 from texvent.truth.source import InstancesStream, Snapshot, as_ids
-from texvent.video import Frame, FrameStream
 
 OF_FRAMES = ",".join(part for part in PARTS if part != "events")
 """Parts that are known without events."""

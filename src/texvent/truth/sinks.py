@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import OutputError
+from texvent.frames import FrameStream
 from texvent.io.arrays.npy_file import growing_array
 from texvent.io.atomic import atomic_folder
 from texvent.options.values import plain
@@ -43,7 +44,6 @@ from texvent.truth.poses import (
     pose_row,
 )
 from texvent.truth.source import Rows, TruthSource
-from texvent.video import FrameStream
 
 STEPS_PER_PX = 128.0
 ZERO = 2.0**15

@@ -21,12 +21,12 @@ from texvent.capture.prepare import PreparedFrames
 from texvent.capture.scale_check import CheckedFrames
 from texvent.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.errors import ConfigError, InputError
+from texvent.frames import Frame, FrameStream, MotionVectors
 from texvent.ground_truth import Box
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import box_records
 from texvent.truth.layout import PARTS
 from texvent.truth.poses import intrinsics, pose_matrix
-from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 
 ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes"}
@@ -74,13 +74,13 @@ class Snapshot:
     """Ground truth of a frame."""
 
     t_us: int
-    motion: Motion
+    motion: MotionVectors
     """As far as it is known; vectors to frames that are not there are None."""
     rows: Rows
     """Values of the parts that are wanted and known."""
 
 
-_Known = tuple[Motion, dict[str, dict[str, Any]], tuple[Box, ...]]
+_Known = tuple[MotionVectors, dict[str, dict[str, Any]], tuple[Box, ...]]
 """Motion, masks of what is hidden by part, and boxes."""
 
 
@@ -205,7 +205,7 @@ class TruthSource:
     ) -> _Known:
         needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
         if not needed & set(self.parts):
-            return Motion(), {}, ()
+            return MotionVectors(), {}, ()
         to_us = next_us if "flow" in self.parts else None
         truth = video.ground_truth(t_us, t_us if to_us is None else to_us)
         hidden, back = {"flow": {"occluded": truth.occluded}}, None
@@ -213,10 +213,10 @@ class TruthSource:
             past = video.ground_truth(t_us, previous_us)
             back, hidden["flow-back"] = past.flow, {"occluded": past.occluded}
         forward = None if to_us is None else truth.flow
-        return Motion(forward, back, truth.depth, truth.instance), hidden, truth.boxes
+        return MotionVectors(forward, back, truth.depth, truth.instance), hidden, truth.boxes
 
     def _of_frame(self, frame: Frame, previous_us: int | None, next_us: int | None) -> _Known:
-        motion = frame.motion if frame.motion is not None else Motion()
+        motion = frame.motion if frame.motion is not None else MotionVectors()
         missing = {
             "flow": motion.forward is None and next_us is not None,
             "flow-back": motion.backward is None and previous_us is not None,

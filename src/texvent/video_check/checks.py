@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from texvent.frames import MICROSECONDS, Frame
 from texvent.pairs.time_jump import RATIO, SHORTEST_US
-from texvent.video import MICROSECONDS, Frame
 from texvent.video_check.measurements import Measurements, measure_video
 
 FROZEN_SHARE = 0.5

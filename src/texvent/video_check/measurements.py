@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array
+from texvent.frames import MICROSECONDS, Frame
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.time_jump import is_jump
 from texvent.transfer import Transfer
-from texvent.video import MICROSECONDS, Frame
 
 Measurements = Mapping[str, float]
 """Name → number; see `VideoMeasurer.measurements`."""

@@ -13,8 +13,8 @@ import numpy as np
 
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, FrameStream, Video, describe_stream
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, FrameStream, Video, describe_stream
 from texvent.view.drawing.canvas import jpeg_bytes, shrink, tile
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette

@@ -14,8 +14,8 @@ from texvent._require import require
 from texvent.config import check_range, check_whole
 from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.represent.event_frame import count_events
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Colour, Palette, get_palette
 from texvent.view.page.sample import UniformSample, rate_counts

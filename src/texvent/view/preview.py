@@ -11,9 +11,9 @@ from typing import Any
 from texvent._registry import suggest
 from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.io.atomic import AtomicOutput, atomic_file, check_output
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import title_of
 from texvent.view.page.writer import PageWriter

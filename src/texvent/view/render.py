@@ -14,11 +14,11 @@ from texvent.config import IdleOptions, check_choices, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, FrameStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.represent.contrast_maximisation import find_flow, flow_warp_loss, warp_events
 from texvent.represent.event_frame import count_events
 from texvent.runtime.progress import NO_PROGRESS, Progress
-from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.motion import draw_flow
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette

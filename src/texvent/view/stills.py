@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from texvent.events import EventStream
+from texvent.frames import RenderableStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.video import RenderableStream
 from texvent.view.drawing.canvas import png_bytes, tile
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, FrameStream, RenderableStream, frame_time_us
 from texvent.represent.event_frame import count_events
 from texvent.represent.slices import slice_windows
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, FrameStream, RenderableStream, frame_time_us
 from texvent.view.drawing.canvas import Image
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.panels import (

@@ -17,10 +17,10 @@ import numpy as np
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
 from texvent.event_camera import EventCamera
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, FrameStream, transfer_of
 from texvent.settings.provenance import describe_run
-from texvent.simulate.model_options import contrast_threshold_of
+from texvent.simulation.model_options import contrast_threshold_of
 from texvent.transfer import Transfer
-from texvent.video import MICROSECONDS, Frame, FrameStream, transfer_of
 from texvent.web.recording import Recording
 
 MEASURED_FRAMES = 300

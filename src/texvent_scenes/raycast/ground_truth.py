@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.camera import place_in_image
+from texvent.frames import MotionVectors
 from texvent.ground_truth import Box, GroundTruth
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.sensor import SensorSize
-from texvent.video import Motion
 from texvent_scenes.raycast.addresses import list_at
 from texvent_scenes.raycast.records import World
 from texvent_scenes.raycast.render import world_and_shapes, world_at
@@ -245,7 +245,7 @@ def frame_motion(
     before_s: float | None,
     after_s: float | None,
     size: SensorSize,
-) -> Motion:
+) -> MotionVectors:
     """Motion of every pixel to the frames before and after, and depth.
 
     Args:
@@ -267,7 +267,7 @@ def frame_motion(
         moved = np.where(place[:, 2:] > 0.0, place[:, :2] - seen.points, np.nan)
         return moved.astype(np.float32).reshape(*size.shape, 2)
 
-    return Motion(
+    return MotionVectors(
         forward=vectors(after_s),
         backward=vectors(before_s),
         depth=seen.depth.astype(np.float32).reshape(size.shape),

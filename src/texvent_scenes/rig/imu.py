@@ -20,8 +20,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.random.draws import draw_normals, frame_key
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
+from texvent.simulation.random.draws import draw_normals, frame_key
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.description import Float64Array, ImuNoise, body_poses
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.config import warn_of_idle
-from texvent.generate.subjects import Subject
+from texvent.generation.subjects import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.options.values import option_names, with_options
 from texvent.runtime.progress import Progress, ProgressOption, open_progress

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError, shown, warn
-from texvent.generate.subjects import Subject, prompt_of
+from texvent.frames import MICROSECONDS, frame_time_us
+from texvent.generation.subjects import Subject, prompt_of
 from texvent.lens import lens_reach
 from texvent.options.values import option_names, plain
 from texvent.pipeline import Simulation, text_to_video
@@ -24,7 +25,6 @@ from texvent.sensor import SensorSize
 from texvent.settings.config_files import read_document
 from texvent.settings.provenance import describe_run
 from texvent.settings.resolution import Settings, sensor_preset
-from texvent.video import MICROSECONDS, frame_time_us
 from texvent_scenes.procedural import ProceduralVideo
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.config import RigConfig, check_generator

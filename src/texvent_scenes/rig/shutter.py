@@ -18,8 +18,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.frames import MICROSECONDS, frame_time_us
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, frame_time_us
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.config import RigConfig
 from texvent_scenes.rig.description import Float64Array

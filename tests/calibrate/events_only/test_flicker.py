@@ -13,7 +13,7 @@ from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import PhysicalConfig
 from texvent_lab.bench.oracle.pixel import NOISY, PixelArray
 
 SIZE = SensorSize(28, 20)

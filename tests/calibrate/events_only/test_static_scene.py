@@ -15,7 +15,7 @@ from texvent.calibrate.events_only.stationary_blocks import leak_rate
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import PhysicalConfig
 
 SIZE = SensorSize(96, 64)
 START = PhysicalConfig(gamma=1.0)

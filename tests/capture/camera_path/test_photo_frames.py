@@ -9,8 +9,8 @@ from texvent.capture.camera_path.opening import open_photo
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
+from texvent.frames import RenderableStream
 from texvent.sensor import SensorSize
-from texvent.video import RenderableStream
 
 ROWS, COLUMNS = np.mgrid[:60, :80]
 PHOTO = np.uint8(127 + 60 * np.sin(0.31 * COLUMNS) + 60 * np.cos(0.23 * ROWS + 0.1 * COLUMNS))

@@ -9,8 +9,8 @@ import texvent
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Motion, Video
 
 FILM = scene.stack(scene.frame)
 FORWARD, BACKWARD = scene.stack(scene.forward), scene.stack(scene.backward)
@@ -210,7 +210,7 @@ def test_a_stream_of_frames_that_carry_motion():
         has_motion = True
 
         def __getitem__(self, index):
-            motion = Motion(FORWARD[index], BACKWARD[index], DEPTH[index])
+            motion = MotionVectors(FORWARD[index], BACKWARD[index], DEPTH[index])
             return Frame(self.pixels[index], self.times_us[index], motion=motion)
 
     stream = Rendered(FILM, [40_000 * index for index in range(len(FILM))])

@@ -4,12 +4,12 @@ from tests.calibrate.known_scenes import simulate_flicker, simulate_static
 
 from texvent.cli.app import main
 from texvent.events import EventStream
+from texvent.frames import Video
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.physical.threshold_map import read_threshold_map
-from texvent.video import Video
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalSimulator
+from texvent.simulation.physical.threshold_map import read_threshold_map
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ from tests.cli.running import run
 
 import texvent
 from texvent.errors import FileFormatError
-from texvent.generate.video_models.known_models import MODELS
-from texvent.generate.videos.stored_video import reopen
+from texvent.generation.video_models.known_models import MODELS
+from texvent.generation.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.settings.resolution import resolve
 

@@ -26,7 +26,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
 from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.events import EventStream
-from texvent.generate import kept_frames
+from texvent.generation import kept_frames
 from texvent.pipeline import text_to_events
 from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance

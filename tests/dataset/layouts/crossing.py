@@ -13,9 +13,9 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.dataset.layouts.layout import LayoutSample
 from texvent.events import EventStream
+from texvent.frames import FrameStream
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD
-from texvent.video import FrameStream
 
 SIZE = SensorSize(64, 48)
 INSTANTS = np.arange(0, 250_001, 40_000)

@@ -1,8 +1,8 @@
 """The compiled kernels, under the names of the functions in `reference`."""
 
-from texvent.interpolate.dis_flow.pyramid_cpu import double, halve, make_level
-from texvent.interpolate.dis_flow.refine_cpu import change_along, refine, unconfirmed
-from texvent.interpolate.dis_flow.search_cpu import join, search, try_vectors
+from texvent.interpolate.dis_flow.pyramid import double, halve, make_level
+from texvent.interpolate.dis_flow.refine import change_along, refine, unconfirmed
+from texvent.interpolate.dis_flow.search import join, search, try_vectors
 
 __all__ = [
     "change_along",

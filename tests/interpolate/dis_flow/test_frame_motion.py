@@ -15,7 +15,7 @@ from texvent.interpolate.dis_flow.frame_motion import (
     leads_outside,
     patch_vectors,
 )
-from texvent.interpolate.dis_flow.pyramid_cpu import make_level
+from texvent.interpolate.dis_flow.pyramid import make_level
 
 WIDTH, HEIGHT = 192, 144
 

@@ -1,6 +1,6 @@
 """An instant between two frames whose motion is known, as it is defined (float64, slow).
 
-The kernels `layers_cpu`, `paths_cpu`, `splat_cpu` and `draw_cpu` compute the same in float32.
+The kernels `layers`, `paths`, `splat` and `draw` compute the same in float32.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.motion import layers_cpu as limits
-from texvent.interpolate.motion import paths_cpu as path_limits
-from texvent.interpolate.motion.draw_cpu import DIFFERENT, SIMILAR
-from texvent.interpolate.motion.splat_cpu import LEAST_OVERLAP, SAME_LAYER
+from texvent.interpolate.motion import layers as limits
+from texvent.interpolate.motion import paths as path_limits
+from texvent.interpolate.motion.draw import DIFFERENT, SIMILAR
+from texvent.interpolate.motion.splat import LEAST_OVERLAP, SAME_LAYER
 
 Float64s = NDArray[np.float64]
 STEPS = ((1, 0), (-1, 0), (0, 1), (0, -1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from tests.interpolate.motion.reference import View
 
-from texvent.video import Frame, Motion
+from texvent.frames import Frame, MotionVectors
 
 HEIGHT, WIDTH = 12, 14
 BACKGROUND_M, OBJECT_M = 20.0, 4.0
@@ -46,7 +46,7 @@ def bar_pair(start: float = 4.0, step: float = 2.5, wide: float = 4.0) -> tuple[
         depth = np.where(inside, OBJECT_M, BACKGROUND_M).astype(np.float32)
         vectors = np.where(inside[..., None], np.float32([step, 0.0]), np.float32([0.0, 0.0]))
         vectors = vectors.astype(np.float32)
-        motion = Motion(
+        motion = MotionVectors(
             forward=vectors if index == 0 else None,
             backward=-vectors if index else None,
             depth=depth,

@@ -21,15 +21,15 @@ from tests.interpolate.motion.scenes import (
     views,
 )
 
+from texvent.frames import Frame, MotionVectors
 from texvent.interpolate.motion.interpolator import MotionPair
-from texvent.video import Frame, Motion
 
 FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)
 
 
 def moving_texture(x: float, y: float, *, forward: bool = True, backward: bool = True):
-    first = Motion(forward=field(x, y) if forward else None, depth=FLAT)
-    second = Motion(backward=field(-x, -y) if backward else None, depth=FLAT)
+    first = MotionVectors(forward=field(x, y) if forward else None, depth=FLAT)
+    second = MotionVectors(backward=field(-x, -y) if backward else None, depth=FLAT)
     return (
         Frame(texture().astype(np.float32), 0, motion=first),
         Frame(texture(x, y).astype(np.float32), 1000, motion=second),
@@ -69,7 +69,7 @@ def test_random_surfaces_are_drawn_as_defined():
             Frame(
                 random.uniform(20, 220, (HEIGHT, WIDTH)).astype(np.float32),
                 1000 * index,
-                motion=Motion(
+                motion=MotionVectors(
                     forward=vectors, backward=-0.9 * vectors, depth=depth.astype(np.float32)
                 ),
             )
@@ -100,7 +100,7 @@ def test_what_the_nearer_thing_reveals_comes_from_the_frame_that_shows_it():
 def test_without_depth_the_faster_thing_is_nearer():
     first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
     bare = [
-        Frame(one.pixels, one.t_us, motion=Motion(one.motion.forward, one.motion.backward))
+        Frame(one.pixels, one.t_us, motion=MotionVectors(one.motion.forward, one.motion.backward))
         for one in (first, second)
     ]
     image = MotionPair.of(*bare).draw(0.5)
@@ -127,7 +127,7 @@ def test_paths_are_curved_with_vectors_to_both_neighbours():
         Frame(
             texture(place[index]).astype(np.float32),
             1000 * index,
-            motion=Motion(
+            motion=MotionVectors(
                 forward=field(place[index + 1] - place[index], 0.0),
                 backward=field(place[index - 1] - place[index], 0.0),
                 depth=np.full(shape, 5.0, np.float32),
@@ -142,8 +142,8 @@ def test_paths_are_curved_with_vectors_to_both_neighbours():
 def test_a_bounce_between_frames_is_followed_straight():
     """Before the pair it came from the other side: the bends disagree, so the path is straight."""
     first, second = moving_texture(3.0, 0.0)
-    bounced = Motion(forward=field(3.0, 0.0), backward=field(3.0, 0.0), depth=FLAT)
-    going_on = Motion(forward=field(3.0, 0.0), backward=field(-3.0, 0.0), depth=FLAT)
+    bounced = MotionVectors(forward=field(3.0, 0.0), backward=field(3.0, 0.0), depth=FLAT)
+    going_on = MotionVectors(forward=field(3.0, 0.0), backward=field(-3.0, 0.0), depth=FLAT)
     pair = MotionPair.of(
         Frame(first.pixels, 0, motion=bounced), Frame(second.pixels, 1000, motion=going_on)
     )
@@ -152,7 +152,7 @@ def test_a_bounce_between_frames_is_followed_straight():
 
 
 def test_frames_at_rest_are_mixed_in_place():
-    flat = Motion(forward=field(0, 0), backward=field(0, 0), depth=FLAT)
+    flat = MotionVectors(forward=field(0, 0), backward=field(0, 0), depth=FLAT)
     dark = Frame(np.full((HEIGHT, WIDTH), 50, np.float32), 0, motion=flat)
     light = Frame(np.full((HEIGHT, WIDTH), 90, np.float32), 1000, motion=flat)
     image = MotionPair.of(dark, light).draw(0.25)
@@ -166,8 +166,8 @@ def test_where_no_path_leads_both_frames_are_mixed():
     forward, backward = first.motion.forward.copy(), second.motion.backward.copy()
     forward[3:8, 3:9] = backward[3:8, 3:9] = np.nan
     frames = (
-        Frame(first.pixels, 0, motion=Motion(forward=forward, depth=FLAT)),
-        Frame(second.pixels, 1000, motion=Motion(backward=backward, depth=FLAT)),
+        Frame(first.pixels, 0, motion=MotionVectors(forward=forward, depth=FLAT)),
+        Frame(second.pixels, 1000, motion=MotionVectors(backward=backward, depth=FLAT)),
     )
     image = MotionPair.of(*frames).draw(0.5)
     assert image[5, 6] == pytest.approx((first.luma[5, 6] + second.luma[5, 6]) / 2, abs=0.01)

@@ -9,13 +9,13 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
+from texvent.frames import Frame, Video
 from texvent.interpolate.rife.interpolator import RifeInterpolator, image_tensors
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pairs.instants import matching_levels
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
-from texvent.video import Frame, Video
 
 from .rife_files import random_tensors, save_published
 from .rife_numpy import NumpyRife, warp

@@ -14,7 +14,7 @@ from texvent.interpolate.rife.network import (  # noqa: E402
     RIFE_4_0,
     RIFE_4_6,
     RIFE_4_25,
-    Motion,
+    IntermediateFlow,
     RifeNetwork,
     move_motion,
     warp,
@@ -75,7 +75,7 @@ def test_warp_looks_pixels_up_and_repeats_edges():
 @pytest.mark.parametrize("position", [0.1, 0.5, 0.8])
 def test_shared_motion_is_exact_for_a_steady_shift(position):
     flow = torch.tensor([-3.0, 1.0, 3.0, -1.0]).reshape(1, 4, 1, 1).expand(1, 4, 8, 9)
-    moved = move_motion(Motion(flow, torch.zeros(1, 1, 8, 9)), [position])
+    moved = move_motion(IntermediateFlow(flow, torch.zeros(1, 1, 8, 9)), [position])
     expected = [-6 * position, 2 * position, 6 * (1 - position), -2 * (1 - position)]
     assert moved.flow[0, :, 4, 4].tolist() == pytest.approx(expected, abs=1e-5)
     # An even mask becomes the weights of a cross-fade.
@@ -86,7 +86,7 @@ def test_shared_motion_leaves_with_the_point():
     """A strip that moves right: later, its left edge has left where it was in the middle."""
     flow = torch.zeros(1, 4, 1, 60)
     flow[:, 0, :, 20:40], flow[:, 2, :, 20:40] = -4.0, 4.0
-    late = move_motion(Motion(flow, torch.zeros(1, 1, 1, 60)), [1.0 - 1e-6])
+    late = move_motion(IntermediateFlow(flow, torch.zeros(1, 1, 1, 60)), [1.0 - 1e-6])
     assert late.flow[0, 0, 0, [10, 21, 30, 39, 50]].tolist() == pytest.approx(
         [0.0, 0.0, -8.0, -8.0, 0.0], abs=1e-3
     )

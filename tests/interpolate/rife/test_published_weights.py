@@ -6,8 +6,8 @@ import pytest
 
 from texvent.config import InterpolateConfig
 from texvent.data.pull import pull
+from texvent.frames import Frame
 from texvent.interpolate.rife.interpolator import RifeInterpolator
-from texvent.video import Frame
 from texvent.weights import pull_weights
 
 pytestmark = [pytest.mark.network, pytest.mark.torch]

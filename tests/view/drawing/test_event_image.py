@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.video import Frame
+from texvent.frames import Frame
 from texvent.view.drawing.event_image import count_ceiling, draw_events, frame_image
 from texvent.view.drawing.palettes import PALETTES, get_palette
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
+from texvent.frames import Video
 from texvent.sensor import SensorSize
-from texvent.video import Video
 from texvent.view.page.writer import show
 from texvent.view.render import render_events
 

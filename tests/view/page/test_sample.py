@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.page.sample import (
     FIRST_BIN_US,
     RATE_BINS,

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.stills import BusiestWindow, find_busiest
 from texvent.view.windows import WindowCollector, cut_windows
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.video.writer import VideoWriter
 from texvent.view.windows import WindowCollector
 

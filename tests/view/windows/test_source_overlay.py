@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from texvent.frames import Video
 from texvent.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
-from texvent.video import Video
 from texvent.view.drawing.panels import (
     ARROW_US,
     BOX_COLOUR,

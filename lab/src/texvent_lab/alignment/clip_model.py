@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.extending import require
-from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.model_files import EXTRA, loading
-from texvent.video import PixelArray
+from texvent.frames import PixelArray
+from texvent.generation.diffusers_models.pipeline_loading import resolve_device
+from texvent.generation.video_models.model_files import EXTRA, loading
 from texvent_lab.networks.saved_models import find_model
 
 EXAMPLE = "openai/clip-vit-base-patch32"

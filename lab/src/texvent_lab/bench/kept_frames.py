@@ -14,11 +14,11 @@ from dataclasses import replace
 from functools import partial
 
 from texvent.extending import INTERPOLATORS
+from texvent.frames import Frame
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import Simulation
 from texvent.runtime.memory import usable_bytes
-from texvent.simulate.protocol import Simulator
-from texvent.video import Frame
+from texvent.simulation.protocol import Simulator
 
 
 class FrameStore:

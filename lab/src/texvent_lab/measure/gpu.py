@@ -26,17 +26,17 @@ import numpy as np
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.extending import INTERPOLATORS, SIMULATORS, require
+from texvent.frames import Frame, Video
 from texvent.interpolate.rife.weights import find_rife_weights
 from texvent.pipeline import video_to_events
 from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent.simulate import gpu
-from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.gpu.launch import EXTRA
-from texvent.simulate.gpu.support import RunDevice
-from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
-from texvent.video import Frame, Video
+from texvent.simulation import gpu
+from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.gpu.launch import EXTRA
+from texvent.simulation.gpu.support import RunDevice
+from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 

@@ -25,8 +25,8 @@ from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.threshold_map import write_threshold_map
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.threshold_map import write_threshold_map
 from texvent_lab.bench.fidelity.entries import SENSOR_FILE, THRESHOLD_FILE
 from texvent_lab.bench.oracle.pixel import NOISY, REFERENCE_SEED
 from texvent_lab.bench.oracle.recording import FPS, SIZE, record, render_video

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from texvent.errors import InputError, TexventError, one_line
 from texvent.extending import require
-from texvent.generate.video_models.model_files import CONFIG, EXTRA, HUB
+from texvent.generation.video_models.model_files import CONFIG, EXTRA, HUB
 
 
 def find_model(model: str | Path, kind: str, example: str) -> Path:

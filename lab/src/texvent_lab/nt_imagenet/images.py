@@ -9,8 +9,8 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.extending import require
-from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.model_files import EXTRA, loading
+from texvent.generation.diffusers_models.pipeline_loading import resolve_device
+from texvent.generation.video_models.model_files import EXTRA, loading
 from texvent.io.atomic import atomic_file
 from texvent_lab.networks.saved_models import find_model
 

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.extending import require
+from texvent.frames import Frame, FrameStream
 from texvent.interpolate.rife.interpolator import RifeInterpolator, image_tensors, pad_to_multiple
 from texvent.networks.weight_files import (
     Tensor,
@@ -21,7 +22,6 @@ from texvent.networks.weight_files import (
     read_mapping,
 )
 from texvent.runtime.memory import explain_memory
-from texvent.video import Frame, FrameStream
 from texvent_lab.networks import EXTRA, locate_weights
 
 FILE = "SuperSloMo.ckpt"

@@ -18,13 +18,18 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent.events import EventStream
 from texvent.extending import require
+from texvent.frames import Frame
 from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.pairs.frame_pair import FramePair
 from texvent.runtime.memory import explain_memory
-from texvent.simulate.packets import FrameInterval, UnsortedEvents, check_event_number, make_packet
-from texvent.simulate.random.draws import Purpose, draw_uniforms
-from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.video import Frame
+from texvent.simulation.packets import (
+    FrameInterval,
+    UnsortedEvents,
+    check_event_number,
+    make_packet,
+)
+from texvent.simulation.random.draws import Purpose, draw_uniforms
+from texvent.simulation.streaming import IntensityArray, StreamingSimulator
 from texvent_lab.networks import EXTRA, locate_weights
 
 Array: TypeAlias = NDArray[np.float64]
@@ -49,7 +54,7 @@ class V2ceConfig:
 
 
 class V2ceSimulator(StreamingSimulator[V2ceConfig]):
-    """V2CE on video frames; see `texvent.simulate.protocol.Simulator`.
+    """V2CE on video frames; see `texvent.simulation.protocol.Simulator`.
 
     `advance` gives the network whole sequences, as its program does. `step` cannot wait: it answers
     from the last `SEQUENCE` pairs, so its events differ a little, and each costs a sequence.

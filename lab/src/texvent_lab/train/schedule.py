@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.extending import require
-from texvent.simulate.random.draws import frame_key, frame_keys
+from texvent.simulation.random.draws import frame_key, frame_keys
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task

@@ -10,7 +10,7 @@ import pytest
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
-from texvent.simulate.physical.threshold_map import read_threshold_map
+from texvent.simulation.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.run import score_entry

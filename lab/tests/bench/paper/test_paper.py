@@ -13,7 +13,7 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
-from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent.simulation.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity import entries
 from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
 from texvent_lab.bench.paper import run as paper

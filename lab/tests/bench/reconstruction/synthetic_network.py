@@ -5,8 +5,8 @@ import numpy as np
 
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import Video
 from texvent.sensor import SensorSize
-from texvent.video import Video
 from texvent_lab.frame_recordings import FrameRecording
 
 SIZE = SensorSize(16, 12)

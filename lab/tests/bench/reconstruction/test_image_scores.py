@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
+from texvent.frames import Frame
 from texvent.metrics.image_measures import mean_squared_error
-from texvent.video import Frame
 from texvent_lab.bench.reconstruction.scores import (
     ImageScores,
     ScoreCollector,

@@ -40,9 +40,9 @@ from texvent.calibrate.events_only.step_response_fit import (
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.circuit import WHITE
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.threshold_map import ThresholdMap
+from texvent.simulation.physical.circuit import WHITE
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.threshold_map import ThresholdMap
 
 WINDOWS, GROUPS = 10, 100
 """Windows of time and groups of pixels that the bootstrap draws."""

@@ -9,7 +9,7 @@ import numpy as np
 from texvent.calibrate.events_only.pixel_trains import Float64Array, Int64Array, PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
 
 FREQUENCY_RANGE = 0.02
 """Relative range around the given frequency that is searched."""

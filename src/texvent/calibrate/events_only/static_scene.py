@@ -34,8 +34,8 @@ from texvent.calibrate.events_only.stationary_blocks import (
 )
 from texvent.errors import InputError, warn
 from texvent.events import EventStream
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
+from texvent.simulation.physical.config import PhysicalConfig
 
 WINDOWS, GROUPS = 10, 100
 """Windows of time and groups of pixels that the bootstrap draws."""

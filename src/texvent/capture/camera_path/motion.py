@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
 

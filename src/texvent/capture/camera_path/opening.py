@@ -26,10 +26,10 @@ from texvent.capture.linear_light import (
 from texvent.capture.scale_check import check_image_scale
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
+from texvent.frames import MICROSECONDS, Frame, check_intensity
 from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, check_intensity
 
 FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""

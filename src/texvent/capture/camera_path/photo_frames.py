@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
 from texvent.capture.camera_path.view import View, fitted_view
 from texvent.capture.frame_source import FrameSource
+from texvent.frames import Frame, MotionVectors, frame_time_us, transfer_of
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
-from texvent.video import Frame, Motion, frame_time_us, transfer_of
 
 INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
@@ -83,14 +83,14 @@ class PhotoFrames(FrameSource):
     def _time(self, index: int) -> int:
         return frame_time_us(index, self._fps, 0)
 
-    def _motion(self, index: int, place: CameraPose2D) -> Motion:
+    def _motion(self, index: int, place: CameraPose2D) -> MotionVectors:
         forward, backward = (
             self.view.vectors(place, self._path(self._time(other)))
             if 0 <= other < self._count
             else None
             for other in (index + 1, index - 1)
         )
-        return Motion(forward, backward)
+        return MotionVectors(forward, backward)
 
 
 def _averaged(

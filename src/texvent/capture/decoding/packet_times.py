@@ -15,7 +15,7 @@ from av.error import FFmpegError
 from av.video.stream import VideoStream
 from numpy.typing import NDArray
 
-from texvent.video import MICROSECONDS
+from texvent.frames import MICROSECONDS
 
 ROUNDING_TICKS = 1.02
 """Times of one rate, rounded or truncated to ticks, differ from even ones by values that lie less

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.errors import warn
+from texvent.frames import PixelArray
 from texvent.runtime.media_files import raise_scarcity
-from texvent.video import PixelArray
 
 LIMITED = (16, 235)
 """Black and white of limited range."""

@@ -18,7 +18,7 @@ Direction = Literal["forward", "backward"]
 
 @dataclass(frozen=True)
 class Convention:
-    """Meaning of stored vectors. The defaults are those of `Motion`, Middlebury and KITTI."""
+    """Meaning of stored vectors; by default that of `MotionVectors`, Middlebury and KITTI."""
 
     direction: Direction = "forward"
     """Direction of a field without a name of its own: to the next frame, or the previous one."""
@@ -138,7 +138,7 @@ def to_pixels(
     direction: Direction,
     size: tuple[int, int],
 ) -> NDArray[np.float32]:
-    """Vectors as `Motion` has them.
+    """Vectors as `MotionVectors` has them.
 
     Args:
         stored: [h, w, 2 or more], the first two are x and y.

@@ -37,8 +37,8 @@ from texvent.capture.motion_vectors.fields import (
 )
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
+from texvent.frames import Frame, FrameStream, MotionVectors
 from texvent.pairs.instants import matching_luma
-from texvent.video import Frame, FrameStream, Motion
 
 CHECKED_FRAMES = 4
 """Frames whose vectors are compared with the images around them."""
@@ -173,7 +173,7 @@ class MotionFrames(ChangedFrames):
 
     def _motion(
         self, index: int, previous: Frame | None, frame: Frame, following: Frame | None
-    ) -> Motion:
+    ) -> MotionVectors:
         others = {"forward": following, "backward": previous}
         vectors: dict[str, NDArray[np.float32]] = {}
         for field in self._vectors:
@@ -188,7 +188,7 @@ class MotionFrames(ChangedFrames):
             vectors[field.direction] = to_pixels(
                 stored, self._convention, field.direction, frame.size
             )
-        return Motion(
+        return MotionVectors(
             vectors.get("forward"),
             vectors.get("backward"),
             self._depth(index, frame),

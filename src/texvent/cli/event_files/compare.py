@@ -18,6 +18,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.metrics.compare import (
     GOOD,
     compare,
@@ -30,7 +31,6 @@ from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.video import MICROSECONDS
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
 metric says what it does not see. docs/metrics.md gives definitions and the self-test."""

@@ -17,6 +17,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, few, shown, warn
 from texvent.event_packets import EventPackets
+from texvent.frames import FrameStream
 from texvent.io.atomic import atomic_file, check_outputs
 from texvent.io.block_writer import Columns
 from texvent.io.calibration import read_calibration
@@ -31,7 +32,6 @@ from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
 from texvent.transform.undistort import undistort
-from texvent.video import FrameStream
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 

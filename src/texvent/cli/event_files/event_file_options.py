@@ -10,6 +10,7 @@ from typing import ClassVar
 from texvent.cli.option_types import REQUIRED
 from texvent.errors import ConfigError, shown
 from texvent.event_packets import EventPackets
+from texvent.frames import MICROSECONDS
 from texvent.io.files import open_events
 from texvent.io.input_checks import refuse_missing
 from texvent.io.reading import TimeUnit
@@ -18,7 +19,6 @@ from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.time_range import END_OF_TIME_US
 from texvent.transform.edits import keep_time
-from texvent.video import MICROSECONDS
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,10 +21,10 @@ from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, visible, warn
 from texvent.event_packets import EventPackets
+from texvent.frames import MICROSECONDS, FrameStream
 from texvent.io.files import is_event_path, side_data
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
 from texvent.prompt_report import REPORT_KEY, PromptReport
-from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
 read once, with flat memory, so the figures are exact and a damaged file is found."""

@@ -15,8 +15,8 @@ from texvent._registry import GENERATORS
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
-from texvent.generate.video_models.known_models import LEAST_FPS, MODELS, VideoModel
-from texvent.generate.video_models.model_files import find_downloaded
+from texvent.generation.video_models.known_models import LEAST_FPS, MODELS, VideoModel
+from texvent.generation.video_models.model_files import find_downloaded
 
 DESCRIPTION = """List the text-to-video generators: what they make, what they need, under which
 licence, and whether they are here. --generator takes a name of the list, a folder of a saved

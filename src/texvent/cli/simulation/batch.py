@@ -22,7 +22,7 @@ from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import Sample, are_videos, read_samples
 from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
 from texvent.errors import ConfigError, OutputError, TexventError
-from texvent.generate.video_models.known_models import warn_low_fps
+from texvent.generation.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run

@@ -33,9 +33,9 @@ from texvent.io.files import load
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.settings.resolution import resolve
-from texvent.simulate.physical.cameras import PRESETS
-from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.physical.threshold_map import write_threshold_map
+from texvent.simulation.physical.cameras import PRESETS
+from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.threshold_map import write_threshold_map
 
 DESCRIPTION = """Fit the physical model to a recording of your sensor. With frames of a moving
 scene: thresholds, balance, bandwidth, noise and leak. From events alone: a scene at rest gives

@@ -13,9 +13,9 @@ from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import ReadingConfig
+from texvent.frames import MICROSECONDS
 from texvent.run.check import VideoCheckResult, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.video import MICROSECONDS
 
 FOUND = 1
 """Exit code with --strict of a video in which something was found."""

@@ -15,14 +15,14 @@ from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import describe_scene, execute, print_settings
 from texvent.config import IdleOptions
 from texvent.errors import ConfigError, InputError, warn
-from texvent.generate.subjects import SceneValue, Subject, check_takes, scenes
-from texvent.generate.video_models.known_models import warn_low_fps
+from texvent.frames import frame_time_us
+from texvent.generation.subjects import SceneValue, Subject, check_takes, scenes
+from texvent.generation.video_models.known_models import warn_low_fps
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
-from texvent.video import frame_time_us
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -164,7 +164,7 @@ def _write_video(
     prompt: Subject, own: PromptOptions, settings: Settings, output: OutputOptions
 ) -> int:
     """Write the video of a prompt and print its path."""
-    from texvent.generate.videos.stored_video import write_stream  # brings PyAV
+    from texvent.generation.videos.stored_video import write_stream  # brings PyAV
 
     named = default_event_file(subject_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
     path = output.out or named

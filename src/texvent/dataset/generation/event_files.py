@@ -18,6 +18,7 @@ from texvent.capture.image_folder import find_timestamps
 from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import ID_DIGITS, Sample
 from texvent.errors import ConfigError, OutputError, warnings_to
+from texvent.frames import Frame
 from texvent.pipeline import Simulation
 from texvent.prompt_report import REPORT_KEY, PromptReport, ReportTally
 from texvent.run.files import RunFiles, write_run
@@ -26,7 +27,6 @@ from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.runtime.identity import digest
 from texvent.settings.provenance import describe_state, files_read, is_replaced
 from texvent.settings.resolution import Settings
-from texvent.video import Frame
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"

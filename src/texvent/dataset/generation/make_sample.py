@@ -20,7 +20,8 @@ from texvent.dataset.specification.clips import Clip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
-from texvent.generate.kept_frames import KeepingStream, KeptFrames
+from texvent.frames import Frame
+from texvent.generation.kept_frames import KeepingStream, KeptFrames
 from texvent.ground_truth import Box
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
@@ -29,7 +30,6 @@ from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
-from texvent.video import Frame
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
 

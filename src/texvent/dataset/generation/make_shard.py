@@ -39,9 +39,10 @@ from texvent.dataset.generation.shards import (
 from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
 from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
-from texvent.generate.kept_frames import KeptFrames
-from texvent.generate.subjects import scenes
-from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
+from texvent.frames import FrameStream
+from texvent.generation.kept_frames import KeptFrames
+from texvent.generation.subjects import scenes
+from texvent.generation.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import fit_to_sensor
 from texvent.prompt_report import REPORT_KEY
@@ -52,7 +53,6 @@ from texvent.runtime.identity import digest
 from texvent.settings.provenance import describe_state, is_replaced
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
-from texvent.video import FrameStream
 
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]

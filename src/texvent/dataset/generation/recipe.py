@@ -34,7 +34,7 @@ from texvent.errors import (
     one_line,
     warnings_to,
 )
-from texvent.generate.protocol import renders_instants
+from texvent.generation.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note

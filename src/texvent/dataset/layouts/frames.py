@@ -18,9 +18,9 @@ from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.stored.folder import StoredShard
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError
+from texvent.frames import FrameStream
 from texvent.pipeline import fit_to_sensor
 from texvent.settings.provenance import is_replaced
-from texvent.video import FrameStream
 
 
 def write_frames(frames: FrameStream, folder: Path) -> NDArray[np.int64]:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from texvent.dataset.layouts.boxes import Boxes
 from texvent.events import EventStream
+from texvent.frames import FrameStream
 from texvent.sensor import SensorSize
-from texvent.video import FrameStream
 
 USUAL_SPLITS = MappingProxyType({"valid": "val", "validation": "val", "testing": "test"})
 """Split → its name in layouts with train, val and test."""

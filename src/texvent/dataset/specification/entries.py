@@ -18,7 +18,7 @@ from texvent.dataset.specification.list_files import (
     scene_entry,
 )
 from texvent.errors import ConfigError, InputError, shown, warn
-from texvent.generate.subjects import scenes
+from texvent.generation.subjects import scenes
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.runtime.identity import derived_seed, digest
 

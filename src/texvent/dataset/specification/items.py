@@ -20,7 +20,7 @@ from texvent.dataset.specification.specification import (
     is_range,
 )
 from texvent.errors import ConfigError, InputError, shown
-from texvent.generate.subjects import SceneValue, Subject, scenes
+from texvent.generation.subjects import SceneValue, Subject, scenes
 from texvent.runtime.identity import derived_seed, digest
 from texvent.settings.provenance import describe_state
 

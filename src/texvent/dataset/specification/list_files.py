@@ -20,7 +20,7 @@ from texvent.errors import (
     warn,
     without_password,
 )
-from texvent.generate.subjects import SceneValue, Subject, scenes
+from texvent.generation.subjects import SceneValue, Subject, scenes
 from texvent.options.values import option_names
 from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
 from texvent.runtime.yaml_text import check_once, keys_once

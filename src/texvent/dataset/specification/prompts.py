@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.errors import ConfigError, InputError
-from texvent.generate.subjects import Subject
+from texvent.generation.subjects import Subject
 from texvent.prompt_report import ReportTally
 from texvent.run.prepare import is_strict, report_prompt
 from texvent.settings.resolution import Settings

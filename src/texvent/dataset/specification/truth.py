@@ -12,10 +12,10 @@ from texvent._registry import DEFAULT_GENERATOR, suggest
 from texvent.dataset.specification.items import Items
 from texvent.dataset.specification.specification import Specification, extreme_options
 from texvent.errors import ConfigError, InputError, shown
-from texvent.generate.subjects import scenes
+from texvent.frames import FrameStream
+from texvent.generation.subjects import scenes
 from texvent.settings.resolution import resolve
 from texvent.truth.layout import check_generator
-from texvent.video import FrameStream
 
 if TYPE_CHECKING:
     from texvent.truth.labels import Labels

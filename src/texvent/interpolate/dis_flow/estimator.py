@@ -31,9 +31,9 @@ from texvent.interpolate.dis_flow.frame_motion import (
     scale_motion,
     shift_motion,
 )
-from texvent.interpolate.dis_flow.pyramid_cpu import double, halve, make_level
-from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
-from texvent.interpolate.dis_flow.search_cpu import join, search, try_vectors
+from texvent.interpolate.dis_flow.pyramid import double, halve, make_level
+from texvent.interpolate.dis_flow.refine import change_along, refine
+from texvent.interpolate.dis_flow.search import join, search, try_vectors
 from texvent.runtime.memory import keep_freed_memory
 
 FlowArray = NDArray[np.float32]

@@ -23,7 +23,7 @@ from texvent.interpolate.dis_flow.definitions import (
     size_of,
     step_of,
 )
-from texvent.interpolate.dis_flow.refine_cpu import unconfirmed
+from texvent.interpolate.dis_flow.refine import unconfirmed
 from texvent.pairs.shift_correlation import correlate_shifts, detail
 
 MOST_CELLS = 90

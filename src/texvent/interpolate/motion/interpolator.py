@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.motion.draw_cpu import FrameSide, draw
-from texvent.interpolate.motion.layers_cpu import (
+from texvent.frames import Frame, FrameStream, MotionVectors, MovingStream
+from texvent.interpolate.motion.draw import FrameSide, draw
+from texvent.interpolate.motion.layers import (
     FURTHEST,
     GAMMA,
     SPEED_ORDER,
@@ -20,7 +21,7 @@ from texvent.interpolate.motion.layers_cpu import (
     Floats,
     make_layers,
 )
-from texvent.interpolate.motion.paths_cpu import (
+from texvent.interpolate.motion.paths import (
     LEAST_MOTION_PX,
     bend_of,
     list_fragments,
@@ -30,7 +31,6 @@ from texvent.interpolate.motion.paths_cpu import (
 from texvent.pairs.instants import position
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.transfer import Transfer
-from texvent.video import Frame, FrameStream, Motion, MovingStream
 
 MOST_AT_ONCE = 8
 """Intermediate frames that are drawn at a time, each by a thread."""
@@ -43,7 +43,7 @@ MARGIN_PX = 3
 class MotionInterpolator:
     """Follows every fragment of surface along its path; nearer ones hide farther ones.
 
-    Both frames of a pair must carry motion vectors; see `video.Motion`. With vectors to both
+    Both frames of a pair must carry motion vectors (`frames.MotionVectors`). With vectors to both
     neighbours of a frame, paths are curved. Depth decides what hides what; without it, the faster
     of two surfaces is taken to be the nearer one.
 
@@ -110,7 +110,7 @@ class MotionPair:
         Raises:
             InputError: neither frame has vectors to the other.
         """
-        start, stop = first.motion or Motion(), second.motion or Motion()
+        start, stop = first.motion or MotionVectors(), second.motion or MotionVectors()
         if start.forward is None and stop.backward is None:
             raise InputError(
                 f"interpolate is 'motion', but the frames at {first.t_us} and {second.t_us} µs "
@@ -189,7 +189,7 @@ def _frame_side(own: list[Floats], other: list[Floats]) -> FrameSide:
     return FrameSide(layers, list_fragments(layers, paths))
 
 
-def _order(motion: Motion, vectors: NDArray[np.float32] | None, frame: Frame) -> Floats:
+def _order(motion: MotionVectors, vectors: NDArray[np.float32] | None, frame: Frame) -> Floats:
     """Logarithm of depth; without depth, faster pixels count as nearer."""
     if motion.depth is not None:
         depth = np.where(np.isnan(motion.depth), np.inf, motion.depth)

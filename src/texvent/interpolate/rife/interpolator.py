@@ -11,6 +11,7 @@ import numpy as np
 
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
+from texvent.frames import Frame, FrameStream
 from texvent.interpolate.rife.weights import (
     Tensor,
     describe_rife_weights,
@@ -22,10 +23,9 @@ from texvent.pairs.instants import matching_levels, position
 from texvent.pairs.on_device import levels_on, luma_on
 from texvent.runtime.devices import Device, explain_device_memory, to_device
 from texvent.transfer import WHITE, Transfer
-from texvent.video import Frame, FrameStream
 
 if TYPE_CHECKING:
-    from texvent.interpolate.rife.network import Motion
+    from texvent.interpolate.rife.network import IntermediateFlow
 
 BYTES_PER_PIXEL = {True: 100, False: 1_000}
 """About what one intermediate frame takes while it is drawn, for each pixel: by a motion that the
@@ -72,7 +72,7 @@ class RifeInterpolator:
         self._path = find_rife_weights(config.interpolator_weights)
         self._network = read_rife_weights(self._path).to(self._device)
         self._is_shared = config.rife_flow == "once"
-        self._run: Callable[..., Motion] = self._network
+        self._run: Callable[..., IntermediateFlow] = self._network
         if self._device.type == "cuda":
             from texvent.interpolate.rife.recorded import RecordedNetwork  # needs torch
 
@@ -126,13 +126,15 @@ class RifeInterpolator:
     def _padded(self, images: Sequence[Tensor]) -> list[Tensor]:
         return [pad_to_multiple(image, self._network.layout.pad_to) for image in images]
 
-    def _cropped(self, images: Sequence[Tensor], motion: Motion) -> Motion:
-        from texvent.interpolate.rife.network import Motion  # needs torch
+    def _cropped(self, images: Sequence[Tensor], motion: IntermediateFlow) -> IntermediateFlow:
+        from texvent.interpolate.rife.network import IntermediateFlow  # needs torch
 
         height, width = images[0].shape[-2:]
-        return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
+        return IntermediateFlow(
+            motion.flow[..., :height, :width], motion.mask[..., :height, :width]
+        )
 
-    def _estimate(self, images: Sequence[Tensor], positions: Sequence[float]) -> Motion:
+    def _estimate(self, images: Sequence[Tensor], positions: Sequence[float]) -> IntermediateFlow:
         """The motion at each instant anew."""
         torch, count = import_torch(), len(positions)
         at = to_device(np.array(positions, np.float32)[:, None, None, None], self._device)

@@ -100,7 +100,7 @@ def closest_layout(tensors: Mapping[str, Tensor]) -> tuple[RifeLayout, tuple[int
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class IntermediateFlow:
     """Flow from the pixels of an instant to both frames, and the weights of the frames."""
 
     flow: Tensor
@@ -131,7 +131,9 @@ class RifeNetwork(_Module):
         if layout.encoded_channels:
             self.encode = _Encoder(layout.encoded_channels)
 
-    def forward(self, first: Tensor, second: Tensor, position: float | Tensor = MIDDLE) -> Motion:
+    def forward(
+        self, first: Tensor, second: Tensor, position: float | Tensor = MIDDLE
+    ) -> IntermediateFlow:
         """The motion at K instants.
 
         Args:
@@ -158,7 +160,7 @@ class RifeNetwork(_Module):
                 flow = flow + step
                 mask = logit if self.layout.replaces_mask else mask + logit
             moved = self._warped(both, flow)
-        return Motion(flow, mask)
+        return IntermediateFlow(flow, mask)
 
     def _warped(self, both: tuple[Tensor, ...], flow: Tensor) -> tuple[Tensor, ...]:
         """Both images, then both encodings, all warped; an image and its encoding move together."""
@@ -271,7 +273,7 @@ def warp(image: Tensor, flow: Tensor) -> Tensor:
     )
 
 
-def move_motion(middle: Motion, positions: Sequence[float]) -> Motion:
+def move_motion(middle: IntermediateFlow, positions: Sequence[float]) -> IntermediateFlow:
     """The motion at K instants, from that at the middle, if points move straight and evenly.
 
     A point that is at x at the instant was at x − (τ − 1/2)·V at the middle, where its path
@@ -298,4 +300,4 @@ def move_motion(middle: Motion, positions: Sequence[float]) -> Motion:
     flow = warp(middle.flow.expand(count, -1, -1, -1), back)
     flow[:, :2] *= before
     flow[:, 2:] *= after
-    return Motion(flow, warp(middle.mask.expand(count, -1, -1, -1), back) + logit)
+    return IntermediateFlow(flow, warp(middle.mask.expand(count, -1, -1, -1), back) + logit)

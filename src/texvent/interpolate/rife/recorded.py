@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from texvent.interpolate.rife.network import Motion, RifeNetwork, torch
+from texvent.interpolate.rife.network import IntermediateFlow, RifeNetwork, torch
 from texvent.interpolate.rife.weights import Tensor
 
 WARM_UPS = 3
@@ -18,7 +18,7 @@ class _Recording(NamedTuple):
     graph: Any
     images: tuple[Tensor, Tensor]
     """Read by the graph."""
-    motion: Motion
+    motion: IntermediateFlow
     """Written by it."""
 
 
@@ -33,7 +33,7 @@ class RecordedNetwork:
         self._network = network
         self._recording: _Recording | None = None
 
-    def __call__(self, first: Tensor, second: Tensor) -> Motion:
+    def __call__(self, first: Tensor, second: Tensor) -> IntermediateFlow:
         """The motion at the middle of a pair; arguments as of `RifeNetwork.forward`."""
         with torch.cuda.device(first.device):
             recording = self._recording
@@ -44,7 +44,7 @@ class RecordedNetwork:
                 kept.copy_(image)
             recording.graph.replay()
             # The next pair overwrites what the graph wrote.
-            return Motion(recording.motion.flow.clone(), recording.motion.mask.clone())
+            return IntermediateFlow(recording.motion.flow.clone(), recording.motion.mask.clone())
 
     def _record(self, first: Tensor, second: Tensor) -> _Recording:
         images = first.contiguous().clone(), second.contiguous().clone()

@@ -47,7 +47,7 @@ from texvent.io.reading import ReadOptions
 
 MAX_EVENTS = 65_535
 MAX_START_US = 1 << 62
-"""Largest start of the times of a chunk; see `texvent.io.prophesee.ecf_coding_cpu`."""
+"""Largest start of the times of a chunk; see `texvent.io.prophesee.ecf_coding`."""
 _HEAD = struct.Struct("<IQ")
 
 
@@ -72,7 +72,7 @@ def decode_chunk(chunk: bytes) -> Columns:
 
 
 def _decode_body(body: NDArray[np.uint8], origin: int, flags: int, columns: Columns) -> None:
-    from texvent.io.prophesee import ecf_coding_cpu as ecf_coding  # brings Numba
+    from texvent.io.prophesee import ecf_coding  # brings Numba
 
     x, y, t, p = (columns[name] for name in "xytp")
     rest = _skip(body, ecf_coding.decode_times(body, origin, t))

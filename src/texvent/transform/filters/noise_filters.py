@@ -51,7 +51,7 @@ class BackgroundActivityFilter:
 
     def start(self, events: EventStream | EventPackets) -> Keep:
         """See `EventFilter`."""
-        from texvent.transform.filters.kernels_cpu import find_supported  # brings Numba
+        from texvent.transform.filters.kernels import find_supported  # brings Numba
 
         height, width = events.size.shape
         last_us = np.full((1 + self.polarity, height, width), NEVER, np.int64)
@@ -89,7 +89,7 @@ class RefractoryFilter:
 
     def start(self, events: EventStream | EventPackets) -> Keep:
         """See `EventFilter`."""
-        from texvent.transform.filters.kernels_cpu import find_rested  # brings Numba
+        from texvent.transform.filters.kernels import find_rested  # brings Numba
 
         kept_us = np.full(events.size.shape, NEVER, np.int64)
 

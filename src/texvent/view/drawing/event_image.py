@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.frames import UINT16_PER_LEVEL, Frame
 from texvent.transfer import WHITE, Transfer, encode_srgb
-from texvent.video import UINT16_PER_LEVEL, Frame
 from texvent.view.drawing.canvas import Image
 from texvent.view.drawing.palettes import Palette
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.frames import FrameStream
 from texvent.sensor import SensorSize
-from texvent.video import FrameStream
 from texvent.view.drawing.canvas import (
     Image,
     blank,

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.options.values import plain
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import Colour, Palette
 from texvent.view.page.sample import FrameStrip, RateCurve
 

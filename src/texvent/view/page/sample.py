@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.drawing.canvas import jpeg_bytes, shrink
 from texvent.view.drawing.event_image import frame_image
 

@@ -15,9 +15,9 @@ from typing import Any
 from texvent.errors import ConfigError, OutputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame
 from texvent.io.atomic import AtomicOutput, atomic_file, check_output
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import title_of
 from texvent.view.page import html_parts

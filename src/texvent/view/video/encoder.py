@@ -12,8 +12,8 @@ import av
 import av.filter
 
 from texvent.errors import ConfigError, InputError, OutputError
+from texvent.frames import MICROSECONDS
 from texvent.io.atomic import AtomicOutput, atomic_file, check_output, is_disk_full
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.canvas import Image
 
 TIME_BASE = Fraction(1, MICROSECONDS)

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
+from texvent.frames import MICROSECONDS, PREVIEW_MARK, Frame
 from texvent.io.atomic import AtomicOutput, atomic_folder, check_output, check_output_folder
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame
 from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.event_image import count_ceiling, frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette

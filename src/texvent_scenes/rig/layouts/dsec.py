@@ -29,11 +29,11 @@ import yaml
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError
+from texvent.frames import MICROSECONDS
 from texvent.lens import HALF_PIXEL, Lens, distort, normalised
 from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
 from texvent.truth.sinks import write_png
-from texvent.video import MICROSECONDS
 from texvent_scenes.rig.description import Float64Array, RigCamera
 from texvent_scenes.rig.layouts.parts import (
     Tally,

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.options.values import plain
 from texvent.pipeline import Simulation
 from texvent.run.files import OnStep, RunFiles, write_run
 from texvent.runtime.progress import Progress
 from texvent.truth.layout import parse_parts
 from texvent.truth.poses import POSE_HEADER, pose_row, quaternion
-from texvent.video import Frame
 from texvent_scenes.rig.description import Rig, RigCamera
 from texvent_scenes.rig.imu import ImuSamples
 from texvent_scenes.rig.kalibr import camchain, camera_entries, imu_yaml

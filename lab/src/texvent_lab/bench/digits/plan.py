@@ -15,7 +15,7 @@ from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
 from texvent.settings.resolution import Settings, resolve
-from texvent.simulate.model_options import with_contrast_threshold
+from texvent.simulation.model_options import with_contrast_threshold
 from texvent_lab.bench.digits.inputs import REPRESENTATIONS
 from texvent_lab.train.schedule import Schedule
 

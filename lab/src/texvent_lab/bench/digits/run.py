@@ -29,7 +29,7 @@ from texvent.run.prepare import prepare_video
 from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
 from texvent.settings.resolution import Settings
-from texvent.simulate.model_options import contrast_threshold_of
+from texvent.simulation.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.data import FIRST_TEST, Mnist, Recording, read_mnist, read_recordings
 from texvent_lab.bench.digits.inputs import (
     REPRESENTATIONS,

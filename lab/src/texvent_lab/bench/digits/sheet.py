@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import DURATION_US, digit_corner
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, frame_time_us
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 TILE = 34
 """Width and height that a digit has on the sensor, px: N-MNIST's."""

@@ -14,12 +14,12 @@ from texvent.errors import ConfigError, FileFormatError, InputError, MissingDepe
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.extending import INTERPOLATORS, SIMULATORS
+from texvent.frames import FrameStream
 from texvent.io.files import is_event_path, open_events
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
-from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
-from texvent.video import FrameStream
+from texvent.simulation.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent_lab.bench.kept_frames import keep_frames
 from texvent_lab.bench.oracle.recording import TrueFrames, render_video
 from texvent_lab.bench.oracle.scenes import Scene

@@ -1,7 +1,7 @@
 """The pixels of the oracle: an ideal one and a noisy one, fed at 4,800 frames per second.
 
-They are written for the benchmark alone and share no code with `texvent.simulate` but its hash, so
-that no simulator is its own judge.
+They are written for the benchmark alone and share no code with `texvent.simulation` but its hash,
+so that no simulator is its own judge.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.sensor import SensorSize
-from texvent.simulate.random.draws import draw_normals, draw_uniforms, frame_key
-from texvent.video import MICROSECONDS
+from texvent.simulation.random.draws import draw_normals, draw_uniforms, frame_key
 
 Float64Array = NDArray[np.float64]
 

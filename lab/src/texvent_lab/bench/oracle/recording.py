@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, Video, frame_time_us
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, Video, frame_time_us
 from texvent_lab.bench.oracle.pixel import PixelArray, PixelModel
 from texvent_lab.bench.oracle.scenes import Scene, build_scene, camera_level
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
+from texvent.frames import MICROSECONDS
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 EXPOSURE = 0.9

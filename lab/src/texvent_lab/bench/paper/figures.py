@@ -12,9 +12,9 @@ import numpy as np
 
 from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.represent.contrast_maximisation import find_flow, warp_events
 from texvent.represent.event_frame import count_events
-from texvent.video import Frame
 from texvent.view.drawing.canvas import Image, blank, draw_text, fit_text, png_bytes, tile
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.motion import draw_flow

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from texvent.errors import InputError, MissingDependencyError, TexventError
+from texvent.frames import Video
 from texvent.metrics.compare import load_metric
 from texvent.metrics.controls import CONTROLS, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SENSORS
-from texvent.video import Video
 from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import (
     ConfigEntry,

@@ -13,9 +13,9 @@ from texvent.calibrate.recording import WARM_UP_US, TimeSpan
 from texvent.capture.recorded_frames import is_dsec
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame, Video
 from texvent.options.values import option_names
 from texvent.settings.resolution import Settings, apply_options
-from texvent.video import MICROSECONDS, Frame, Video
 from texvent_lab.bench.fidelity.entries import Entry, FileEntry, simulate_video
 from texvent_lab.frame_recordings import (
     FrameRecording,

@@ -21,12 +21,12 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import MICROSECONDS
 from texvent.options.values import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate
-from texvent.simulate.model_options import contrast_threshold_of
-from texvent.video import MICROSECONDS
+from texvent.simulation.model_options import contrast_threshold_of
 from texvent_lab.bench.fidelity.entries import Entry, FileEntry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.kept_frames import keep_frames

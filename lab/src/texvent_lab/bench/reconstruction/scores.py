@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.video import Frame
+from texvent.frames import Frame
 from texvent_lab.reconstruct.image_measures import Measures
 
 GreyImage: TypeAlias = NDArray[np.floating]

@@ -21,10 +21,10 @@ import numpy as np
 
 from texvent.errors import InputError, TexventError, TexventWarning, shown
 from texvent.extending import full_version
+from texvent.frames import MICROSECONDS
 from texvent.io.atomic import atomic_file
 from texvent.prompt_report import REPORT_KEY, PromptReport
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS
 from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes, tile
 from texvent_lab.bench.jobs import run_jobs
 from texvent_lab.measure.prompts.score import COLUMNS, read_csv, write_csv

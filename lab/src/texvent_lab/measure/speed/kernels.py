@@ -14,8 +14,8 @@ import numpy as np
 
 from texvent.brightness import balanced_log
 from texvent.extending import SIMULATORS
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent_lab.measure.speed.scenes import Bytes, jumping_pixels, to_and_fro
 from texvent_lab.measure.speed.timing import quartiles, rounded, seconds
 

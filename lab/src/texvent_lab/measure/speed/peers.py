@@ -25,10 +25,10 @@ from typing import Any
 import numpy as np
 
 from texvent.extending import SIMULATORS
+from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
-from texvent.simulate.model_options import with_contrast_threshold
-from texvent.video import Video
+from texvent.simulation.model_options import with_contrast_threshold
 from texvent_lab.measure.speed.scenes import (
     EXCERPT,
     dense_video,

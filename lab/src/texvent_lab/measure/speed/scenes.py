@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
+from texvent.frames import Frame, Video, frame_time_us
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.pairing import pair_frames
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Video, frame_time_us
 
 Bytes = NDArray[np.uint8]
 

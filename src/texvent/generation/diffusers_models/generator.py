@@ -1,0 +1,283 @@
+"""One adapter over every diffusers text-to-video pipeline (Eq. 3): prompt → video on disk.
+
+    generator = GENERATORS.load("wan-1.3b")(config, seed=0, size=None)
+    video = generator.generate("a red car drives left")
+
+The pipeline is loaded only if the video was not made before. Its frames go into a lossless 16-bit
+file and are read from there.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from fractions import Fraction
+from importlib import metadata
+from pathlib import Path
+from typing import Any, ClassVar
+
+from texvent._require import require
+from texvent._version import __version__
+from texvent.errors import ConfigError, InputError
+from texvent.frames import PixelArray
+from texvent.generation.diffusers_models.guardrail import (
+    PART,
+    check_prompt,
+    guardrail_version,
+    needs_guardrail,
+)
+from texvent.generation.diffusers_models.pipeline_call import (
+    call_pipeline,
+    check_options,
+    read_image,
+)
+from texvent.generation.diffusers_models.pipeline_loading import (
+    LoadRequest,
+    find_pipeline_class,
+    load_pipeline,
+    place,
+    resolve_device,
+)
+from texvent.generation.video_config import DiffusersConfig
+from texvent.generation.video_models.known_models import VideoModel
+from texvent.generation.video_models.lora import check_loras, parse_lora
+from texvent.generation.video_models.model_files import (
+    find_downloaded,
+    find_files,
+    fingerprint,
+    read_pipeline_index,
+)
+from texvent.generation.videos.retries import generate_checked
+from texvent.generation.videos.stored_video import StoredVideo
+from texvent.generation.videos.video_cache import VideoCache, content_key
+from texvent.networks.weight_files import describe_file
+from texvent.options.values import plain
+from texvent.runtime.progress import NoProgress, Progress
+
+EXTRA = "generate"
+PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
+"""Options that decide the pixels, beside model, prompt, seed and files."""
+PIXEL_FACTS = ("call", "sigmas", "scheduler")
+"""Fields of a model's row that decide the pixels too."""
+PACKAGES = ("diffusers", "transformers", "torch")
+"""Packages that decide the pixels beside the weights; their versions go into the metadata."""
+
+
+class DiffusersGenerator:
+    """A learned text-to-video model, run through diffusers.
+
+    Args:
+        config: options; None values are the pipeline's own defaults.
+        model: origin of the weights, and defaults.
+        seed: seed of the first noise.
+    """
+
+    config_type: ClassVar[type] = DiffusersConfig
+    default_interpolate: ClassVar[str] = "flow"
+    default_sensor: ClassVar[str | None] = None
+
+    def __init__(self, config: DiffusersConfig, *, model: VideoModel, seed: int = 0) -> None:
+        self.config = config
+        self.model = model
+        self.seed = seed
+        self._loras = tuple(map(parse_lora, config.lora))
+        self._request: LoadRequest | None = None
+        self._has_guardrail = False
+        self._origin: dict[str, Any] = {}
+
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
+        """The video for `prompt`, made now unless it was made before.
+
+        Args:
+            prompt: content of the video.
+            progress: receives the licence before a download, and denoising steps; an exception
+                from it, like Ctrl-C, stops the run and leaves nothing behind.
+
+        Raises:
+            InputError: the prompt is empty or blocked, or the model is not on this machine and
+                cannot be fetched.
+            ConfigError: the pipeline does not take an option, or its frame rate is not known.
+            FileFormatError: a file of the model is damaged.
+            MissingDependencyError: a package is not installed.
+        """
+        self._check(prompt)
+        return generate_checked(
+            functools.partial(self._find_or_make, prompt),
+            self.config,
+            seed=self.seed,
+            progress=progress,
+        )
+
+    def plan(self, prompt: str) -> str | None:
+        """Cost of making the video, or None if it was made before. Touches no network.
+
+        Raises:
+            TexventError: as `generate`, for faults that show before the networks are loaded.
+        """
+        self._check(prompt)
+        key = content_key(self._pixel_facts(prompt, self.seed))
+        if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
+            return None
+        config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        if folder is None:
+            self._check_before_loading()
+        else:  # all files are here: options that do not fit them are refused too
+            self._prepare(NoProgress())
+        here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
+        wanted = {"frames": config.frames, "steps": config.steps}
+        amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
+        return (
+            f"the video is not made yet: {self.model.name} would make it"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
+        )
+
+    @property
+    def fps(self) -> Fraction:
+        """Frame rate that the model is given or was made for.
+
+        Raises:
+            ConfigError: neither the option nor the model's row states it.
+        """
+        rate = self.config.fps or self.model.fps
+        if rate is None:
+            raise ConfigError(
+                f"the frame rate of {self.model.name} is not known, and it is nowhere in the "
+                "weights; say it, for example fps=16"
+            )
+        return Fraction(rate)
+
+    def _check(self, prompt: str) -> None:
+        if not prompt.strip():
+            raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
+        if self.config.image is not None:
+            read_image(self.config.image)
+        elif self.model.needs_image:
+            raise InputError(f"{self.model.name} starts from an image; give image=PATH")
+        for lora in self._loras:
+            if not lora.file.is_file():
+                raise InputError(f"there is no LoRA {lora.file}; check its path")
+        self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
+
+    def _check_before_loading(self) -> None:
+        """Refuse faults that show without the model's files, which may have to be fetched first."""
+        model, config = self.model, self.config
+        if config.lora:
+            require("peft", extra=EXTRA)
+        name = model.pipeline
+        if config.image is not None:
+            name = model.image_pipeline or name
+        if name is None:
+            return
+        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        if pipeline_class is not None:  # else the installed one is too old, which loading says
+            check_options(pipeline_class, config)
+
+    def _prepare(self, progress: Progress) -> LoadRequest:
+        """Find the model's files and check that the options fit them; no network is loaded."""
+        if self._request is not None:
+            return self._request
+        self._check_before_loading()
+        model, config, loras = self.model, self.config, self._loras
+        files = find_files(model, progress.announce)
+        device, free = resolve_device()
+        request = LoadRequest(
+            folder=files.folder,
+            content=" ".join(
+                [fingerprint(files.folder), *(_sha256(one.file) for one in self._loras)]
+            ),
+            class_name=(model.image_pipeline if config.image else None) or model.pipeline,
+            placement=place(model, config, device, free),
+            decoder_in_float32=model.needs_float32_vae,
+            loras=loras,
+            scheduler=tuple(model.scheduler.items()),
+        )
+        pipeline_class = find_pipeline_class(request)
+        check_loras(loras, pipeline_class)
+        check_options(pipeline_class, config)
+        facts = {
+            "source": model.source,
+            "commit": files.commit,
+            "pipeline": pipeline_class.__name__,
+            "dtype": request.placement.dtype,
+            "licence": model.licence_and_terms,
+            **{name: metadata.version(name) for name in PACKAGES},
+        }
+        self._has_guardrail = needs_guardrail(read_pipeline_index(files.folder))
+        if self._has_guardrail:
+            facts["guardrail"] = guardrail_version()
+        self._origin = {name: fact for name, fact in facts.items() if fact is not None}
+        self._request = request
+        return request
+
+    def _frames(self, prompt: str, seed: int, progress: Progress) -> Iterator[PixelArray]:
+        """Frames [H, W, 3] float32 in 0..1."""
+        pipeline = load_pipeline(self._prepare(progress), progress.announce)
+        if self._has_guardrail:
+            check_prompt(getattr(pipeline, PART, None), prompt)
+        frames = call_pipeline(
+            pipeline,
+            prompt,
+            self.config,
+            model=self.model,
+            fps=self.fps,
+            # Of the CPU: the same noise on every device.
+            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
+            progress=progress,
+        )
+        return iter(frames)
+
+    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
+        cache = VideoCache(is_kept=self.config.reuse_video)
+        key = content_key(self._pixel_facts(prompt, seed))
+        found = cache.find(key, self.fps)
+        if found is not None:
+            progress.announce(f"this video was generated before: {found.path}")
+            return found.with_metadata(**self._request_facts())
+        frames = self._frames(prompt, seed, progress)
+        facts = {
+            "generator": self.model.name,
+            "version": __version__,
+            "prompt": prompt,
+            "seed": seed,
+            **self._request_facts(),
+            **self._origin,
+        }
+        video = cache.store(key, frames, self.fps, facts)
+        asked = self.config.frames
+        if asked not in (None, video.frame_count):
+            progress.announce(
+                f"the model made {video.frame_count} frames, not {asked}: it can make certain "
+                "numbers only"
+            )
+        return video
+
+    def _pixel_facts(self, prompt: str, seed: int) -> dict[str, Any]:
+        """Everything that decides the frames."""
+        model, config = self.model, self.config
+        facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
+        facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
+        if not model.ignores_fps:
+            facts["fps"] = self.fps
+        if config.image is not None:
+            facts["image"] = _sha256(config.image)
+        if self._loras:
+            facts["lora"] = [[_sha256(one.file), one.weight] for one in self._loras]
+        if model.folder is None:
+            facts["source"] = model.source
+        else:
+            facts["folder"] = fingerprint(model.folder) if model.folder.is_dir() else ""
+        return {**facts, "prompt": prompt, "seed": seed}
+
+    def _request_facts(self) -> dict[str, Any]:
+        """Options and files of this run; a video found again may have been made with others."""
+        paths = [self.config.image, *(one.file for one in self._loras)]
+        files = [
+            {"file": str(path.absolute()), "sha256": _sha256(path)}
+            for path in paths
+            if path is not None
+        ]
+        return {"options": plain(self.config), **({"files": files} if files else {})}
+
+
+def _sha256(path: Path) -> str:
+    return describe_file(path)["sha256"]

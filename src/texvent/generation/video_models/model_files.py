@@ -1,0 +1,265 @@
+"""Files of models: found in the model hub's cache or a local folder, fetched, and checked.
+
+Missing and pickled weights are refused before anything is loaded, so that errors name the file.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import logging
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from texvent._require import require
+from texvent.errors import FileFormatError, InputError, TexventError, one_line
+
+if TYPE_CHECKING:
+    from texvent.generation.video_models.known_models import VideoModel
+
+EXTRA = "generate"
+LIBRARIES = ("diffusers", "transformers")
+DAMAGE = (OSError, ValueError, RuntimeError, AttributeError, TypeError, LookupError)
+"""Exceptions of the libraries for files that do not fit, beside that of safetensors."""
+LONGEST_REASON = 300
+REPOSITORY = r"[A-Za-z0-9]\w*(?:[.-]\w+)*/[A-Za-z0-9]\w*(?:[.-]\w+)*"
+"""`organisation/name` as the model hub allows it: no two dots or hyphens in a row."""
+HUB = "hub:"
+"""Prefix of a repository of the model hub: `hub:org/name`."""
+INDEX = "model_index.json"
+CONFIG = "config.json"
+PICKLES = (".bin", ".pt", ".pth", ".ckpt")
+NOT_READ = "not known to texvent; read the model's page"
+
+
+@dataclass(frozen=True)
+class ModelFiles:
+    """A model folder that was checked, and the commit it is of."""
+
+    folder: Path
+    commit: str | None
+    """Commit of the hub's repository; None for a local folder."""
+
+
+def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles:
+    """The files of a model, fetched first if they are not on this machine.
+
+    Raises:
+        InputError: the model is not here and cannot be fetched, or a file is missing.
+        FileFormatError: a file is damaged.
+        MissingDependencyError: diffusers is not installed.
+    """
+    if model.folder is not None:
+        check_weight_files(model.folder)
+        return ModelFiles(model.folder, None)
+    folder = find_downloaded(model)
+    if folder is None:
+        require("diffusers", extra=EXTRA)  # before a download is announced that cannot begin
+        announce(describe_terms(model))
+        folder = _download(model)
+    check_weight_files(folder)
+    return ModelFiles(folder, folder.name)
+
+
+def find_downloaded(model: VideoModel) -> Path | None:
+    """Folder of a model that the hub's cache holds already, or None. Touches no network.
+
+    Raises:
+        MissingDependencyError: huggingface-hub is not installed.
+    """
+    hub = require("huggingface_hub", extra=EXTRA)
+    found = hub.try_to_load_from_cache(model.repo, INDEX, revision=model.revision)
+    if not isinstance(found, str):
+        return None
+    # The index is the first file that is fetched; the rest may be missing after an interruption.
+    folder = Path(found).parent
+    try:
+        check_weight_files(folder)
+    except InputError:
+        return None
+    return folder
+
+
+def describe_terms(model: VideoModel) -> str:
+    """Licence and origin, for the user to read before the download."""
+    is_known = model.licence != NOT_READ
+    read = f"read in {model.licence_source}" if model.licence_source else "not read by texvent"
+    origin = f" ({read}; check the model's page)" if is_known else ""
+    terms = f"licence: {model.licence_and_terms}{origin}"
+    return f"fetching {model.source} from the model hub; {terms}"
+
+
+def _download(model: VideoModel) -> Path:
+    diffusers = require("diffusers", extra=EXTRA)
+    errors = require("huggingface_hub.errors", extra=EXTRA)
+    try:
+        with _without_warnings():
+            # The class knows which files are needed; an index may name one of another library.
+            pipeline = getattr(diffusers, model.pipeline or "", diffusers.DiffusionPipeline)
+            return Path(
+                pipeline.download(model.repo, revision=model.revision, use_safetensors=True)
+            )
+    except errors.GatedRepoError as error:
+        raise InputError(
+            f"{model.repo} is gated: accept its terms on the model's page and log in with: hf "
+            "auth login"
+        ) from error
+    except errors.RepositoryNotFoundError as error:
+        raise InputError(
+            f"the model hub has no repository {model.repo!r}, or it is private"
+        ) from error
+    except (OSError, ValueError) as error:
+        raise TexventError(_missing_text(model, error)) from error
+
+
+@contextlib.contextmanager
+def _without_warnings() -> Iterator[None]:
+    """Keep what diffusers says about the hub out of the terminal; the error says it in one line."""
+    logger = logging.getLogger("diffusers.pipelines.pipeline_utils")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def _missing_text(model: VideoModel, error: BaseException) -> str:
+    while error.__cause__ is not None:
+        error = error.__cause__  # the libraries wrap the reason in advice about their own options
+    return (
+        f"{INDEX} and the weights of {model.source} are not on this machine and the model hub "
+        f"cannot be reached: {one_line(error)}. Fetch them elsewhere (hf download {model.repo}) "
+        "and pass generator=./FOLDER"
+    )
+
+
+def read_pipeline_index(folder: Path) -> dict[str, Any]:
+    """Class and parts of a saved pipeline, from its `model_index.json`.
+
+    Raises:
+        InputError: there is no such folder, or it is no saved pipeline.
+        FileFormatError: the file is damaged.
+    """
+    if not folder.is_dir():
+        raise InputError(
+            f"there is no model folder {folder}; give the folder of a saved diffusers pipeline "
+            f"(it holds {INDEX})"
+        )
+    path = folder / INDEX
+    if not path.is_file():
+        raise InputError(
+            f"{folder} holds no {INDEX}, so it is no saved diffusers pipeline; put the model's "
+            "files there, subfolders included"
+        )
+    index = read_json(path)
+    if not isinstance(index.get("_class_name"), str):
+        raise FileFormatError(f"{path} names no pipeline class; it is not of a diffusers pipeline")
+    return index
+
+
+def check_weight_files(folder: Path) -> None:
+    """Refuse a model folder with missing or pickled weights, by file name.
+
+    Raises:
+        InputError: a part lacks its weights, or has them only as a pickle.
+        FileFormatError: a file is damaged.
+    """
+    index = read_pipeline_index(folder)
+    for part, entry in index.items():
+        is_part = isinstance(entry, list) and len(entry) == 2 and entry[0] is not None
+        if not part.startswith("_") and is_part and part != "safety_checker":
+            _check_part(folder / part, str(entry[1]))
+
+
+def _check_part(folder: Path, class_name: str) -> None:
+    """A network must have safetensors; schedulers and tokenizers have only JSON."""
+    if not folder.is_dir():
+        raise InputError(
+            f"the model lacks the folder {folder} ({class_name}); put the model's files there"
+        )
+    weights = sorted(folder.glob("*.safetensors"))
+    for index_path in sorted(folder.glob("*.safetensors.index*.json")):
+        for name in sorted(set(read_json(index_path).get("weight_map", {}).values())):
+            if not (folder / name).is_file():
+                raise InputError(
+                    f"the model lacks the weights {folder / name}, which {index_path.name} "
+                    "names; put the file there"
+                )
+    # Networks have a config.json; tokenizers and schedulers have configs of other names.
+    if not weights and (folder / CONFIG).is_file():
+        pickled = [path for path in folder.iterdir() if path.suffix in PICKLES]
+        if pickled:
+            raise InputError(
+                f"{pickled[0]} is a pickle, which can run code when it is read; texvent reads "
+                "weights from .safetensors only: save the model with safe_serialization=True"
+            )
+        raise InputError(f"the model lacks its weights in {folder}; put its .safetensors there")
+
+
+def fingerprint(folder: Path) -> str:
+    """Digest of a model folder that costs a moment even for 100 GB.
+
+    It covers the text of the JSON files, name and size of every file, and when the weights were
+    last changed.
+    """
+    digest = hashlib.sha256()
+    for path in sorted(folder.rglob("*")):
+        if not path.is_file() or any(part.startswith(".") for part in path.parts[-2:]):
+            continue
+        stat = path.stat()
+        digest.update(f"{path.relative_to(folder)} {stat.st_size}\n".encode())
+        if path.suffix == ".json":
+            digest.update(path.read_bytes())
+        elif path.suffix == ".safetensors":
+            digest.update(str(stat.st_mtime_ns).encode())
+    return digest.hexdigest()
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Content of a JSON file of a model, by name.
+
+    Raises:
+        FileFormatError: it is damaged.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise FileFormatError(f"{path} is damaged: {one_line(error)}; fetch it again") from error
+    if not isinstance(content, dict):
+        raise FileFormatError(f"{path} is damaged: it holds no names; fetch it again")
+    return content
+
+
+@contextlib.contextmanager
+def loading(folder: Path, role: str) -> Iterator[None]:
+    """Inside, a library loads `folder`; it shows no bars, and a damaged folder is refused.
+
+    Weights that a file lacks are filled by the libraries with random numbers, which they warn of.
+
+    Raises:
+        FileFormatError: a file is damaged, or of another network.
+        MissingDependencyError: a package is not installed.
+    """
+    damage = require("safetensors", extra=EXTRA).SafetensorError
+    try:
+        with without_bars():
+            yield
+    except (*DAMAGE, damage) as error:
+        reason = " ".join(str(error).split())[:LONGEST_REASON]
+        raise FileFormatError(f"{folder} cannot be loaded as {role}: {reason}") from error
+
+
+@contextlib.contextmanager
+def without_bars() -> Iterator[None]:
+    """Inside, the libraries show no progress bars."""
+    with contextlib.ExitStack() as stack:
+        for name in LIBRARIES:
+            bars = require(f"{name}.utils.logging", extra=EXTRA)
+            if bars.is_progress_bar_enabled():
+                bars.disable_progress_bar()
+                stack.callback(bars.enable_progress_bar)
+        yield

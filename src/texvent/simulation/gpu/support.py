@@ -1,0 +1,119 @@
+"""Device of a run: a GPU where there is one and the pixel model has kernels, else the CPU."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from texvent.config import RunConfig
+from texvent.errors import ConfigError, InputError
+from texvent.runtime.devices import AUTO, CPU, Device, describe_device, find_gpu, total_bytes
+from texvent.sensor import SensorSize
+from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.texvent.config import TexventConfig
+
+BYTES_PER_PIXEL = 64
+"""Memory of references, two frames and counts on a GPU, for each pixel; what is between comes on
+top."""
+
+
+@dataclass(frozen=True)
+class RunDevice:
+    """Device of one run."""
+
+    gpu: Device | None = None
+    """torch.device of the networks; None: all runs on the CPU."""
+    obstacle: str | None = None
+    """Why the pixel model runs on the CPU although there is a GPU."""
+
+    @property
+    def resident(self) -> Device | None:
+        """The device on which frames stay; None where the pixel model runs on the CPU."""
+        return self.gpu if self.obstacle is None else None
+
+    def check_memory(self, size: SensorSize) -> None:
+        """Refuse frames that do not fit into the memory of the GPU.
+
+        Raises:
+            InputError: they do not fit.
+        """
+        needed = BYTES_PER_PIXEL * size.width * size.height
+        if self.resident is None or self.resident.type != "cuda":
+            return
+        has = total_bytes(self.resident)
+        if needed > has:
+            raise InputError(
+                f"frames of {size} pixels need at least {needed / 1e9:.3g} GB of memory on "
+                f"{self.resident}, which has {has / 1e9:.3g} GB: give a smaller sensor, or "
+                "device='cpu'"
+            )
+
+    @cached_property
+    def facts(self) -> dict[str, Any]:
+        """Device and versions, for the provenance, under "device"; nothing where no GPU is used."""
+        if self.gpu is None:
+            return {}
+        pixels = {} if self.obstacle is None else {"pixel_model": "cpu"}
+        return {"device": describe_device(self.gpu) | pixels}
+
+    @property
+    def note(self) -> str | None:
+        """Device in a line, where there is a GPU."""
+        if self.gpu is None:
+            return None
+        name = f"{self.gpu} ({self.facts['device'].get('name', 'interpreted')})"
+        return name if self.obstacle is None else f"pixel model on the CPU: {self.obstacle}"
+
+
+def choose_device(run: RunConfig, config: Any) -> RunDevice:
+    """The device of a run.
+
+    Args:
+        run: its option `device`.
+        config: options of the pixel model.
+
+    Raises:
+        ConfigError: a GPU is wanted, and there is none, or the model does not run on it.
+        MissingDependencyError: one is wanted, and torch or Triton is not installed.
+    """
+    obstacle = None
+    try:
+        check_supported(config)
+    except ConfigError as error:
+        if run.device not in (AUTO, CPU):
+            raise ConfigError(f"device is {run.device!r}: {error}; or device='auto'") from None
+        obstacle = str(error)
+    gpu = find_gpu(run.device)
+    return RunDevice() if gpu is None else RunDevice(gpu, obstacle)
+
+
+def check_supported(config: object) -> None:
+    """Refuse a model, or an option of one, that has no GPU kernels.
+
+    Args:
+        config: options of the model, whose type says which it is.
+
+    Raises:
+        ConfigError: with the model or option, and what to use.
+    """
+    if isinstance(config, TexventConfig):
+        if config.noise == "gaussian":
+            raise ConfigError(
+                "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
+                "done on a GPU; use noise 'adaptive', 'random' or 'none'"
+            )
+    elif isinstance(config, EsimConfig):
+        if config.refractory_period_us > 0:
+            raise ConfigError(
+                f"refractory_period_us is {config.refractory_period_us}, which is not kept on a "
+                "GPU; use 0"
+            )
+        if config.threshold_sigma > 0:
+            raise ConfigError(
+                f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
+                "pixel and frame, which is not done on a GPU; use 0"
+            )
+    else:
+        model = type(config).__name__.removesuffix("Config").lower()
+        raise ConfigError(f"simulator {model!r} does not run on a GPU; texvent and esim do")

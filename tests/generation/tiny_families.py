@@ -1,0 +1,216 @@
+"""A tiny pipeline of every family that the table of models names, beside those of `tiny_pipelines`.
+
+Each builder makes a real diffusers pipeline with random weights; `tiny_pipelines.py` saves
+it in the layout of the published ones.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import diffusers
+import transformers
+from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
+
+from .tiny_pipelines import SMALL, qwen, wan_vae
+
+CONNECTOR = {
+    "num_attention_heads": 2,
+    "attention_head_dim": 8,
+    "num_layers": 1,
+    "num_learnable_registers": None,
+}
+
+
+@dataclass(frozen=True)
+class Family:
+    """How to build a family's tiny pipeline, and what its run needs."""
+
+    build: Callable[[], Any]
+    pipeline: str
+    """diffusers class that runs."""
+    options: dict[str, Any] = field(default_factory=dict)
+    """Beside or instead of `tiny_models.OPTIONS`."""
+    frames: int = 5
+    """What comes out."""
+    steps: int = 2
+    """Denoising steps that are reported; HunyuanVideo 1.5 reports none."""
+    takes_image: bool = False
+    named: str = ""
+    """The row whose facts the run takes, or the last part of its repository."""
+
+
+def flow_match(**facts):
+    return diffusers.FlowMatchEulerDiscreteScheduler(**facts)
+
+
+def flow_unipc():
+    return diffusers.UniPCMultistepScheduler(
+        prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
+    )
+
+
+def ltx2():
+    tokenizer = gemma_tokenizer()
+    text = SMALL | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
+    vision = SMALL | {"image_size": 14, "patch_size": 14}
+    gemma = transformers.Gemma3Config(
+        text_config=text, vision_config=vision, mm_tokens_per_image=1, image_token_index=5
+    )
+    audio = {"base_channels": 4, "latent_channels": 2, "ch_mult": (1,), "num_res_blocks": 1}
+    audio |= {"output_channels": 2, "in_channels": 2, "mel_bins": 8, "resolution": 32}
+    connector = {
+        f"{kind}_connector_{name}": value
+        for kind in ("video", "audio")
+        for name, value in CONNECTOR.items()
+    }
+    return diffusers.LTX2Pipeline(
+        tokenizer=tokenizer,
+        text_encoder=transformers.Gemma3ForConditionalGeneration(gemma).eval(),
+        vae=diffusers.AutoencoderKLLTX2Video(
+            latent_channels=4,
+            block_out_channels=(8,),
+            decoder_block_out_channels=(8,),
+            layers_per_block=(1,),
+            decoder_layers_per_block=(1, 1),
+            spatio_temporal_scaling=(True,),
+            decoder_spatio_temporal_scaling=(True,),
+            decoder_inject_noise=(False, False),
+            downsample_type=("spatiotemporal",),
+            upsample_type=("spatiotemporal",),
+            upsample_residual=(False,),
+            upsample_factor=(1,),
+            patch_size=1,
+            patch_size_t=1,
+            decoder_causal=False,
+        ),
+        audio_vae=diffusers.AutoencoderKLLTX2Audio(**audio, mid_block_add_attention=False),
+        vocoder=LTX2Vocoder(
+            in_channels=16,
+            hidden_channels=32,
+            upsample_kernel_sizes=[4, 4],
+            upsample_factors=[2, 2],
+            resnet_kernel_sizes=[3],
+            resnet_dilations=[[1, 3, 5]],
+        ),
+        connectors=LTX2TextConnectors(
+            **connector,
+            caption_channels=16,
+            text_proj_in_factor=3,
+            connector_rope_base_seq_len=32,
+            rope_double_precision=False,
+            rope_type="split",
+        ),
+        scheduler=flow_match(),
+        transformer=diffusers.LTX2VideoTransformer3DModel(
+            in_channels=4,
+            out_channels=4,
+            patch_size=1,
+            num_attention_heads=2,
+            attention_head_dim=8,
+            cross_attention_dim=16,
+            audio_in_channels=4,
+            audio_out_channels=4,
+            audio_num_attention_heads=2,
+            audio_attention_head_dim=4,
+            audio_cross_attention_dim=8,
+            num_layers=1,
+            caption_channels=16,
+            rope_double_precision=False,
+            rope_type="split",
+        ),
+    )
+
+
+def qwen_text():
+    """The text half of Qwen2.5-VL, with its tokenizer."""
+    parts = qwen()
+    return {
+        "tokenizer": parts["tokenizer"],
+        "text_encoder": parts["text_encoder"].model.language_model.eval(),
+    }
+
+
+def hunyuan15():
+    letters = transformers.ByT5Tokenizer()
+    small_t5 = {"d_model": 16, "d_kv": 8, "d_ff": 16, "num_layers": 1, "num_heads": 2}
+    byt5 = transformers.T5Config(vocab_size=len(letters), **small_t5)
+    return diffusers.HunyuanVideo15Pipeline(
+        **qwen_text(),
+        tokenizer_2=letters,
+        text_encoder_2=transformers.T5EncoderModel(byt5).eval(),
+        vae=diffusers.AutoencoderKLHunyuanVideo15(
+            latent_channels=4,
+            block_out_channels=(16, 16),
+            layers_per_block=1,
+            spatial_compression_ratio=4,
+            temporal_compression_ratio=2,
+            downsample_match_channel=False,
+            upsample_match_channel=False,
+        ),
+        scheduler=flow_match(shift=7.0),
+        transformer=diffusers.HunyuanVideo15Transformer3DModel(
+            in_channels=9,
+            out_channels=4,
+            num_attention_heads=2,
+            attention_head_dim=8,
+            num_layers=1,
+            num_refiner_layers=1,
+            mlp_ratio=2.0,
+            text_embed_dim=16,
+            text_embed_2_dim=16,
+            image_embed_dim=12,
+            rope_axes_dim=(2, 2, 4),
+            target_size=32,
+            task_type="t2v",
+        ),
+        guider=diffusers.ClassifierFreeGuidance(guidance_scale=6.0),
+    )
+
+
+def gemma_tokenizer():
+    specials = ["<pad>", "<eos>", "<bos>", "<unk>", "<start_of_turn>", "<end_of_turn>", "▁"]
+    letters = specials + [chr(code) for code in range(33, 127)]
+    vocabulary = {letter: number for number, letter in enumerate(letters)}
+    return transformers.GemmaTokenizer(vocab=vocabulary, merges=[])
+
+
+def cosmos3():
+    import cosmos_guardrail
+
+    tokenizer = qwen()["tokenizer"]
+    return diffusers.Cosmos3OmniPipeline(
+        text_tokenizer=tokenizer,
+        vae=wan_vae(),
+        scheduler=flow_unipc(),
+        transformer=diffusers.Cosmos3OmniTransformer(
+            head_dim=6,
+            hidden_act="silu",
+            hidden_size=6,
+            intermediate_size=12,
+            latent_channel=16,
+            latent_patch_size=1,
+            num_attention_heads=1,
+            num_hidden_layers=1,
+            num_key_value_heads=1,
+            patch_latent_dim=16,
+            rope_axes_dim=[1, 1, 1],
+            vocab_size=len(tokenizer),
+        ),
+        safety_checker=cosmos_guardrail.CosmosSafetyChecker(),
+    )
+
+
+FAMILIES = {
+    "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline", steps=0),
+    "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
+    "ltx2-distilled": Family(
+        ltx2,
+        "LTX2Pipeline",
+        {"steps": 8, "guidance": 1.0},
+        steps=8,
+        named="LTX-2.3-Distilled-Diffusers",
+    ),
+    "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
+}
+"""Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""

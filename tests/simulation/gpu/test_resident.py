@@ -1,0 +1,193 @@
+"""A run whose frames stay on a device gives the packets of the CPU, and hardly ever waits."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from texvent._registry import SIMULATORS
+from texvent.errors import ConfigError, InputError
+from texvent.frames import Frame, Video
+from texvent.pipeline import video_to_events
+from texvent.runtime.devices import find_gpu
+from texvent.settings.resolution import resolve
+from texvent.simulation.gpu.support import RunDevice, check_supported, choose_device
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+pytest.importorskip("triton")
+
+from tests.interpolate.rife.rife_files import save_published  # noqa: E402
+
+HEIGHT, WIDTH, FRAMES = 16, 16, 3
+PRESETS = [
+    (model, preset) for model in ("texvent", "esim") for preset in SIMULATORS.load(model).presets
+]
+PIXELS = {
+    "bytes": lambda grey: grey.astype(np.uint8),
+    "colour": lambda grey: np.stack([grey, grey[:, ::-1], 255 - grey], -1).astype(np.uint8),
+    "16 bits": lambda grey: (grey * 257).astype(np.uint16),
+    "colour of 16 bits": lambda grey: np.stack([grey * 257, grey[:, ::-1] * 200, grey], -1).astype(
+        np.uint16
+    ),
+    "floats": lambda grey: grey.astype(np.float64),
+}
+
+
+def clip(kind="bytes", frames=FRAMES):
+    """A texture that moves and, in the last frame, is another one: a cut."""
+    random = np.random.default_rng(3)
+    grey = np.cumsum(random.normal(0, 6, (frames, HEIGHT, WIDTH)), axis=0) + 60
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    grey[-1] = 130 + 120 * np.sin(2.0 * x) * np.cos(1.7 * y + x)
+    times_us = [0, *np.cumsum(random.integers(900, 1100, frames - 1)).tolist()]
+    return Video(PIXELS[kind](np.clip(grey, 0, 255).round()), times_us)
+
+
+def simulation(video, **options):
+    options = {"seed": 5, "device": "cpu", **options}
+    if options.get("interpolate") != "none":
+        options = {"max_intermediate": 3, **options}
+    return video_to_events(video, resolve("simulate", options))
+
+
+def on(device, run):
+    return replace(run, device=RunDevice(find_gpu(device) or torch.device(device)))
+
+
+def packets(run):
+    """All that a run gives: time and kind of each frame, and the columns of its packet."""
+    return [
+        (frame.t_us, frame.is_source, *(column.tolist() for column in packet.columns().values()))
+        for frame, packet in run.steps()
+    ]
+
+
+def assert_same(run, device, *, least=30):
+    expected = packets(run)
+    assert sum(len(packet[2]) for packet in expected) >= least
+    assert packets(on(device, run)) == expected
+
+
+@pytest.fixture(scope="module")
+def weights(tmp_path_factory):
+    """A file of RIFE as published, untrained and narrow."""
+    from texvent.interpolate.rife import network
+
+    return save_published(torch, network.RIFE_4_6, tmp_path_factory.mktemp("rife") / "rife.pkl")
+
+
+@pytest.mark.parametrize(("simulator", "preset"), PRESETS)
+@pytest.mark.parametrize("interpolate", ["none", "blend"])
+def test_every_preset_gives_the_packets_of_the_cpu(simulator, preset, interpolate, device):
+    options = {"simulator": simulator, "preset": preset, "interpolate": interpolate}
+    assert_same(simulation(clip(), **options), device)
+
+
+@pytest.mark.parametrize("kind", PIXELS)
+def test_every_pixel_type_gives_the_packets_of_the_cpu(kind, device):
+    assert_same(simulation(clip(kind), preset="paper", interpolate="blend"), device)
+
+
+class Rendered(Video):
+    """Frames between which any instant can be had."""
+
+    def at(self, t_us):
+        first, second = self[0], self[1]
+        share = (t_us / second.t_us) ** 2
+        levels = first.float_luma + np.float32(share) * (second.float_luma - first.float_luma)
+        return Frame(levels, t_us, is_source=False)
+
+
+def test_frames_that_are_drawn_on_the_host_go_up(device):
+    video = clip()
+    run = simulation(
+        Rendered(video.pixels[:2], video.times_us[:2]), preset="paper", interpolate="exact"
+    )
+    assert_same(run, device, least=1)
+
+
+@pytest.mark.parametrize("rife_flow", ["once", "each"])
+def test_frames_that_a_network_makes_stay_there(rife_flow, weights, device, monkeypatch):
+    run = simulation(
+        clip("colour"), preset="paper", interpolate="rife", rife_flow=rife_flow,
+        interpolator_weights=str(weights),
+    )  # fmt: skip
+    monkeypatch.setattr("texvent.pairs.on_device.BATCH_BYTES", 2 * 4 * HEIGHT * WIDTH)
+    assert_same(run, device)
+
+
+WAITS = ("cpu", "item", "numpy", "tolist", "__bool__", "__float__", "__int__", "__array__")
+
+
+def test_the_host_waits_as_often_for_many_intermediate_frames_as_for_one(
+    weights, device, monkeypatch
+):
+    waits: list[str] = []
+
+    def counting(name, original):
+        def call(*arguments, **keywords):
+            caller = sys._getframe(1).f_globals["__name__"]
+            if caller.startswith("texvent.") and "weight" not in caller and name != "numpy":
+                waits.append(name)
+            return original(*arguments, **keywords)
+
+        return call
+
+    video, counts = clip("colour", frames=3), {}
+    for count in (1, 6):
+        run = simulation(
+            video, preset="paper", interpolate="rife", interpolator_weights=str(weights),
+            fixed_count=count, max_intermediate=9, detect_cuts=False,
+        )  # fmt: skip
+        with monkeypatch.context() as patch:
+            for name in WAITS:
+                patch.setattr(torch.Tensor, name, counting(name, getattr(torch.Tensor, name)))
+            patch.setattr(torch.cuda, "synchronize", counting("wait", torch.cuda.synchronize))
+            waits.clear()
+            pairs = sum(frame.is_source for frame, _ in on(device, run).steps()) - 1
+        counts[count] = list(waits)
+    assert counts[1] == counts[6]
+    # Of a pair: Eq. 4 with thumbnails, the number of events, the events.
+    assert counts[1] == ["cpu"] * 3 * pairs
+
+
+def test_bad_frames_are_refused_as_on_the_cpu(device):
+    video = clip("floats")
+    video.pixels[2, 3, 3] = np.nan
+    run = simulation(video, interpolate="blend")
+    for one in (run, on(device, run)):
+        with pytest.raises(InputError, match=r"frame 2 .* 1 pixel\(s\) that are NaN"):
+            packets(one)
+
+
+def test_events_store_the_device_that_made_them(device):
+    run = simulation(clip())
+    assert "device" not in run.provenance
+    facts = on(device, run).provenance["device"]
+    assert {"device", "torch", "triton"} <= set(facts)
+    assert run.settings.as_tables() == simulation(clip(), device="auto").settings.as_tables()
+
+
+@pytest.mark.parametrize("simulator", SIMULATORS.builtin)
+def test_a_model_runs_on_a_gpu_or_says_what_does(simulator):
+    settings = resolve("simulate", {"simulator": simulator, "device": "cuda"})
+    try:
+        check_supported(settings.simulate)
+    except ConfigError:
+        with pytest.raises(ConfigError, match=f"device is 'cuda': .*{simulator}.*device='auto'"):
+            choose_device(settings.run, settings.simulate)
+    else:
+        assert simulator in ("texvent", "esim")
+
+
+def test_a_gpu_that_is_not_there_is_refused():
+    wish = "cuda:99" if torch.cuda.is_available() else "cuda"
+    with pytest.raises(ConfigError, match=rf"device is '{wish}'.* finds "):
+        find_gpu(wish)
+    for word in ("gpu", "cuda:", "cuda:x", "cpu:0"):
+        with pytest.raises(ConfigError, match="it must be auto, cpu, cuda"):
+            resolve("simulate", {"device": word})

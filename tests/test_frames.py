@@ -1,0 +1,80 @@
+"""Frames and streams: exact times, kept precision, and the checks at the door."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import InputError
+from texvent.frames import Frame, FrameStream, Video, frame_time_us
+
+
+def test_convention_time_comes_from_the_index_and_never_drifts():
+    fps = Fraction(30_000, 1001)
+    assert frame_time_us(30_000 * 600, fps) == 1001 * 600 * 1_000_000
+    assert [frame_time_us(i, Fraction(24)) for i in range(4)] == [0, 41_667, 83_333, 125_000]
+
+
+@given(st.integers(0, 10**6), st.fractions(min_value=Fraction(1, 10), max_value=2000))
+def test_frame_times_strictly_increase(index, fps):
+    assert frame_time_us(index + 1, fps) > frame_time_us(index, fps)
+
+
+def test_convention_eight_bit_grey_stays_eight_bit():
+    grey = np.arange(6, dtype=np.uint8).reshape(2, 3)
+    assert Frame(grey, 0).luma.dtype == np.uint8
+    assert np.array_equal(Frame(grey, 0).luma, grey)
+
+
+def test_convention_sixteen_bit_levels_stay_distinct():
+    deep = np.array([[200 * 257, 200 * 257 + 1]], dtype=np.uint16)
+    luma = Frame(deep, 0).luma
+    assert luma.dtype == np.float32
+    assert luma[0, 0] == 200.0
+    assert luma[0, 0] < luma[0, 1] < 200.01
+
+
+def test_colour_luma_is_bt601_and_not_rounded():
+    red, green, blue = np.eye(3, dtype=np.uint8) * 255
+    luma = Frame(np.stack([red, green, blue])[None], 0).luma
+    assert luma[0].tolist() == pytest.approx([76.245, 149.685, 29.07])
+    assert Frame(np.full((1, 1, 3), 255, np.uint8), 0).luma[0, 0] == pytest.approx(255.0)
+
+
+def test_a_video_in_memory_is_a_frame_stream_that_can_be_read_twice():
+    video = Video(np.zeros((3, 4, 5), np.uint8), [0, 10, 20])
+    assert isinstance(video, FrameStream)
+    assert video.size == (5, 4)
+    assert [frame.t_us for frame in video] == [frame.t_us for frame in video] == [0, 10, 20]
+
+
+@pytest.mark.parametrize(
+    ("pixels", "message"),
+    [
+        (np.zeros((2, 3, 4), np.uint8), r"\[H, W\] or \[H, W, 3\]; got shape \[2, 3, 4\]"),
+        (np.zeros((0, 3), np.uint8), "at least one pixel"),
+        (np.zeros((2, 3), np.int64), "type int64; allowed: uint8"),
+    ],
+)
+def test_a_frame_of_the_wrong_form_is_refused(pixels, message):
+    with pytest.raises(InputError, match=message):
+        Frame(pixels, 0)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
+def test_nan_infinite_and_negative_intensities_are_refused_with_a_count(bad):
+    pixels = np.ones((2, 4, 4))
+    pixels[1, 2, 3] = bad
+    with pytest.raises(InputError, match=r"frame 1 \(t = 5 µs\) has 1 pixel"):
+        Video(pixels, [0, 5])
+
+
+def test_empty_videos_and_miscounted_times_are_refused():
+    with pytest.raises(InputError, match="no frame"):
+        Video(np.zeros((0, 2, 2), np.uint8), [])
+    with pytest.raises(InputError, match="3 frames but 2 times"):
+        Video(np.zeros((3, 2, 2), np.uint8), [0, 1])
+    with pytest.raises(InputError, match=r"\[N, H, W\]"):
+        Video(np.zeros((2, 2), np.uint8), [0, 1])
