@@ -150,7 +150,7 @@ class PromptClips:
 
     known_truth: Sequence[str] = TRUTH
 
-    def __init__(self, prompts: Sequence[Subject], **options: Any) -> None:
+    def __init__(self, prompts: Sequence[Subject] | Subject, **options: Any) -> None:
         """Clips of prompts or scenes.
 
         Args:
