@@ -4,6 +4,7 @@ import pytest
 
 from texvent.calibrate.estimates import write_preset
 from texvent.calibrate.fit import describe_fit, fit_sensor
+from texvent.frames import Video
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.cameras import PRESETS
@@ -55,8 +56,12 @@ def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
     assert {one.name for one in (*fit.found, *fit.kept)} >= {"balance", "cutoff_hz", "noise_curve"}
 
 
-def test_what_another_recording_told_better_is_kept(recording):
+def test_late_frame_times_are_found_and_what_another_recording_told_better_is_kept(recording):
+    frames = recording.frames
+    early = Video(frames.pixels, [t_us - 10_000 for t_us in frames.times_us])
+    recording = dataclasses.replace(recording, frames=early)
     fit = fit_sensor(recording, start=START, seconds=0.2, keep=["balance", "cutoff_hz"])
+    assert fit.offset_us == 10_000
     assert (fit.config.balance, fit.config.cutoff_hz) == (START.balance, START.cutoff_hz)
     assert fit.config.contrast_threshold != START.contrast_threshold
     assert {one.name for one in fit.found} == {"contrast_threshold", "on_off_ratio"}

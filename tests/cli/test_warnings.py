@@ -1,5 +1,6 @@
 """What is hardly meant is said in a line that stands out, or refused; nothing of it is silent."""
 
+import sys
 from pathlib import Path
 
 import cv2
@@ -34,6 +35,22 @@ def test_a_run_without_events_warns(capsys):
     assert "no events: the video stands still" in warnings_of(capsys, *words)[0]
     with pytest.warns(texvent.TexventWarning, match="see `texvent check VIDEO`"):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
+
+
+@pytest.mark.parametrize("no_color", [None, "", "1"])
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_colours_are_for_terminals_of_those_who_want_them(
+    capsys, monkeypatch, no_color, is_terminal
+):
+    still_video("still.avi")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    if no_color is not None:
+        monkeypatch.setenv("NO_COLOR", no_color)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal)
+    words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--previews", "none", "-q"]
+    assert run(*words) == 0
+    has_colours = "\x1b[" in capsys.readouterr().err
+    assert has_colours == (is_terminal and no_color != "1")
 
 
 def test_masks_of_0_and_1_are_not_said_to_stand_still_alone(capsys, folder):
