@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from texvent._registry import GENERATORS, SIMULATORS
-from texvent.cli.app import COMMANDS, main
+from texvent.cli.app import all_commands, main
 from texvent.cli.option_types import flag_of
 from texvent.generation.video_config import DiffusersConfig
 from texvent.options.values import option_names
@@ -39,14 +39,9 @@ FOREIGN = {
         "--table",
         "--show",
     ),
-    *("--local-dir", "--save-dir", "--dataset", "--standalone"),
+    *("--local-dir", "--save-dir", "--dataset", "--standalone", "--draw"),
 }
-"""Flags of pip, git, Docker, ROS, Slurm and the like, and of CSS."""
-LABORATORY = {
-    flag_of(name)
-    for path in (ROOT / "lab/src").rglob("*.py")
-    for name in re.findall(r"^    (\w+): ", path.read_text(encoding="utf-8"), re.MULTILINE)
-} | {"--no-oracle", "--no-match-rate"}
+"""Flags of pip, git, Docker, ROS, Slurm and the like, of CSS and of tools/."""
 PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.shipped())]
 OF_PARTS = {
     flag_of(name)
@@ -84,12 +79,11 @@ SOURCES = files("src/**/*.py", "ros/**/*.py", "comfyui/**/*.py")
 
 @pytest.mark.parametrize("kind", ["pages", "sources"])
 def test_named_flags_exist(kind):
-    known = FOREIGN.union(*map(flags_of, COMMANDS))
+    known = FOREIGN.union(*map(flags_of, all_commands()))
     wrong = set()
     for path in PAGES if kind == "pages" else SOURCES:
-        allowed = known | (LABORATORY if kind == "pages" else set())
         named = set(FLAG.findall(path.read_text(encoding="utf-8")))
-        wrong |= {(str(path.relative_to(ROOT)), flag) for flag in named - allowed}
+        wrong |= {(str(path.relative_to(ROOT)), flag) for flag in named - known}
     assert not wrong
 
 
@@ -98,7 +92,7 @@ def test_flags_of_a_named_command_are_its_own():
     for path in (*PAGES, *SOURCES):
         text = re.sub(r'"\s*\n\s*f?"', "", path.read_text(encoding="utf-8"))
         for command, _, words in CALL.findall(text):
-            if command in COMMANDS and command not in ("doctor",):
+            if command in all_commands() and command not in ("doctor",):
                 named = set(FLAG.findall(words))
                 wrong |= {(path.name, command, flag) for flag in named - flags_of(command)}
     assert not wrong
