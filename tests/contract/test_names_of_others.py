@@ -16,7 +16,7 @@ from tests.dataset.conftest import make_set
 import texvent.dataset
 from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export
-from texvent.dataset.generation.shards import TarShardWriter, read_members, read_record
+from texvent.dataset.generation.shard_files import TarShardWriter, read_members, read_record
 from texvent.dataset.preview import choose_samples, write_sample_page
 from texvent.dataset.statistics import DatasetStatistics, counts_rows, summary_lines
 from texvent.dataset.stored.folder import StoredDataset

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.dataset.generation.shards import FAILED, read_record, write_record
+from texvent.dataset.generation.shard_files import FAILED, read_record, write_record
 from texvent.dataset.statistics import DatasetStatistics, quantiles, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 

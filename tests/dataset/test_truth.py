@@ -16,7 +16,7 @@ import texvent
 from texvent.cli.app import main
 from texvent.dataset.export import export
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.shards import read_record, write_record
+from texvent.dataset.generation.shard_files import read_record, write_record
 from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.stored.folder import StoredDataset

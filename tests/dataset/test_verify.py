@@ -14,7 +14,7 @@ import pytest
 from texvent.cli.app import main
 from texvent.dataset.generation.make_sample import npy_bytes
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     ShardRecord,
     TarShardWriter,
     read_members,

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 import pytest
 
+from texvent.capture.exr_image import read_exr
 from texvent.capture.image_folder import read_image
-from texvent.capture.motion_vectors.exr_image import read_exr
 from texvent.errors import FileFormatError
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.runtime import memory

@@ -11,7 +11,7 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import FileFormatError
 from texvent_lab.bench.document import read_document
-from texvent_lab.bench.oracle.run import FidelityPlan
+from texvent_lab.bench.fidelity.oracle_run import FidelityPlan
 from texvent_lab.bench.page import page_files
 from texvent_lab.bench.paper.published_tables import TABLES
 from texvent_lab.commands.bench import fidelity

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.capture.exr_image import EXR, exr_frame
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
-from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, few, shown, warn
 from texvent.frames import Frame, PixelArray
 from texvent.options.arrays import usable_pixels

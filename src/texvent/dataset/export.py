@@ -13,7 +13,7 @@ import numpy as np
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.generation.shard_files import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import (
     check_layout,

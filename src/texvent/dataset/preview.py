@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from texvent.dataset.generation.make_sample import PREVIEW_US, preview_png
-from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.generation.shard_files import SampleRecord
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import InputError, shown
 from texvent.frames import MICROSECONDS

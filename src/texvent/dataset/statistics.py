@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     FAILED,
     FILTERED,
     MADE,

@@ -11,7 +11,7 @@ from functools import partial
 
 from texvent.dataset.generation.make_sample import COLUMNS, count_boxes
 from texvent.dataset.generation.recipe import VIDEOS
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     EXTENSION,
     FAILED,
     FILTERED,

@@ -26,7 +26,7 @@ from texvent.view.page.html_parts import (
     rate_figure,
     viewer_file,
 )
-from texvent.view.page.sample import RATE_BINS, rate_counts
+from texvent.view.sample import RATE_BINS, rate_counts
 from texvent.view.stills import busiest_window_png
 
 MAX_TITLE = 300

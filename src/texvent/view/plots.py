@@ -18,7 +18,7 @@ from texvent.frames import MICROSECONDS
 from texvent.represent.event_frame import count_events
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Colour, Palette, get_palette
-from texvent.view.page.sample import UniformSample, rate_counts
+from texvent.view.sample import UniformSample, rate_counts
 
 
 def draw_frame(

@@ -23,8 +23,8 @@ from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.motion import draw_flow
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.drawing.panels import Overlay, title_of
-from texvent.view.page.sample import SAMPLE_EVENTS
 from texvent.view.page.writer import PageWriter
+from texvent.view.sample import SAMPLE_EVENTS
 from texvent.view.stills import BusiestWindow, find_busiest
 from texvent.view.video.encoder import VIDEO_EXTENSIONS
 from texvent.view.video.writer import VideoWriter

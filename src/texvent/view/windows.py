@@ -25,7 +25,7 @@ from texvent.view.drawing.panels import (
     PanelLayout,
     annotations_at,
 )
-from texvent.view.page.sample import STRIP_FRAMES
+from texvent.view.sample import STRIP_FRAMES
 
 MOST_DRAWN = 2 * STRIP_FRAMES
 """Frames of a scene that are drawn for a page."""

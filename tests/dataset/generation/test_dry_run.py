@@ -8,7 +8,7 @@ import pytest
 from tests.dataset.generation.small_sets import clips_recipe, make
 
 from texvent.dataset.generation.dry_run import try_samples
-from texvent.dataset.generation.shards import size_in_tar
+from texvent.dataset.generation.shard_files import size_in_tar
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.runtime.progress import NO_PROGRESS
 

@@ -19,7 +19,7 @@ from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.make_sample import simulate_sample
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
+from texvent.dataset.generation.shard_files import FAILED, FILTERED, MADE, read_members, read_record
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.dataset.stored.folder import StoredDataset

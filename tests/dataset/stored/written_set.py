@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from texvent.dataset.generation.make_sample import SimulatedClip, sample_members
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     FILTERED,
     SampleRecord,
     ShardRecord,

@@ -12,12 +12,12 @@ from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
+from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, record_truths, run_fidelity
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.run import score_entry
 from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
-from texvent_lab.bench.oracle.run import FidelityPlan, record_truths, run_fidelity
 from texvent_lab.bench.oracle.scenes import EXPOSURE
 
 from ..synthetic_report import synthetic_report

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.motion_vectors.exr_image import EXR, read_exr
+from texvent.capture.exr_image import EXR, read_exr
 from texvent.errors import FileFormatError, InputError, few, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import NPZ_DAMAGE

@@ -15,7 +15,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.shards import FAILED, MADE
+from texvent.dataset.generation.shard_files import FAILED, MADE
 from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines

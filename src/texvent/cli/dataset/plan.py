@@ -18,7 +18,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
-from texvent.dataset.generation.shards import FILTERED
+from texvent.dataset.generation.shard_files import FILTERED
 from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
-from texvent.dataset.generation.shards import FAILED, MADE, ShardRecord, size_in_tar
+from texvent.dataset.generation.shard_files import FAILED, MADE, ShardRecord, size_in_tar
 from texvent.dataset.specification.items import Items
 from texvent.errors import TexventError
 from texvent.runtime.engines import Outcome, local_engine

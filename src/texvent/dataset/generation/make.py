@@ -16,7 +16,7 @@ from texvent.dataset.generation.recipe import (
     Shard,
     load_recipe_once,
 )
-from texvent.dataset.generation.shards import FAILED, ShardRecord
+from texvent.dataset.generation.shard_files import FAILED, ShardRecord
 from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification

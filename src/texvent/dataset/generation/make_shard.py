@@ -24,7 +24,7 @@ from texvent.dataset.generation.make_sample import (
     simulate_sample,
 )
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     FAILED,
     FILTERED,
     MADE,

@@ -14,7 +14,7 @@ from typing import Any
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent._version import full_version
 from texvent.config import InterpolateConfig
-from texvent.dataset.generation.shards import EXTENSION, read_json
+from texvent.dataset.generation.shard_files import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.generation.shard_files import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.layout import Layout
 from texvent.dataset.stored.folder import StoredDataset

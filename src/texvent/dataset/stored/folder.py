@@ -10,7 +10,7 @@ from pathlib import Path
 
 from texvent._registry import suggest
 from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts, read_recipe
-from texvent.dataset.generation.shards import (
+from texvent.dataset.generation.shard_files import (
     EXTENSION,
     MADE,
     SampleRecord,

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.generation.shards import read_json, read_members, read_part
+from texvent.dataset.generation.shard_files import read_json, read_members, read_part
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

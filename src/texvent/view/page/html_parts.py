@@ -17,7 +17,7 @@ from texvent.events import EventStream
 from texvent.frames import MICROSECONDS
 from texvent.options.values import plain
 from texvent.view.drawing.palettes import Colour, Palette
-from texvent.view.page.sample import FrameStrip, RateCurve
+from texvent.view.sample import FrameStrip, RateCurve
 
 SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
 """Parts of the viewer, in the order in which they build on one another."""

@@ -22,7 +22,7 @@ from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import title_of
 from texvent.view.page import html_parts
 from texvent.view.page.html_parts import fill_template
-from texvent.view.page.sample import SAMPLE_EVENTS, FrameStrip, RateCurve, UniformSample
+from texvent.view.sample import SAMPLE_EVENTS, FrameStrip, RateCurve, UniformSample
 from texvent.view.stills import busiest_window_png
 
 TEMPORARY = "texvent-view-"

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent_lab.bench.fidelity.entries import choose_entries
+from texvent_lab.bench.fidelity.oracle_run import FULL, FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.bench.oracle.run import FULL, FidelityPlan, run_fidelity
 from texvent_lab.commands.bench.bench import ResultOptions
 
 

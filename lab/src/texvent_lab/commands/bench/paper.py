@@ -13,9 +13,9 @@ from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import atomic_file
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, read_ablations
+from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent_lab.bench.jobs import Progress
-from texvent_lab.bench.oracle.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.figures import ABLATED, ABLATION_FIGURE, draw_figure
 from texvent_lab.bench.paper.published_tables import (

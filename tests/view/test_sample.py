@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.view.page.sample import (
+from texvent.view.sample import (
     FIRST_BIN_US,
     RATE_BINS,
     STRIP_WIDTH,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.motion_vectors.exr_image import exr_frame
+from texvent.capture.exr_image import exr_frame
 from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
@@ -12,7 +12,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
 
 OpenEXR = pytest.importorskip("OpenEXR")
-BLENDER = Path(__file__).parent / "blender_sample"
+BLENDER = Path(__file__).parent / "motion_vectors" / "blender_sample"
 """Three frames of a ball that shoots past pillars, rendered by Blender 5.0 at 48x36."""
 
 
