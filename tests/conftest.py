@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -191,5 +192,10 @@ def held_back(monkeypatch) -> str:
 
     name = "held-back"
     found = {"texvent.simulators": {name: "tests.held_back:HeldBack"}}
-    monkeypatch.setattr(_registry, "_plugged_in", lambda group: found.get(group, {}))
+    own = partial(_registry._plugged_in, is_own=True)
+    monkeypatch.setattr(
+        _registry,
+        "_plugged_in",
+        lambda group, *, is_own: own(group) if is_own else found.get(group, {}),
+    )
     return name

@@ -5,6 +5,7 @@ import doctest
 import importlib
 import inspect
 import warnings
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -27,12 +28,18 @@ def public_objects():
     """Name → function or class, of what users call."""
     named = {f"texvent.{name}": getattr(texvent, name) for name in texvent.__all__}
     for module in filter(inspect.ismodule, list(named.values())):
+        if module is texvent.training and find_spec("torch") is None:
+            continue
         named |= {f"{module.__name__}.{name}": getattr(module, name) for name in module.__all__}
     for kind in USED_BY_METHODS:
         for name, method in inspect.getmembers(kind, callable):
             if not name.startswith("_") and name not in FOR_PROGRAMS:
                 named[f"texvent.{kind.__name__}.{name}"] = method
     return {name: one for name, one in named.items() if callable(one)}
+
+
+def wants_torch(name):
+    return name.endswith("torch") or name.startswith("texvent.training.")
 
 
 PUBLIC = public_objects()
@@ -57,14 +64,14 @@ def run(example):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=[pytest.mark.torch] * name.endswith("torch"))
+        pytest.param(name, marks=[pytest.mark.torch] * wants_torch(name))
         for name in sorted(PUBLIC)
     ],
 )
 def test_a_public_name_has_an_example_that_can_be_pasted(name):
     text = inspect.getdoc(PUBLIC[name]) or ""
     example = doctest.DocTestParser().get_doctest(text, {}, name, None, None)
-    if name.endswith("torch"):
+    if wants_torch(name):
         pytest.importorskip("torch")
     assert example.examples, "the docstring has no example"
     run(example)

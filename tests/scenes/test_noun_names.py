@@ -12,7 +12,7 @@ OTHER_MEANINGS = {
     *("ball", "bar", "box", "cone", "disc", "wheel", "anchor"),  # shapes and words of part lines
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
-    *("table", "shirt"),  # a trait, a part of every outfit
+    *("table", "shirt", "hat", "clock"),  # a trait, parts of every outfit, the clock of a rig
     *("person", "hand"),  # whose bodies are code
 }
 LEFT_OUT = ("words.py", "raycast")

@@ -31,7 +31,7 @@ from texvent.pipeline import text_to_events
 from texvent.runtime.engines import ProcessEngine
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
-from texvent_scenes.procedural import ProceduralVideo
+from texvent_scenes.raycast.incremental import IncrementalRenderer
 
 SMALL = {"duration": 0.1, "sensor": "32x24"}
 
@@ -102,13 +102,13 @@ def test_variants_that_share_frames_are_what_each_is_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
 ) -> None:
     monkeypatch.setattr(kept_frames, "MOST_BYTES", most_bytes)
-    rendered, render = [], ProceduralVideo._render
+    rendered, render = [], IncrementalRenderer.render
 
-    def count(self: ProceduralVideo, memory: Any, t_us: int) -> Any:
-        rendered.append((self.size, t_us))
-        return render(self, memory, t_us)
+    def count(self: IncrementalRenderer, time_s: float) -> Any:
+        rendered.append((self._size, time_s))
+        return render(self, time_s)
 
-    monkeypatch.setattr(ProceduralVideo, "_render", count)
+    monkeypatch.setattr(IncrementalRenderer, "render", count)
     variants = {
         "still": {"interpolate": "none", "simulator": "esim"},
         "dense": {"fixed_count": 3, "seeds": 2},

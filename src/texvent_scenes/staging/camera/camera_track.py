@@ -52,6 +52,17 @@ class TimedMove(NamedTuple):
     move: CameraMove
     begin_s: float
     end_s: float
+    clip_s: float
+    """Length of the clip, s."""
+
+    @property
+    def active_s(self) -> tuple[float, float]:
+        """Instants between which it goes on, s.
+
+        A move at an end of the clip goes on beyond it: the rates of an IMU are differences there.
+        """
+        begin_s = self.begin_s if self.begin_s > 0.0 else -math.inf
+        return begin_s, self.end_s if self.end_s < self.clip_s else math.inf
 
 
 def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove]:
@@ -66,7 +77,7 @@ def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove
         if move.start_s is not None:
             begin, end = move.start_s, duration_s
         end = end if move.duration_s is None else begin + move.duration_s
-        timed.append(TimedMove(move, begin, end))
+        timed.append(TimedMove(move, begin, end, duration_s))
     return [one for one in timed if one.begin_s < min(one.end_s, duration_s)]
 
 
@@ -85,17 +96,17 @@ def terms_of(moves: Sequence[TimedMove], duration_s: float) -> tuple[Term, ...]:
 
 def _expand(timed: TimedMove) -> Iterator[Term]:
     """Terms of one move."""
-    move, begin_s, end_s = timed
+    move, (begin_s, end_s) = timed.move, timed.active_s
     is_roaming = move.direction == ALL_AXES
     scale = move.pace * (_MORE if is_roaming else 1.0)
     waves = _HANDHELD if move.kind == "handheld" else ()
     for wave in (*waves, *(_ROAMING if is_roaming else ())):
         yield wave._replace(amplitude=scale * wave.amplitude, begin_s=begin_s, end_s=end_s)
     if move.kind in AMOUNTS:
-        span = end_s - begin_s
+        span = timed.end_s - timed.begin_s
         amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace * AMOUNTS[move.kind]
         drift = (-amount if move.direction in _NEGATIVE else amount) / span
-        offset = -drift * begin_s
+        offset = -drift * timed.begin_s
         yield Term(move.kind, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
 
 
@@ -128,13 +139,14 @@ class Tie:
         tied = [one for one in moves if one.move.kind in ("follow", "orbit")]
         if not tied or not subject.is_mover:
             return None
-        begin_s, end_s = min(one.begin_s for one in tied), max(one.end_s for one in tied)
+        begins, ends = zip(*(one.active_s for one in tied), strict=True)
+        begin_s, end_s = min(begins), max(ends)
         return cls(subject.track, begin_s, end_s, subject.noun.habitat != "ground")
 
     def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
         time_s = min(max(time_s, self.begin_s), self.end_s)
-        now, start = self.track.at(time_s).position, self.track.at(self.begin_s).position
+        now, start = self.track.at(time_s).position, self.track.at(max(self.begin_s, 0.0)).position
         return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
