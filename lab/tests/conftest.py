@@ -16,4 +16,9 @@ def plug_ins(monkeypatch):
     """The parts of lab/pyproject.toml, found as where the laboratory is installed."""
     text = (Path(__file__).parents[1] / "pyproject.toml").read_text()
     groups = tomllib.loads(text)["project"]["entry-points"]
-    monkeypatch.setattr(_registry, "_plugged_in", lambda group: groups.get(group, {}))
+    plugged_in = _registry._plugged_in
+
+    def find(group, *, is_own):
+        return plugged_in(group, is_own=True) if is_own else groups.get(group, {})
+
+    monkeypatch.setattr(_registry, "_plugged_in", find)
