@@ -11,7 +11,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +21,9 @@ from hypothesis import HealthCheck, settings
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.
     os.environ.setdefault("TRITON_INTERPRET", "1")
+
+# Events are those of the CPU on a machine with a GPU too; tests of GPUs name theirs.
+os.environ.setdefault("TEXVENT_DEVICE", "cpu")
 
 # A background job of a shell ignores SIGINT, one of nohup SIGHUP, and what tests start inherits it;
 # of a handler it does not.
@@ -192,10 +194,10 @@ def held_back(monkeypatch) -> str:
 
     name = "held-back"
     found = {"texvent.simulators": {name: "tests.held_back:HeldBack"}}
-    own = partial(_registry._plugged_in, is_own=True)
-    monkeypatch.setattr(
-        _registry,
-        "_plugged_in",
-        lambda group, *, is_own: own(group) if is_own else found.get(group, {}),
-    )
+    plugged_in = _registry._plugged_in
+
+    def find(group: str, *, is_own: bool) -> Any:
+        return plugged_in(group, is_own=True) if is_own else found.get(group, {})
+
+    monkeypatch.setattr(_registry, "_plugged_in", find)
     return name

@@ -1,7 +1,6 @@
 """What the tests of texvent set up and lend: profiles of hypothesis, stand-ins, fixtures."""
 
 import tomllib
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,9 +16,9 @@ def plug_ins(monkeypatch):
     """The parts of lab/pyproject.toml, found as where the laboratory is installed."""
     text = (Path(__file__).parents[1] / "pyproject.toml").read_text()
     groups = tomllib.loads(text)["project"]["entry-points"]
-    own = partial(_registry._plugged_in, is_own=True)
-    monkeypatch.setattr(
-        _registry,
-        "_plugged_in",
-        lambda group, *, is_own: own(group) if is_own else groups.get(group, {}),
-    )
+    plugged_in = _registry._plugged_in
+
+    def find(group, *, is_own):
+        return plugged_in(group, is_own=True) if is_own else groups.get(group, {})
+
+    monkeypatch.setattr(_registry, "_plugged_in", find)

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 import numbers
-import re
 import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
+from texvent.runtime.device_names import check_device_name
 
 IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | float | None, ...]]]
 """Option → another one, of this or another config, and those of its values (of paths: endings) with
@@ -130,8 +130,8 @@ class RunConfig:
     texvent calibrate. Frames are fitted to its size, and a simulator that knows its measured
     constants uses them. Without it, a video keeps its size and a generated scene is davis346."""
     seed: int = 0
-    """Seed of everything random. The same seed and options give the same events, on any machine
-    and with any number of threads."""
+    """Seed of everything random. The same seed and options give the same events, with any number
+    of threads and on any machine; GPUs round intermediate frames differently (docs/gpu.md)."""
     keep_events: Literal["all", "signal", "noise"] = "all"
     """Events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
@@ -146,11 +146,7 @@ class RunConfig:
     torch finds one and the model has kernels for it, and says so (docs/gpu.md)."""
 
     def __post_init__(self) -> None:
-        if not re.fullmatch("auto|cpu|cuda(:[0-9]{1,3})?", str(self.device)):
-            raise ConfigError(
-                f"device is {shown(self.device)}; it must be auto, cpu, cuda or a numbered GPU "
-                "such as cuda:1"
-            )
+        check_device_name(self.device)
         check_range("seed", self.seed, 0, 2**63 - 1)
         check_range("target_rate", self.target_rate, 1e-3, 1e12)
 

@@ -6,6 +6,7 @@ import gc
 import itertools
 import pickle
 import re
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError, TexventWarning
+from texvent.frames import Video
 from texvent.represent.time_surface import time_surface
 from texvent.represent.voxel_grid import voxel_e2vid
 
@@ -22,6 +24,7 @@ pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 
 from texvent.training import ClipRanges, EventStream  # noqa: E402
+from texvent.training.sources import read_clip  # noqa: E402
 
 SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
 WIDE = ClipRanges(
@@ -195,6 +198,42 @@ def test_decoded_clips_stay_within_memory_and_disk_and_leave_no_folder(folder):
     del stream
     gc.collect()
     assert not place.exists()
+
+
+def test_workers_leave_no_folder_of_decoded_clips(folder, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    stream = EventStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
+    loader = torch.utils.data.DataLoader(stream, batch_size=None, num_workers=1)
+    batches = iter(loader)
+    take(batches, 3)
+    assert list(tmp_path.glob("texvent-clips-*"))
+    del batches
+    gc.collect()
+    assert not list(tmp_path.glob("texvent-clips-*"))
+
+
+def test_a_full_disk_costs_decoding_and_no_source(folder, tmp_path, monkeypatch):
+    expected = prints(take(EventStream(folder, **SMALL), 6))
+    stream = EventStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "missing"))
+    with pytest.warns(TexventWarning, match="no longer kept on disk") as told:
+        assert prints(take(stream, 6)) == expected
+    assert len(told) == 1
+    assert not stream.skipped
+
+
+def test_the_truth_of_a_clip_counts_as_memory():
+    whole = Sliding().read(0, (), 2**30)
+    video = Video(whole.frames, whole.times_us)
+    most = 4 * whole.frames[0].size * (1 + 8 + 4)
+
+    def find(times_us, name):
+        channels = (2,) if name == "flow" else ()
+        return np.zeros((len(times_us), *channels, *whole.frames.shape[1:]), np.float32)
+
+    clip = read_clip(video, ("flow", "depth"), most, find)
+    assert len(clip.frames) == 4
+    assert clip.nbytes <= most + clip.times_us.nbytes
 
 
 def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass(tmp_path):

@@ -20,7 +20,7 @@ from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.on_device import pixels_on
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.time_jump import watch_steps
-from texvent.runtime.devices import Device
+from texvent.runtime.devices import Device, explain_device_memory
 from texvent.runtime.memory import release_freed_memory
 from texvent.runtime.prefetch import prefetch
 
@@ -165,7 +165,8 @@ def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
 def _begin_copies(frames: Iterable[Frame], device: Device) -> Iterator[Frame]:
     """The frames, each on its way to the device."""
     for frame in frames:
-        pixels_on(frame, device)
+        with explain_device_memory(device, frame.size):
+            pixels_on(frame, device)
         yield frame
 
 

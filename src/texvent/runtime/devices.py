@@ -6,7 +6,9 @@ import contextlib
 import ctypes
 import functools
 import importlib.util
+import os
 import re
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,10 +18,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.errors import ConfigError, InputError
+from texvent.errors import (
+    ConfigError,
+    InputError,
+    MissingDependencyError,
+    one_line,
+    warn,
+)
+from texvent.runtime.device_names import AUTO, CPU, check_device_name
 
 EXTRA = "gpu"
-AUTO, CPU = "auto", "cpu"
+VARIABLE = "TEXVENT_DEVICE"
+LEAST_CAPABILITY = 7, 0
+"""Compute capability of the oldest GPUs that Triton compiles for."""
 Device: TypeAlias = Any
 """torch.device."""
 Tensor: TypeAlias = Any
@@ -31,10 +42,14 @@ _VERSION = Path("/proc/driver/nvidia/version")
 def find_gpu(wish: str) -> Device | None:
     """The GPU of the option `device`; None for "cpu", and for "auto" where there is none.
 
+    $TEXVENT_DEVICE is what "auto" stands for, if it is set.
+
     Raises:
         ConfigError: "cuda" or a numbered GPU is wanted, and torch finds none.
         MissingDependencyError: one is wanted, and torch is not installed.
     """
+    if wish == AUTO:
+        wish = check_device_name(os.environ.get(VARIABLE) or AUTO, f"${VARIABLE}")
     if wish == CPU:
         return None
     if wish == AUTO:
@@ -48,7 +63,13 @@ def find_gpu(wish: str) -> Device | None:
     if device.index is not None and device.index >= count:
         names = "cuda:0" if count == 1 else f"cuda:0 to cuda:{count - 1}"
         raise ConfigError(f"device is {wish!r}; torch finds {names} here")
+    if _is_old(torch, device):
+        raise ConfigError(f"device is {wish!r}, a GPU too old for Triton; use device='cpu'")
     return device if device.index is not None else _current(torch)
+
+
+def _is_old(torch: Any, device: Device | None = None) -> bool:
+    return bool(torch.cuda.get_device_capability(device) < LEAST_CAPABILITY)
 
 
 @functools.cache
@@ -59,8 +80,30 @@ def _any_gpu() -> Device | None:
         return None
     if any(importlib.util.find_spec(name) is None for name in ("torch", "triton")):
         return None
-    torch = require("torch", extra=EXTRA)
-    return _current(torch) if torch.cuda.is_available() else None
+    try:
+        torch = require("torch", extra=EXTRA)
+        if not torch.cuda.is_available():
+            return None
+        return None if _is_old(torch) else _current(torch)
+    except (MissingDependencyError, OSError, RuntimeError) as error:
+        # torch is damaged, or another process fills the GPU or has it alone.
+        warn(f"the GPU is not used: {one_line(error)}")
+        return None
+
+
+@functools.cache
+def triton_fault() -> str | None:
+    """Why Triton cannot launch kernels on the GPUs here, such as a missing C compiler.
+
+    Raises:
+        MissingDependencyError: Triton is not installed.
+    """
+    triton = require("triton", extra=EXTRA)
+    try:
+        triton.runtime.driver.active  # noqa: B018  (compiles, once per machine)
+    except (OSError, RuntimeError, subprocess.SubprocessError) as error:
+        return f"Triton cannot launch kernels ({one_line(error)})"
+    return None
 
 
 def _current(torch: Any) -> Device:
@@ -89,14 +132,18 @@ def explain_device_memory(device: Device, size: object) -> Iterator[None]:
     try:
         yield
     except RuntimeError as error:
-        if "memory" not in str(error):
+        # Others name memory too: "an illegal memory access".
+        if not re.search("out of memory|allocate memory", str(error)):
             raise
-        wanted = re.search(r"Tried to allocate ([\d.]+ \w+)", str(error))
-        more = f" {wanted[1]} more were wanted;" if wanted else ""
-        has = f" it has {total_bytes(device) / 1e9:.3g} GB;" if device.type == "cuda" else ""
+        wanted = re.search(r"[Tt]ried to allocate ([\d.]+ \w+)", str(error))
+        facts = [f"{wanted[1]} more were wanted"] if wanted else []
+        advice = "choose a smaller `sensor`"
+        if device.type == "cuda":
+            facts.append(f"it has {total_bytes(device) / 1e9:.3g} GB, of which others may use some")
+            advice += ", or device='cpu'"
         raise InputError(
-            f"frames of {size} do not fit into the memory of {device}:{more}{has} choose a smaller "
-            "`sensor`, or device='cpu'"
+            f"frames of {size} do not fit into the memory of {device}: "
+            + "; ".join([*facts, advice])
         ) from error
 
 

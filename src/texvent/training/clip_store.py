@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-import weakref
 from collections import OrderedDict
 from collections.abc import Sequence
+from multiprocessing.util import Finalize
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import one_line, warn
 from texvent.training.sources import Clip, ClipSource
 
 
@@ -86,15 +87,25 @@ class ClipStore:
         while self.disk_bytes + clip.nbytes > self._disk:
             _, (old, _) = self._files.popitem(last=False)
             shutil.rmtree(old)
+        arrays: dict[str, NDArray[Any]] = {"frames": clip.frames, "t": clip.times_us, **clip.truth}
+        try:
+            folder = self._home() / str(index)
+            folder.mkdir(exist_ok=True)
+            for name, array in arrays.items():
+                np.save(folder / f"{name}.npy", array)
+        except OSError as error:
+            # What is there stays; what more there is will be decoded again.
+            self._disk = self.disk_bytes
+            warn(f"decoded clips are no longer kept on disk: {one_line(error)}")
+            return
+        self._files[index] = folder, clip.nbytes
+
+    def _home(self) -> Path:
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="texvent-clips-"))
-            weakref.finalize(self, _remove, self._folder, os.getpid())
-        folder = self._folder / str(index)
-        folder.mkdir()
-        arrays: dict[str, NDArray[Any]] = {"frames": clip.frames, "t": clip.times_us, **clip.truth}
-        for name, array in arrays.items():
-            np.save(folder / f"{name}.npy", array)
-        self._files[index] = folder, clip.nbytes
+            # Worker processes of multiprocessing run these finalizers, and no others.
+            Finalize(self, _remove, (self._folder, os.getpid()), exitpriority=0)
+        return self._folder
 
 
 def _remove(folder: Path, process: int) -> None:

@@ -41,7 +41,7 @@ class CutPlan(NamedTuple):
         if count < self.intervals * lowest + 1:
             raise InputError(
                 f"{name} has {count} frames, of which {self.intervals * lowest + 1} are needed; "
-                "give fewer frames, frames_per_grid or a lower speed"
+                "give fewer frames, frames_per_grid or a lower speed, or more memory"
             )
 
 

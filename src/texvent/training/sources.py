@@ -33,6 +33,8 @@ TRUTH = ("flow", "depth", "boxes")
 """Truth that a clip can bring."""
 Truth: TypeAlias = Callable[[NDArray[np.int64], str], NDArray[Any]]
 """Gives one part of the truth at the times of frames, µs."""
+BYTES_PER_PIXEL = {"flow": 8, "depth": 4, "boxes": 0}
+"""Memory of the truth of a frame."""
 WHITE = 255.0
 CODING_GAMMA = 2.2
 
@@ -72,7 +74,7 @@ class ClipSource(Protocol):
         ...
 
     def read(self, index: int, truth: Sequence[str], most_bytes: int) -> Clip:
-        """One of them, or as many of its first frames as fit into so many bytes.
+        """One of them, or as many of its first frames as fit, with their truth, into so many bytes.
 
         Raises:
             TexventError: it is damaged or cannot be read.
@@ -238,21 +240,22 @@ def read_clip(
     Args:
         video: checked frames.
         names: parts of the truth to bring.
-        most_bytes: of the frames; those after are left out.
+        most_bytes: of the frames and their truth; those after are left out.
         truth: gives a part.
     """
     is_linear, room = transfer_of(video) is Transfer.LINEAR, most_bytes
+    bytes_each = 1 + sum(BYTES_PER_PIXEL[name] for name in names)
     frames: list[NDArray[np.uint8]] = []
     times: list[int] = []
     for frame in video:
         luma = frame.luma
-        if luma.nbytes > room and len(frames) > 1:
+        room -= luma.size * bytes_each
+        if room < 0 and len(frames) > 1:
             break
         if is_linear:
             luma = WHITE * np.clip(luma / WHITE, 0, 1) ** (1 / CODING_GAMMA)
         if luma.dtype != np.uint8:
             luma = np.rint(np.clip(luma, 0, WHITE)).astype(np.uint8)
-        room -= luma.size
         frames.append(luma.copy())
         times.append(frame.t_us)
     t_us = np.array(times, np.int64)

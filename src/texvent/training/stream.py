@@ -17,6 +17,8 @@ from texvent.dataset.torch_samples import EventBatch
 from texvent.errors import ConfigError, InputError, TexventError, few, one_line, shown, warn
 from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
+from texvent.runtime.device_names import check_device_name
+from texvent.runtime.devices import find_gpu, triton_fault
 from texvent.runtime.prefetch import prefetch
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulation.clips.pixels import (
@@ -118,7 +120,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     tau_us: int = 30_000
     """Decay time of surfaces, µs."""
     device: str = "cpu"
-    """Device of the tensors; "cuda" simulates there."""
+    """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
     randomize: str | ClipRanges = "v2v"
     """Draws per clip: "v2v", "none" (the place in the video alone), or ranges."""
     truth: Sequence[str] | None = None
@@ -126,9 +128,10 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     seed: int = 0
     """Seed of all draws, 0..2⁶³−1."""
     memory: int = 2 * GIB
-    """Bytes of decoded clips in memory. Of a longer video than half of it, the beginning counts."""
+    """Bytes of decoded clips and their truth in memory, of each worker. Of a longer video than half
+    of it, the beginning counts."""
     disk: int = 16 * GIB
-    """Bytes of decoded clips on disk, among the temporary files, while the process runs."""
+    """Bytes of decoded clips on disk of each worker, among the temporary files, while it runs."""
     rank: int | None = None
     """Rank, and how many there are; None: those of torch.distributed, if it runs."""
     world: int | None = None
@@ -193,7 +196,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         rank, world = self._place()
         info = _data.get_worker_info()
         worker, workers = (info.id, info.num_workers) if info is not None else (0, 1)
-        if workers > 1 and self._device.type != "cpu":
+        if info is not None and self._device.type != "cpu":
             raise ConfigError(
                 f"workers cannot simulate on {self.device}; take a DataLoader without workers: "
                 "frames are cut ahead in a thread"
@@ -375,16 +378,10 @@ def _names(option: str, given: Sequence[str] | None, known: Sequence[str]) -> tu
 
 def _checked_device(name: str) -> Any:
     """The device, which must be there."""
-    try:
-        device = _torch.device(name)
-        _torch.empty(0, device=device)
-    except (RuntimeError, AssertionError) as error:
-        raise ConfigError(
-            f"device is {shown(name)}, which torch cannot use ({one_line(error)}); take 'cpu', or "
-            "a GPU that torch.cuda.is_available() finds"
-        ) from error
-    if device.type not in ("cpu", "cuda"):
-        raise ConfigError(f"device is {shown(name)}; clips are simulated on 'cpu' or 'cuda'")
-    if device.type == "cuda":
-        require("triton", extra="gpu")
-    return device
+    gpu = find_gpu(check_device_name(name))
+    if gpu is None:
+        return _torch.device("cpu")
+    fault = triton_fault()
+    if fault is not None:
+        raise ConfigError(f"device is {shown(name)}: {fault}; take 'cpu'")
+    return gpu

@@ -184,10 +184,17 @@ def test_a_model_runs_on_a_gpu_or_says_what_does(simulator):
         assert simulator in ("texvent", "esim")
 
 
+def test_a_model_of_another_package_keeps_its_own_pixels_whatever_its_options(held_back):
+    settings = resolve("simulate", {"simulator": held_back, "device": "cuda"})
+    check_supported(settings.simulate)  # they are those of esim
+    with pytest.raises(ConfigError, match="'held-back' does not run on a GPU"):
+        choose_device(settings.run, settings.simulate)
+
+
 def test_a_gpu_that_is_not_there_is_refused():
     wish = "cuda:99" if torch.cuda.is_available() else "cuda"
     with pytest.raises(ConfigError, match=rf"device is '{wish}'.* finds "):
         find_gpu(wish)
-    for word in ("gpu", "cuda:", "cuda:x", "cpu:0"):
+    for word in ("gpu", "cuda:", "cuda:x", "cuda:00", "cuda:128", "cpu:0"):
         with pytest.raises(ConfigError, match="it must be auto, cpu, cuda"):
             resolve("simulate", {"device": word})

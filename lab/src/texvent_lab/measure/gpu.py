@@ -6,8 +6,7 @@ Whole calls as a user makes them: frames on the device → events on the device,
 wait for their number included. A few calls follow each other without another wait, as in a loop
 over batches. Warm-up calls, which compile the kernels, are not timed. The CPU's kernels see the
 first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole runs: frames in the
-host's memory → packets; they need its weights, else their rows are left out. It ends within six
-minutes.
+host's memory → packets; they need its weights, else their rows are left out.
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ class RifeInterpolator:
 
         Args:
             config: the weights, and how often the motion is estimated.
-            stream: not used; every interpolator is built alike.
+            stream: its size, for messages.
             device: torch.device of the network; None: the CPU.
 
         Raises:
@@ -66,11 +66,12 @@ class RifeInterpolator:
             InputError: there are no weights.
             FileFormatError: the weights are damaged or of another network.
         """
-        del stream
         torch = import_torch()
         self._device = torch.device("cpu") if device is None else device
         self._path = find_rife_weights(config.interpolator_weights)
-        self._network = read_rife_weights(self._path).to(self._device)
+        network = read_rife_weights(self._path)
+        with explain_device_memory(self._device, stream.size):
+            self._network = network.to(self._device)
         self._is_shared = config.rife_flow == "once"
         self._run: Callable[..., IntermediateFlow] = self._network
         if self._device.type == "cuda":

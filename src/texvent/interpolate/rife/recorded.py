@@ -25,8 +25,8 @@ class _Recording(NamedTuple):
 class RecordedNetwork:
     """The network at the middle of pairs of one size after the other; float16, flows float32.
 
-    Deviation: the flows differ from the float32 network's by some thousandths of a pixel
-        (docs/gpu.md).
+    Deviation: the flows differ from the float32 network's by the rounding of float16; how much is
+        not measured yet.
     """
 
     def __init__(self, network: RifeNetwork) -> None:

@@ -8,11 +8,14 @@ from typing import Any
 
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, InputError
-from texvent.runtime.devices import AUTO, CPU, Device, describe_device, find_gpu, total_bytes
+from texvent.runtime.device_names import AUTO, CPU
+from texvent.runtime.devices import Device, describe_device, find_gpu, total_bytes, triton_fault
 from texvent.sensor import SensorSize
 from texvent.simulation.esim.simulator import EsimConfig
 from texvent.simulation.texvent.config import TexventConfig
 
+MODELS = "texvent", "esim"
+"""Simulators that have kernels."""
 BYTES_PER_PIXEL = 64
 """Memory of references, two frames and counts on a GPU, for each pixel; what is between comes on
 top."""
@@ -77,15 +80,26 @@ def choose_device(run: RunConfig, config: Any) -> RunDevice:
         ConfigError: a GPU is wanted, and there is none, or the model does not run on it.
         MissingDependencyError: one is wanted, and torch or Triton is not installed.
     """
+    if run.device == CPU:
+        return RunDevice()
     obstacle = None
     try:
+        if run.simulator not in MODELS:  # of another package, which may have their options
+            raise _unknown(run.simulator)
         check_supported(config)
     except ConfigError as error:
-        if run.device not in (AUTO, CPU):
-            raise ConfigError(f"device is {run.device!r}: {error}; or device='auto'") from None
         obstacle = str(error)
-    gpu = find_gpu(run.device)
+    # A model without kernels is refused where there is no GPU too.
+    gpu = find_gpu(run.device) if obstacle is None or run.device == AUTO else None
+    if gpu is not None:
+        obstacle = obstacle or triton_fault()
+    if obstacle is not None and run.device != AUTO:
+        raise ConfigError(f"device is {run.device!r}: {obstacle}; or device='auto'")
     return RunDevice() if gpu is None else RunDevice(gpu, obstacle)
+
+
+def _unknown(model: str) -> ConfigError:
+    return ConfigError(f"simulator {model!r} does not run on a GPU; {' and '.join(MODELS)} do")
 
 
 def check_supported(config: object) -> None:
@@ -115,5 +129,4 @@ def check_supported(config: object) -> None:
                 "pixel and frame, which is not done on a GPU; use 0"
             )
     else:
-        model = type(config).__name__.removesuffix("Config").lower()
-        raise ConfigError(f"simulator {model!r} does not run on a GPU; texvent and esim do")
+        raise _unknown(type(config).__name__.removesuffix("Config").lower())
