@@ -104,7 +104,7 @@ class SceneFrame(Frame):
     """A frame of a scene."""
 
     codes: NDArray[np.int64] | None = None
-    """[H, W] what fills its pixels; see `scenes.raycast.adaptive_sampling.render_rows`."""
+    """[H, W] what fills its pixels; see `raycast.adaptive_sampling.render_rows`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

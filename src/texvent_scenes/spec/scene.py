@@ -318,7 +318,8 @@ class Scene:
         if type(part) not in _PLACES:
             names = [one.__name__ for one in _PLACES]
             raise ConfigError(f"{shown(part)} is no part of a scene; add one of {', '.join(names)}")
-        data = plain_values(self)
+        # Checked before it is added to: its own lists may be anything.
+        data = plain_values(build_table(Scene, plain_values(self), "", {}))
         *way, name, is_list = _PLACES[type(part)]
         table = data.setdefault(way[0], {}) if way else data
         table[name] = [*table.get(name, ()), plain_values(part)] if is_list else plain_values(part)

@@ -25,7 +25,16 @@ from texvent_scenes.scene_input import describe_scene, list_nouns, list_words
 from texvent_scenes.spec.data import scene_from_data, scene_to_data
 from texvent_scenes.spec.files import json_schema, load_scene, save_scene, scene_text
 from texvent_scenes.spec.limits import Between, Colour, Word
-from texvent_scenes.spec.scene import Camera, Lamp, Motion, Place, Relation, Scene, SceneObject
+from texvent_scenes.spec.scene import (
+    Camera,
+    Lamp,
+    Light,
+    Motion,
+    Place,
+    Relation,
+    Scene,
+    SceneObject,
+)
 from texvent_scenes.spec.tables import field_types, inner_type
 from texvent_scenes.staging.compose import compose_scene
 
@@ -114,6 +123,13 @@ def test_a_scene_that_is_put_together_is_that_of_its_file(scene):
         # Its own fields are tables, as in a file.
         whole += type(part)(**scene_to_data(part))
     assert whole == scene
+
+
+@pytest.mark.parametrize("fields", [{"objects": 5}, {"light": "dusk"}, {"light": Light(lamps=4)}])
+def test_a_wrong_scene_is_refused_when_a_part_is_added(fields):
+    for part in (SceneObject("car"), Lamp((0, 0, 1))):
+        with pytest.raises(ConfigError, match=r"^(objects|light|light\.lamps) is "):
+            Scene(**fields) + part
 
 
 @pytest.mark.parametrize(

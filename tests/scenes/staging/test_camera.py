@@ -119,6 +119,23 @@ def test_the_camera_moves_between_the_start_and_the_end_of_its_move_only(kind):
         assert np.allclose(*values, atol=1e-6) == is_same
 
 
+def test_a_camera_rests_between_the_times_in_which_it_follows():
+    moves = (CameraMove("follow", duration_s=0.4), CameraMove("follow", start_s=1.2))
+    scene = film(*moves, motion=("walk",))
+    first, end, start, last = (scene.camera(time).position for time in (0.0, 0.4, 1.2, 2.0))
+    np.testing.assert_allclose(end, start)
+    assert not np.allclose(first, end)
+    assert not np.allclose(start, last)
+
+
+def test_each_stretch_of_a_journey_has_the_speed_of_its_own_move():
+    moves = (CameraMove("travel", speed_m_s=5.0), CameraMove("travel", phase=1, speed_m_s=1.0))
+    scene = stage(camera=Camera(moves), place="road")
+    places = [scene.camera(time).position for time in (0.0, 0.5, 1.5, 2.0)]
+    gone = [np.linalg.norm(places[n + 1] - places[n]) for n in (0, 2)]
+    assert gone == pytest.approx([2.5, 0.5])
+
+
 def test_a_move_after_the_end_of_the_clip_is_reported_and_moves_nothing():
     late = film(CameraMove("pan", start_s=2.0))
     assert late.not_shown == ("the camera's pan after 2 s (the clip ends at 2 s)",)

@@ -64,6 +64,16 @@ class TimedMove(NamedTuple):
         begin_s = self.begin_s if self.begin_s > 0.0 else -math.inf
         return begin_s, self.end_s if self.end_s < self.clip_s else math.inf
 
+    @property
+    def tied_s(self) -> tuple[float, float]:
+        """Instants between which it keeps its subject in place, s.
+
+        Phases after it keep on following: "follows, then dollies in" loses nothing out of view.
+        """
+        begin_s, end_s = self.active_s
+        has_times = self.move.start_s is not None or self.move.duration_s is not None
+        return begin_s, end_s if has_times else math.inf
+
 
 def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove]:
     """Times of moves: those that are said, else those of their phases, which share the clip evenly.
@@ -127,27 +137,34 @@ class Tie:
 
     track: Track
     """Track of the subject."""
-    begin_s: float
-    end_s: float
-    """Instants between which it does, s."""
+    spans_s: tuple[tuple[float, float], ...]
+    """Stretches of time in which it does, in order, s."""
     rises: bool = True
     """Whether it also rises and falls with it."""
 
     @classmethod
     def of(cls, moves: Sequence[TimedMove], subject: Actor) -> Tie | None:
         """The tie that moves make; None where the camera or its subject stays."""
-        tied = [one for one in moves if one.move.kind in ("follow", "orbit")]
+        tied = sorted(one.tied_s for one in moves if one.move.kind in ("follow", "orbit"))
         if not tied or not subject.is_mover:
             return None
-        begins, ends = zip(*(one.active_s for one in tied), strict=True)
-        begin_s, end_s = min(begins), max(ends)
-        return cls(subject.track, begin_s, end_s, subject.noun.habitat != "ground")
+        spans = tied[:1]
+        for begin_s, end_s in tied[1:]:
+            first_s, last_s = spans[-1]
+            if begin_s <= last_s:
+                spans[-1] = (first_s, max(last_s, end_s))
+            else:
+                spans.append((begin_s, end_s))
+        return cls(subject.track, tuple(spans), subject.noun.habitat != "ground")
 
     def displacement(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
-        time_s = min(max(time_s, self.begin_s), self.end_s)
-        now, start = self.track.at(time_s).position, self.track.at(max(self.begin_s, 0.0)).position
-        return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
+        gone = np.zeros(3)
+        for begin_s, end_s in self.spans_s:
+            now_s = min(max(time_s, begin_s), end_s)
+            start = self.track.at(max(begin_s, 0.0)).position
+            gone += np.subtract(self.track.at(now_s).position, start)
+        return gone * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
         """Points [n, 3], m, as the camera sees them, at the place of the start."""

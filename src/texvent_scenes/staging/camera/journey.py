@@ -94,13 +94,12 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     if is_aerial:
         height, pitch = max(height, _AERIAL_M), _TOP_PITCH if view == "top" else _AERIAL_PITCH
     height = min(height, _LOW_M) if view == "low" else height
-    speed = moves[0].speed_m_s or means.speed_m_s * moves[0].pace
     road_half = PLACES[place].road_m if PLACES[place].has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
     timed = time_moves(description.camera.moves, duration_s)
     travels = [one for one in timed if one.move.kind == "travel"]
-    route, length = _lay_route(travels, speed, duration_s)
+    route, length = _lay_route(travels, means.speed_m_s, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = RoadLine(NORTH, (-lane, route.start[1]))
     if description.place.road == "crossing":
@@ -110,7 +109,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
 
 
 def _lay_route(
-    travels: Sequence[TimedMove], speed: float, duration_s: float
+    travels: Sequence[TimedMove], usual_m_s: float, duration_s: float
 ) -> tuple[Track, float]:
     """The route, and its length from end to end, m; the camera rests between its moves."""
     times = {time for one in travels for time in (one.begin_s, min(one.end_s, duration_s))}
@@ -118,7 +117,8 @@ def _lay_route(
     for begin, end in pairwise(sorted({0.0, duration_s, *times})):
         now = [one.move for one in travels if one.begin_s <= begin < one.end_s]
         is_back = any(move.direction == "backward" for move in now)
-        speed_m_s = -speed if is_back else speed if now else 0.0
+        speed_m_s = (now[0].speed_m_s or usual_m_s * now[0].pace) if now else 0.0
+        speed_m_s = -speed_m_s if is_back else speed_m_s
         keys.append(Key(end - begin, speed_m_s, ramp_s=min(0.5, 0.4 * (end - begin))))
     route = Track((0.0, 0.0, 0.0), NORTH, (Key(0.0, keys[0].speed_m_s), *keys), floor_m=0.0)
     distances_m = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
