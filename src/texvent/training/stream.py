@@ -18,7 +18,7 @@ from texvent.errors import ConfigError, InputError, TexventError, few, one_line,
 from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.prefetch import prefetch
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.simulation.clips.pixels import (
     ClipArrays,
     ClipOutputs,
@@ -99,15 +99,16 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     """
 
     source: Any = field(kw_only=False)
-    """A folder of videos or image folders, a pattern, a list of prompts or videos, a data set that
-    `texvent dataset make` made; several of these; or a `ClipSource`, such as `PromptClips`."""
+    """A folder of videos or image folders, a pattern, a file that lists prompts or videos, a data
+    set that `texvent dataset make` made; several of these; or a `ClipSource`, such as
+    `PromptClips`."""
     fps: float | None = None
     """Frame rate of videos, in place of their own times."""
     batch: int = 12
     """Clips of a batch, B."""
     frames: int = 40
     """Frames of a clip, each at the end of a grid, W."""
-    size: tuple[int, int] = (128, 128)
+    size: SizeLike = (128, 128)
     """Width and height of the crops."""
     bins: int = 5
     """Bins of a grid."""
@@ -139,7 +140,6 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         check_whole("disk", self.disk, 0)
         check_whole("seed", self.seed, 0, 2**63 - 1)
         check_range("tau_us", self.tau_us, 1, MAX_TAU_US)
-        width, height = self.size
         self._ranges = _ranges_of(self.randomize)
         self._names = _names("truth", self.truth, TRUTH)
         chosen = _names("outputs", self.outputs, OUTPUTS)
@@ -149,7 +149,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         )  # fmt: skip
         self._device = _checked_device(self.device)
         self._plan = CutPlan(
-            checked_size(width, height), self.frames * self.frames_per_grid, self.frames_per_grid,
+            as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
         )  # fmt: skip
         if "flow" in self._names and (self.frames_per_grid > 1 or self._ranges.speed[1] > 1):
@@ -357,7 +357,7 @@ def _events_of(made: ClipArrays, size: SensorSize) -> EventBatch:
 def _ranges_of(randomize: str | ClipRanges) -> ClipRanges:
     if isinstance(randomize, ClipRanges):
         return randomize
-    if randomize not in RANGES:
+    if not isinstance(randomize, str) or randomize not in RANGES:
         raise ConfigError(
             f"randomize is {shown(randomize)}; {suggest(str(randomize), tuple(RANGES))}, or give "
             "ClipRanges"
@@ -378,7 +378,7 @@ def _checked_device(name: str) -> Any:
     try:
         device = _torch.device(name)
         _torch.empty(0, device=device)
-    except (RuntimeError, AssertionError) as error:
+    except (RuntimeError, AssertionError, TypeError) as error:
         raise ConfigError(
             f"device is {shown(name)}, which torch cannot use ({one_line(error)}); take 'cpu', or "
             "a GPU that torch.cuda.is_available() finds"
