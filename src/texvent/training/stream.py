@@ -354,7 +354,7 @@ def _events_of(made: ClipArrays, size: SensorSize) -> EventBatch:
     )  # fmt: skip
 
 
-def _ranges_of(randomize: str | ClipRanges) -> ClipRanges:
+def _ranges_of(randomize: object) -> ClipRanges:
     if isinstance(randomize, ClipRanges):
         return randomize
     if not isinstance(randomize, str) or randomize not in RANGES:
