@@ -267,6 +267,11 @@ def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass
         ({"rank": 2, "world": 2}, ConfigError, "rank is 2"),
         ({"source": "nowhere/"}, InputError, "no such file or folder: nowhere"),
         ({"source": 7}, ConfigError, "got int"),
+        ({"source": []}, InputError, "empty list"),
+        ({"size": 32}, ConfigError, "size is 32; give"),
+        ({"size": "32by32"}, ConfigError, "unknown sensor '32by32'"),
+        ({"device": None}, ConfigError, "device is None"),
+        ({"randomize": {}}, ConfigError, "or give ClipRanges"),
         (
             {"source": Sliding(), "truth": "flow", "frames_per_grid": 2},
             ConfigError,

@@ -87,7 +87,8 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
 
     Args:
         source: a `ClipSource`; the folder of a data set; or what `texvent batch` takes, or several
-            of it: a folder of videos or of image folders, a pattern, a list of prompts or videos.
+            of it: a folder of videos or of image folders, a pattern, a file that lists prompts or
+            videos.
         size: of the crops, and of the frames of prompts.
         fps: of videos, in place of their own times.
 
@@ -100,8 +101,12 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
     names = [source] if isinstance(source, str | Path) else source
     if not isinstance(names, list | tuple) or not all(isinstance(n, str | Path) for n in names):
         raise ConfigError(
-            "the source must be a folder, a pattern, a list of prompts or videos, several of these,"
-            f" or a ClipSource such as PromptClips; got {type(source).__name__}"
+            "the source must be a folder, a pattern, a file that lists prompts or videos, several "
+            f"of these, or a ClipSource such as PromptClips; got {type(source).__name__}"
+        )
+    if not names:
+        raise InputError(
+            "the source is an empty list; name a folder, a video or a file that lists some"
         )
     if len(names) == 1 and (Path(names[0]) / SPECIFICATION_FILE).is_file():
         return StoredClips(Path(names[0]))

@@ -20,7 +20,7 @@ from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.device_names import check_device_name
 from texvent.runtime.devices import find_gpu, triton_fault
 from texvent.runtime.prefetch import prefetch
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.simulation.clips.pixels import (
     ClipArrays,
     ClipOutputs,
@@ -101,15 +101,16 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     """
 
     source: Any = field(kw_only=False)
-    """A folder of videos or image folders, a pattern, a list of prompts or videos, a data set that
-    `texvent dataset make` made; several of these; or a `ClipSource`, such as `PromptClips`."""
+    """A folder of videos or image folders, a pattern, a file that lists prompts or videos, a data
+    set that `texvent dataset make` made; several of these; or a `ClipSource`, such as
+    `PromptClips`."""
     fps: float | None = None
     """Frame rate of videos, in place of their own times."""
     batch: int = 12
     """Clips of a batch, B."""
     frames: int = 40
     """Frames of a clip, each at the end of a grid, W."""
-    size: tuple[int, int] = (128, 128)
+    size: SizeLike = (128, 128)
     """Width and height of the crops."""
     bins: int = 5
     """Bins of a grid."""
@@ -142,7 +143,6 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         check_whole("disk", self.disk, 0)
         check_whole("seed", self.seed, 0, 2**63 - 1)
         check_range("tau_us", self.tau_us, 1, MAX_TAU_US)
-        width, height = self.size
         self._ranges = _ranges_of(self.randomize)
         self._names = _names("truth", self.truth, TRUTH)
         chosen = _names("outputs", self.outputs, OUTPUTS)
@@ -152,7 +152,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         )  # fmt: skip
         self._device = _checked_device(self.device)
         self._plan = CutPlan(
-            checked_size(width, height), self.frames * self.frames_per_grid, self.frames_per_grid,
+            as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
         )  # fmt: skip
         if "flow" in self._names and (self.frames_per_grid > 1 or self._ranges.speed[1] > 1):
@@ -357,10 +357,10 @@ def _events_of(made: ClipArrays, size: SensorSize) -> EventBatch:
     )  # fmt: skip
 
 
-def _ranges_of(randomize: str | ClipRanges) -> ClipRanges:
+def _ranges_of(randomize: object) -> ClipRanges:
     if isinstance(randomize, ClipRanges):
         return randomize
-    if randomize not in RANGES:
+    if not isinstance(randomize, str) or randomize not in RANGES:
         raise ConfigError(
             f"randomize is {shown(randomize)}; {suggest(str(randomize), tuple(RANGES))}, or give "
             "ClipRanges"
