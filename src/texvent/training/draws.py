@@ -45,6 +45,11 @@ class ClipRanges:
 
     Source: V2V, "Scaling event-based vision through efficient video-to-voxel simulation", NeurIPS
         2025, and the defaults of its program. It has no mismatch, refractory period or speed.
+
+    Example:
+        >>> from texvent.training import ClipRanges
+        >>> ClipRanges(threshold=(0.1, 0.5), flip=0.0).noise
+        (0.0, 0.2)
     """
 
     threshold: Limits = THRESHOLDS["v2v"][:2]

@@ -41,7 +41,14 @@ CODING_GAMMA = 2.2
 
 @dataclass(frozen=True, eq=False)
 class Clip:
-    """A video in memory, with its truth."""
+    """A video in memory, with its truth.
+
+    Example:
+        >>> import numpy as np
+        >>> from texvent.training import Clip
+        >>> Clip(np.zeros((3, 24, 32), np.uint8), np.array([0, 40_000, 80_000])).nbytes
+        2328
+    """
 
     frames: NDArray[np.uint8]
     """[N, H, W] luma."""
@@ -60,7 +67,24 @@ class Clip:
 
 @runtime_checkable
 class ClipSource(Protocol):
-    """Videos by number, always the same."""
+    """Videos by number, always the same.
+
+    Example:
+        >>> import numpy as np
+        >>> from texvent.training import Clip, EventStream
+        >>> class Noise:
+        ...     known_truth = ()
+        ...     def __len__(self):
+        ...         return 2
+        ...     def name(self, index):
+        ...         return f"noise {index}"
+        ...     def read(self, index, truth, most_bytes):
+        ...         pixels = np.random.default_rng(index).integers(0, 255, (9, 24, 32), np.uint8)
+        ...         return Clip(pixels, np.arange(9) * 40_000)
+        >>> stream = EventStream(Noise(), batch=2, frames=4, size="32x24", device="cpu")
+        >>> next(iter(stream)).grids.shape
+        torch.Size([2, 4, 5, 24, 32])
+    """
 
     known_truth: Sequence[str]
     """Truth that `read` can bring, of `TRUTH`."""
@@ -122,7 +146,13 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
 
 
 class VideoClips:
-    """Video files and folders of images."""
+    """Video files and folders of images.
+
+    Example:
+        >>> from texvent.training import VideoClips
+        >>> VideoClips(["street.mp4", "frames/"], fps=24).name(0)
+        'street.mp4'
+    """
 
     known_truth: Sequence[str] = ()
 
@@ -153,7 +183,13 @@ class VideoClips:
 
 
 class PromptClips:
-    """Scenes that the embedded generator renders from prompts, on the CPU, with their truth."""
+    """Scenes that the embedded generator renders from prompts, on the CPU, with their truth.
+
+    Example:
+        >>> from texvent.training import PromptClips
+        >>> len(PromptClips(["a red ball rolls left", "a dog runs"], sensor="32x24"))
+        2
+    """
 
     known_truth: Sequence[str] = TRUTH
 
@@ -189,7 +225,18 @@ class PromptClips:
 
 
 class StoredClips:
-    """The clips of a data set of `texvent dataset make`: frames made again, truth as stored."""
+    """The clips of a data set of `texvent dataset make`: frames made again, truth as stored.
+
+    Example:
+        >>> from pathlib import Path
+        >>> import texvent
+        >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
+        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
+        >>> work = texvent.dataset.make(balls, "balls", progress=False)
+        >>> len(texvent.training.StoredClips(Path("balls")))
+        1
+    """
 
     def __init__(self, folder: Path) -> None:
         """Open it.

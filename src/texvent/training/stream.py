@@ -49,7 +49,16 @@ DRAWN = (
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """B clips of W frames each, on the device of the stream."""
+    """B clips of W frames each, on the device of the stream.
+
+    Example:
+        >>> from texvent.training import EventStream, PromptClips
+        >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
+        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> batch = next(iter(stream))
+        >>> batch.number, batch.frames.shape
+        (0, torch.Size([1, 4, 24, 32]))
+    """
 
     number: int
     """Number of the batch in the stream of all ranks, from 0."""
@@ -98,6 +107,13 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         InputError: nothing is there, or no source is large and long enough.
         ConfigError: an unknown name, a value out of range, a device that torch does not find.
         MissingDependencyError: torch is not installed; on a GPU, Triton.
+
+    Example:
+        >>> from texvent.training import EventStream, PromptClips
+        >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
+        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> next(iter(stream)).grids.shape
+        torch.Size([1, 4, 5, 24, 32])
     """
 
     source: Any = field(kw_only=False)
