@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -98,23 +99,30 @@ class RifeInterpolator:
             times_us: times of the intermediate frames, µs.
 
         Returns:
-            One frame per time, [H, W] float32 luma, 0..255 scale; the motion that they share is
-            estimated at once, each frame is drawn when it is asked for.
+            One frame per time, [H, W] float32 luma, 0..255 scale, drawn when it is asked for; the
+            motion that they share is estimated before, on a GPU at once.
 
         Raises:
             InputError: the frames do not fit into the device's memory.
         """
-        with explain_device_memory(self._device, first.size), import_torch().inference_mode():
-            lumas = tuple(luma_on(one, self._device).float()[None, None] for one in (first, second))
-            prepared = self._prepare(image_tensors(first, second, self._device))
         positions = [position(first, second, t_us) for t_us in times_us]
+        is_cpu = self._device.type == "cpu"
+
+        @cache
+        def prepare() -> tuple[Sequence[Tensor], Any]:
+            with explain_device_memory(self._device, first.size), import_torch().inference_mode():
+                frames = (luma_on(one, self._device) for one in (first, second))
+                images = image_tensors(first, second, self._device)
+                return [one.float()[None, None] for one in frames], self._prepare(images)
 
         def draw(start: int, stop: int) -> Tensor:
+            lumas, prepared = prepare()
             with explain_device_memory(self._device, first.size), import_torch().inference_mode():
                 return self._lumas_at(prepared, lumas, positions[start:stop])
 
+        if not is_cpu:
+            prepare()  # the GPU begins while the pair before is simulated
         bytes_each = BYTES_PER_PIXEL[self._is_shared] * first.size.width * first.size.height
-        is_cpu = self._device.type == "cpu"
         at_once = 1 if is_cpu else max(1, DRAWN_BYTES // bytes_each)
         return RifeFrames(times_us, at_once, draw, first.transfer, self._path)
 
