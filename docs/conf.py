@@ -58,6 +58,8 @@ nb_ipywidgets_js = {}  # nothing from other hosts
 suppress_warnings = ["config.cache", "ref.python"]
 
 # API
+# The site is built without torch, which the training stream loads.
+autodoc_mock_imports = ["torch"]
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
 autodoc_member_order = "bysource"
