@@ -135,16 +135,14 @@ def write_run(
         truth = None
         if files.truth_folder is not None:
             folder = TruthFolder(files.truth_folder, files.truth, files.overwrite)
-            recorder = folder.recorder(simulation, append_labelled, facts)
-            truth = outputs.enter_context(recorder)
+            truth = outputs.enter_context(folder.recorder(simulation, append_labelled, facts))
             sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
         if "events" not in files.truth:
             sinks.append(lambda frame, packet: append(packet))
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
         steps = replace(simulation, warns=True).steps(on_scene_change)
         early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
-        added = _found_late(simulation, at_first, facts)
-        added.update({} if early is None else early.facts)
+        added = {**_found_late(simulation, at_first, facts), **(early.facts if early else {})}
         for output in (writer, preview, truth) if added else ():
             if output is not None:
                 output.add_metadata(added)

@@ -101,7 +101,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     Batch i holds the clips i · B .. i · B + B − 1 of the stream, whose draws depend on the seed and
     their number alone. Rank r of R takes batches r, r + R, ..., worker w of W every W-th of these,
     so a DataLoader with `batch_size=None` gives the same ones in the same order. A pass shows
-    every source once; iterating again goes on where the last loop ended.
+    every source once; another loop continues after the last batch.
 
     Raises:
         InputError: nothing is there, or no source is large and long enough.

@@ -107,7 +107,7 @@ def read_anchor(text: str, groups: Sequence[Group]) -> Anchor:
 
 
 def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> Group:
-    """A group from what stands after "moving"; it may be on one of those that have these names.
+    """A group from the words after "moving"; it may be on one of those that have these names.
 
     Raises:
         ValueError: it cannot be read.
