@@ -279,6 +279,21 @@ def test_damaged_weights_are_one_line(models, tmp_path):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("part", ["transformer", "text_encoder", "vae"])
+def test_weights_that_a_file_lacks_are_named_instead_of_drawn(part, models, model_cache, tmp_path):
+    files = pytest.importorskip("safetensors.torch")
+    path = tmp_path / "incomplete"
+    shutil.copytree(models("wan"), path)
+    file = next((path / part).glob("*.safetensors"))
+    tensors = files.load_file(file)
+    lost = max(tensors, key=lambda name: (name.endswith("weight"), "norm" in name, name))
+    del tensors[lost]
+    files.save_file(tensors, file, metadata={"format": "pt"})
+    with pytest.raises(FileFormatError, match=rf"lacks weights of WanPipeline, {lost}, which"):
+        build(path).generate(PROMPT)
+    assert not [one for one in model_cache.rglob("*") if one.is_file()]
+
+
 def test_options_are_compared_with_what_a_pipeline_takes():
     class FromImages:
         def __call__(self, image, prompt=None, num_frames=8):
