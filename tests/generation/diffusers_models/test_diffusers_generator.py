@@ -294,6 +294,18 @@ def test_weights_that_a_file_lacks_are_named_instead_of_drawn(part, models, mode
     assert not [one for one in model_cache.rglob("*") if one.is_file()]
 
 
+def test_a_text_encoder_that_knows_no_word_is_refused(models, tmp_path):
+    files = pytest.importorskip("safetensors.torch")
+    path = tmp_path / "wordless"
+    shutil.copytree(models("wan"), path)
+    file = next((path / "text_encoder").glob("*.safetensors"))
+    tensors = files.load_file(file)
+    tensors["shared.weight"].zero_()
+    files.save_file(tensors, file, metadata={"format": "pt"})
+    with pytest.raises(FileFormatError, match="embedding of text_encoder is all 0"):
+        build(path).generate(PROMPT)
+
+
 def test_options_are_compared_with_what_a_pipeline_takes():
     class FromImages:
         def __call__(self, image, prompt=None, num_frames=8):

@@ -56,6 +56,8 @@ class VideoModel:
     height: int | None = None
     steps: int | None = None
     guidance: float | None = None
+    negative_prompt: str | None = None
+    """Content to avoid, by the publisher's own program; the pipeline's default is none."""
     differs: str = ""
     """Why frames, size, steps or guidance are not the call defaults of the pipeline."""
     call: Mapping[str, Any] = field(default_factory=dict, hash=False)
@@ -102,8 +104,11 @@ class VideoModel:
 
 def _read_table() -> dict[str, VideoModel]:
     text = files(__package__).joinpath("known_models.toml").read_text(encoding="utf-8")
-    rows = {}
-    for name, facts in tomllib.loads(text).items():
+    table, rows = tomllib.loads(text), {}
+    publishers = table.pop("negative_prompts")
+    for name, facts in table.items():
+        maker = next((one for one in publishers if facts["repo"].startswith(one)), None)
+        facts.setdefault("negative_prompt", publishers.get(maker))
         sigmas = tuple(facts.pop("sigmas", ()))
         rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])}, sigmas=sigmas)
     return rows
@@ -125,7 +130,7 @@ class ModelGenerator:
     @property
     def config_type(self) -> Callable[[], DiffusersConfig]:
         """Factory of the options with this model's defaults."""
-        names = ("fps", "frames", "width", "height", "steps", "guidance")
+        names = ("fps", "frames", "width", "height", "steps", "guidance", "negative_prompt")
         defaults = {name: getattr(self.model, name) for name in names}
         return functools.partial(DiffusersConfig, **defaults)
 
