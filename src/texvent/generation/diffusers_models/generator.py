@@ -32,6 +32,7 @@ from texvent.generation.diffusers_models.pipeline_call import (
     read_image,
 )
 from texvent.generation.diffusers_models.pipeline_loading import (
+    GB,
     LoadRequest,
     find_pipeline_class,
     load_pipeline,
@@ -126,9 +127,11 @@ class DiffusersGenerator:
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
+        device, free = resolve_device()
+        found = "no GPU" if free is None else f"{device} with {free / GB:.0f} GB free"
         return (
             f"the video is not made yet: {self.model.name} would make it"
-            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}; {self.model.memory}, torch finds {found}"
         )
 
     @property

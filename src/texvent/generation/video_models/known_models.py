@@ -95,6 +95,13 @@ class VideoModel:
         return f"{self.licence}; {self.licence_terms}" if self.licence_terms else self.licence
 
     @property
+    def memory(self) -> str:
+        """GPU memory that it needs, for messages."""
+        parts = [f"{self.gpu_gb:g} GB"] if self.gpu_gb else []
+        parts += [f"{self.offload_gb:g} GB with --offload model"] if self.offload_gb else []
+        return f"GPU memory {', '.join(parts) or 'not known'}"
+
+    @property
     def source(self) -> str:
         """Origin of the weights, for messages and metadata."""
         if self.folder is not None:
