@@ -131,7 +131,8 @@ class DiffusersGenerator:
         found = "no GPU" if free is None else f"{device} with {free / GB:.0f} GB free"
         return (
             f"the video is not made yet: {self.model.name} would make it"
-            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}; {self.model.memory}, torch finds {found}"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
+            f"; {self.model.memory}, torch finds {found}"
         )
 
     @property

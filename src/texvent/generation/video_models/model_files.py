@@ -284,7 +284,7 @@ class _MissingWeights(logging.Handler):
         text = re.sub(r"\x1b\[[0-9;]*m", "", record.getMessage())
         if "newly initialized" in text:
             names = re.findall(r"^(\S+) *\| *MISSING|'([\w.]+)'|^- ([\w.]+): ", text, re.MULTILINE)
-            self.names += ["".join(one) for one in names] or [one_line(text)]
+            self.names += ["".join(one) for one in names] or ["of which it names none"]
 
 
 @contextlib.contextmanager
