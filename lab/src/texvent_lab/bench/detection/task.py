@@ -86,8 +86,8 @@ class DrawnClips:
 def open_task(config: DetectionConfig) -> DetectionTask:
     """The task of a training file; see `TrainingConfig.make_task`."""
     folder, data = Path(config.data.folder or ""), config.data
-    clips = read_clips(folder, data.validation_split, data.binning)
-    return DetectionTask(config, read_classes(folder), clips)
+    classes = read_classes(folder)
+    return DetectionTask(config, classes, read_clips(folder, data.validation_split, data.binning))
 
 
 class DetectionTask:
