@@ -6,6 +6,7 @@ from texvent._registry import (
     REPRESENTATIONS,
     SIMULATORS,
     Registry,
+    load_object,
     suggest,
 )
 from texvent._require import require
@@ -18,6 +19,7 @@ __all__ = [
     "SIMULATORS",
     "Registry",
     "full_version",
+    "load_object",
     "require",
     "source_commit",
     "suggest",

@@ -6,14 +6,18 @@ simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.3), seed=1)
 packet = simulator.step(frame)  # a texvent.Frame
 """
 
-from texvent.simulation.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.esim.simulator import EsimSimulator
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.simulator import PhysicalSimulator
-from texvent.simulation.senpi.simulator import SenpiConfig, SenpiSimulator
+from texvent.simulation.senpi.config import SenpiConfig
+from texvent.simulation.senpi.simulator import SenpiSimulator
 from texvent.simulation.texvent.config import TexventConfig
 from texvent.simulation.texvent.simulator import TexventSimulator
-from texvent.simulation.v2e.simulator import V2eConfig, V2eSimulator
-from texvent.simulation.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulation.v2e.config import V2eConfig
+from texvent.simulation.v2e.simulator import V2eSimulator
+from texvent.simulation.voltmeter.config import VoltmeterConfig
+from texvent.simulation.voltmeter.simulator import VoltmeterSimulator
 
 __all__ = [
     "EsimConfig",

@@ -11,7 +11,7 @@ import pytest
 from texvent._registry import GENERATORS, SIMULATORS
 from texvent.cli.app import all_commands, main
 from texvent.cli.option_types import flag_of
-from texvent.generation.video_config import DiffusersConfig
+from texvent.generation.video_models.config import DiffusersConfig
 from texvent.options.values import option_names
 
 ROOT = Path(__file__).parents[2]

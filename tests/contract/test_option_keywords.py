@@ -9,7 +9,7 @@ import pytest
 from texvent._registry import GENERATORS, SIMULATORS
 from texvent.api import generate, simulate, video
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
-from texvent.generation.video_config import DiffusersConfig
+from texvent.generation.video_models.config import DiffusersConfig
 from texvent.options import keywords
 from texvent.options.values import option_names
 

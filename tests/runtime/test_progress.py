@@ -7,8 +7,9 @@ import numba
 import pytest
 
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.displays.progress_option import open_progress
 from texvent.runtime.jit import jit
-from texvent.runtime.progress import NoProgress, _tell_terminal, open_progress
+from texvent.runtime.progress import NoProgress, _tell_terminal
 
 
 def test_a_function_is_called_at_every_step_and_line():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.options.values import plain
-from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.model_options import (
     NOISE,
     contrast_threshold_of,
@@ -14,8 +14,8 @@ from texvent.simulation.model_options import (
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.random.mismatch import draw_threshold_pair, sensor_key
 from texvent.simulation.texvent.simulator import TexventConfig
-from texvent.simulation.v2e.simulator import V2eConfig
-from texvent.simulation.voltmeter.simulator import VoltmeterConfig
+from texvent.simulation.v2e.config import V2eConfig
+from texvent.simulation.voltmeter.config import VoltmeterConfig
 
 SEEDS = range(400)
 

@@ -11,7 +11,8 @@ from texvent.simulation.physical.cameras import PRESETS
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.simulator import PhysicalSimulator
 from texvent.simulation.senpi.simulator import SenpiSimulator
-from texvent.simulation.v2e.simulator import V2eConfig, V2eSimulator
+from texvent.simulation.v2e.config import V2eConfig
+from texvent.simulation.v2e.simulator import V2eSimulator
 from texvent.simulation.voltmeter.simulator import VoltmeterSimulator
 
 from .pixel_frames import run

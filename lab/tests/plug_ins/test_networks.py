@@ -18,8 +18,9 @@ from texvent.io.files import open_events
 from texvent.networks.weight_files import BATCH_COUNTER, shapes_of
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
-from texvent.simulation.packets import FrameInterval, make_packet
+from texvent.simulation.packets import FrameInterval
 from texvent.simulation.random.draws import frame_key
+from texvent.simulation.streaming import make_packet
 from texvent_lab.plug_ins import super_slomo, v2ce
 from texvent_lab.plug_ins.super_slomo import FLOW, REFINE, SuperSlomoInterpolator
 from texvent_lab.plug_ins.v2ce import SEQUENCE, V2ceConfig, V2ceSimulator

@@ -24,7 +24,7 @@ from typing import Any, ClassVar
 from texvent._version import __version__
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generation.video_config import GeneratedVideoConfig
+from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import StoredVideo, open_stored
 from texvent.generation.videos.video_cache import VideoCache, content_key

@@ -181,5 +181,5 @@ def load_eqs(path: Path) -> EventQualityScore:
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     from texvent.metrics.rvt_backbone import read_rvt  # needs torch
 
-    backbone = read_rvt(path)
+    backbone = read_rvt(path, WHERE_FROM)
     return (OwnEventQualityScore if backbone.is_own else EventQualityScore)(backbone=backbone)

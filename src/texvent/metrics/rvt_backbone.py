@@ -12,13 +12,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import FileFormatError, shown
-from texvent.metrics.latent_similarity import WHERE_FROM, Features
 from texvent.networks.weight_files import STATE, Tensor, load_strictly, named_tensors, read_mapping
 
 EXTRA = "torch"
@@ -26,6 +26,8 @@ EXTRA = "torch"
 torch: Any = require("torch", extra=EXTRA)
 nn: Any = torch.nn
 _Module: Any = nn.Module
+Features: TypeAlias = NDArray[np.float32]
+"""[C, H, W]."""
 
 INPUT_CHANNELS = 20
 """Channels of the stacked histogram: 2 polarities of 10 bins."""
@@ -58,20 +60,21 @@ EVLIB_NAMES = (
 """Part of a name in evlib → that of the published checkpoints."""
 
 
-def read_rvt(path: Path) -> RvtBackbone:
+def read_rvt(path: Path, where_from: str) -> RvtBackbone:
     """The backbone of a published checkpoint, or of weights trained here.
 
     Args:
         path: `rvt-t.ckpt`, `rvt-s.ckpt` or `rvt-b.ckpt`, trained on Gen1 or on 1 Mpx, or the
             `weights.pt` of `texvent train detection`; which one is recognised from its tensors.
+        where_from: said in messages, where the published files are.
 
     Raises:
         FileFormatError: the file is damaged, or a tensor is missing, unknown or of another shape.
     """
-    content = read_mapping(path, WHERE_FROM, extra=EXTRA)
+    content = read_mapping(path, where_from, extra=EXTRA)
     state = content.get(STATE)
     if not isinstance(state, Mapping):
-        raise FileFormatError(f"{path} holds no {STATE}; it is not RVT's: {WHERE_FROM}")
+        raise FileFormatError(f"{path} holds no {STATE}; it is not RVT's: {where_from}")
     is_own = OWN_PREFIX + FIRST_TENSOR in state
     prefix = OWN_PREFIX if is_own else PREFIX
     tensors = {
@@ -83,7 +86,7 @@ def read_rvt(path: Path) -> RvtBackbone:
     if width not in HEAD_CHANNELS:
         raise FileFormatError(
             f"{path} has no tensor {prefix}{FIRST_TENSOR} of {', '.join(map(str, HEAD_CHANNELS))} "
-            f"channels; it is not RVT's: {WHERE_FROM}"
+            f"channels; it is not RVT's: {where_from}"
         )
     binning = content.get(BINNING) if is_own else 1
     if type(binning) is not int or not 1 <= binning <= MOST_BINNING:
@@ -95,7 +98,7 @@ def read_rvt(path: Path) -> RvtBackbone:
         tensors = {_published_name(name): tensor for name, tensor in tensors.items()}
     with torch.device("meta"):
         backbone = RvtBackbone(width, HEAD_CHANNELS[width], binning=binning, is_own=is_own)
-    load_strictly(backbone, tensors, path, WHERE_FROM)
+    load_strictly(backbone, tensors, path, where_from)
     return backbone
 
 

@@ -1,4 +1,4 @@
-"""Events between two frames: from a model's unsorted columns to a packet in its order."""
+"""Events between two frames: the interval, and columns in any order or in that of a packet."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.events import NOISE, SIGNAL
 from texvent.runtime.memory import usable_bytes
-from texvent.sensor import SensorSize
 
 
 class FrameInterval(NamedTuple):
@@ -112,19 +111,3 @@ class SortedEvents(NamedTuple):
     def unsorted(self, width: int) -> UnsortedEvents:
         """The same events by flat pixel index; `width` of the sensor, pixels."""
         return UnsortedEvents(self.y.astype(np.int64) * width + self.x, self.t, self.p, self.label)
-
-
-def make_packet(events: UnsortedEvents, interval: FrameInterval, size: SensorSize) -> EventStream:
-    """A packet in its order: by (t, y, x, p), labels included.
-
-    Raises:
-        InputError: the interval is too long for a sensor of this size.
-    """
-    if not len(events.t):  # the first packet of every run: its kernel may not be needed at all
-        columns = (np.empty(0, dtype) for dtype in (np.uint16, np.uint16, np.int64, np.uint8))
-        return EventStream.unchecked(*columns, size=size, label=np.empty(0, np.uint8))
-    span_us = (interval.start_us, interval.stop_us)
-    from texvent.simulation.kernels.radix_sort import sort_events  # brings Numba
-
-    x, y, t, p, label = sort_events(events, span_us, size.shape)
-    return EventStream.unchecked(x, y, t, p, size=size, label=label)

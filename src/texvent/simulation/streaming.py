@@ -1,4 +1,4 @@
-"""Base classes of pixel models: stepping through a pair, and one frame interval at a time."""
+"""Base classes of pixel models: stepping through a pair, one frame interval at a time; packets."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import abc
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, Generic, TypeVar
 
+import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.frames import Frame, StreamChecker
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulation.packets import FrameInterval, SortedEvents, UnsortedEvents, make_packet
+from texvent.sensor import SensorSize
+from texvent.simulation.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulation.random.draws import frame_key
 
 
@@ -109,3 +111,19 @@ class StreamingSimulator(SteppingSimulator, Generic[Config]):
         self, intensity: IntensityArray, interval: FrameInterval
     ) -> UnsortedEvents | SortedEvents:
         """Events between the frame before and this one; updates the state of every pixel."""
+
+
+def make_packet(events: UnsortedEvents, interval: FrameInterval, size: SensorSize) -> EventStream:
+    """A packet in its order: by (t, y, x, p), labels included.
+
+    Raises:
+        InputError: the interval is too long for a sensor of this size.
+    """
+    if not len(events.t):  # the first packet of every run: its kernel may not be needed at all
+        columns = (np.empty(0, dtype) for dtype in (np.uint16, np.uint16, np.int64, np.uint8))
+        return EventStream.unchecked(*columns, size=size, label=np.empty(0, np.uint8))
+    span_us = (interval.start_us, interval.stop_us)
+    from texvent.simulation.kernels.radix_sort import sort_events  # brings Numba
+
+    x, y, t, p, label = sort_events(events, span_us, size.shape)
+    return EventStream.unchecked(x, y, t, p, size=size, label=label)

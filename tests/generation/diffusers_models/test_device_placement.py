@@ -4,7 +4,7 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.generation.diffusers_models.pipeline_loading import GB, place
-from texvent.generation.video_config import DiffusersConfig
+from texvent.generation.video_models.config import DiffusersConfig
 from texvent.generation.video_models.known_models import MODELS
 
 COSMOS = MODELS["cosmos-7b"]  # 74 GB on the device, 24.4 GB with offload

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import TexventError
-from texvent.generation.video_config import GeneratedVideoConfig
+from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked, nth_seed
 from texvent.generation.videos.stored_video import write_video
 

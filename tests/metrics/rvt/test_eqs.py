@@ -70,7 +70,7 @@ def published(tmp_path):
 def test_a_checkpoint_is_read_strictly_and_the_detector_left_out(published):
     path = published()
     stored = torch.load(path)["state_dict"]
-    tensors = read_rvt(path).state_dict()
+    tensors = read_rvt(path, "").state_dict()
     assert len(tensors) == len(stored) - 2
     assert all(torch.equal(one, stored[f"mdl.backbone.{name}"]) for name, one in tensors.items())
 
@@ -90,7 +90,7 @@ GAMMA = f"mdl.backbone.{GAMMA_HERE}"
 )
 def test_a_checkpoint_of_another_network_is_refused(published, change, complaint):
     with pytest.raises(FileFormatError, match=complaint):
-        read_rvt(published(change, "other.ckpt"))
+        read_rvt(published(change, "other.ckpt"), "")
 
 
 GAMMA_OWN = "backbone.stages.3.attention_blocks.0.grid_attn.ls2"
@@ -100,7 +100,7 @@ def test_weights_trained_here_are_the_same_network_under_other_names_and_never_c
     published,
 ):
     path = published(name="weights.pt", make=trained_here)
-    own, other = read_rvt(path), read_rvt(published())
+    own, other = read_rvt(path, ""), read_rvt(published(), "")
     assert all(torch.equal(own.state_dict()[n], one) for n, one in other.state_dict().items())
     assert (own.binning, own.is_own, other.is_own) == (2, True, False)
     assert load_eqs(path).name == "eqs (own RVT)"
@@ -133,7 +133,7 @@ def test_weights_trained_here_see_cells_and_windows_as_in_their_training():
 )
 def test_weights_of_another_detector_are_refused(published, change, complaint):
     with pytest.raises(FileFormatError, match=complaint):
-        read_rvt(published(change, "weights.pt", trained_here))
+        read_rvt(published(change, "weights.pt", trained_here), "")
 
 
 def test_eqs_is_lfs_with_the_backbone_of_the_file(published):

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from texvent.frames import Frame
 from texvent.simulation.crossing.trigger_levels import BrightnessCurve, OutsidePixels, TriggerLevels
-from texvent.simulation.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.esim.simulator import EsimSimulator
 from texvent.simulation.random.mismatch import Thresholds
 
 from ..pixel_frames import run

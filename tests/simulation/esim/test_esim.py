@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from texvent.frames import Frame
-from texvent.simulation.esim.simulator import EsimConfig, EsimSimulator, log_intensity
+from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.esim.pixels import log_intensity
+from texvent.simulation.esim.simulator import EsimSimulator
 
 from ..pixel_frames import run
 

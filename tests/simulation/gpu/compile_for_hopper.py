@@ -25,7 +25,7 @@ from triton.runtime.jit import JITFunction
 
 from texvent.simulation.clips import scan_triton
 from texvent.simulation.clips.pixels import ClipOutputs, ClipPixels
-from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.gpu import engine
 from texvent.simulation.random.draws import frame_keys
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator

@@ -11,7 +11,8 @@ import pytest
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import NOISE
-from texvent.simulation.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.esim.simulator import EsimSimulator
 from texvent.simulation.physical.simulator import PhysicalConfig
 from texvent.simulation.texvent.noise import NOISE_BLOCK
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator

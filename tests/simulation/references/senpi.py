@@ -9,7 +9,7 @@ import numpy as np
 from texvent.simulation.kernels.elementary import natural_log
 from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.random.poisson_noise import PoissonNoise
-from texvent.simulation.senpi.simulator import SenpiConfig
+from texvent.simulation.senpi.config import SenpiConfig
 from texvent.simulation.streaming import IntensityArray
 
 

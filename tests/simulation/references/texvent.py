@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from texvent.brightness import balanced_log
 from texvent.events import NOISE, EventStream
 from texvent.frames import Frame, check_intensity
-from texvent.simulation.packets import FrameInterval, UnsortedEvents, make_packet
+from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.random.draws import Purpose, draw_uniforms
+from texvent.simulation.streaming import make_packet
 from texvent.simulation.texvent.config import TexventConfig
 from texvent.simulation.texvent.noise import draw_noise, draw_voltage_noise
 

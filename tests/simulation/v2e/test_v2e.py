@@ -6,8 +6,9 @@ import pytest
 from tests.simulation.references.v2e import lin_log
 
 from texvent.events import NOISE, SIGNAL
+from texvent.simulation.v2e.config import V2eConfig
 from texvent.simulation.v2e.pixels import relative_intensity
-from texvent.simulation.v2e.simulator import V2eConfig, V2eSimulator
+from texvent.simulation.v2e.simulator import V2eSimulator
 
 from ..pixel_frames import frames_of, run, static
 

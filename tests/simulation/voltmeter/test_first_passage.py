@@ -11,8 +11,8 @@ from texvent.events import NOISE, SIGNAL
 from texvent.simulation.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulation.random.draws import frame_key
 from texvent.simulation.voltmeter import first_passage
+from texvent.simulation.voltmeter.config import Constants
 from texvent.simulation.voltmeter.first_passage import find_first_passages
-from texvent.simulation.voltmeter.simulator import Constants
 from texvent.simulation.voltmeter.voltage import FirstPassageInput, new_voltage
 
 SHAPE = (3, 4)

@@ -10,7 +10,8 @@ from tests.simulation.references.voltmeter import (
 
 from texvent.events import NOISE
 from texvent.frames import Frame
-from texvent.simulation.voltmeter.simulator import Constants, VoltmeterConfig, VoltmeterSimulator
+from texvent.simulation.voltmeter.config import Constants, VoltmeterConfig
+from texvent.simulation.voltmeter.simulator import VoltmeterSimulator
 
 from ..pixel_frames import frames_of, run, static
 

@@ -22,14 +22,9 @@ from texvent.frames import Frame
 from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.pairs.frame_pair import FramePair
 from texvent.runtime.memory import explain_memory
-from texvent.simulation.packets import (
-    FrameInterval,
-    UnsortedEvents,
-    check_event_number,
-    make_packet,
-)
+from texvent.simulation.packets import FrameInterval, UnsortedEvents, check_event_number
 from texvent.simulation.random.draws import Purpose, draw_uniforms
-from texvent.simulation.streaming import IntensityArray, StreamingSimulator
+from texvent.simulation.streaming import IntensityArray, StreamingSimulator, make_packet
 from texvent_lab.networks import EXTRA, locate_weights
 
 Array: TypeAlias = NDArray[np.float64]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.extending import require
+from texvent.extending import load_object, require
 from texvent.simulation.random.draws import frame_key, frame_keys
 
 if TYPE_CHECKING:
@@ -132,6 +132,8 @@ class TrainingConfig:
 
     packages: ClassVar[str] = EXTRA
     """The extra that brings those of the task."""
+    task: ClassVar[str]
+    """`"module:name"` of the task: a class, or a function, that is given the config."""
 
     seed: int = 0
     """Seed of the initial weights, the order of samples and their augmentation."""
@@ -146,7 +148,8 @@ class TrainingConfig:
         Raises:
             InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
         """
-        raise NotImplementedError
+        task: Task = load_object(self.task)(self)
+        return task
 
 
 def epoch_order(count: int, *, seed: int, epoch: int) -> NDArray[np.int64]:

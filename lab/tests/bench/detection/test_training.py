@@ -167,7 +167,9 @@ def test_eqs_computes_with_the_stored_weights_as_evlib_does(tmp_path: Path, binn
         windows = torch.from_numpy(cells)[None, None]
         (expected,) = run_backbone(network, windows)
     torch.save(task.published(network), tmp_path / "weights.pt")
-    for number, one in enumerate(read_rvt(tmp_path / "weights.pt")(histogram.astype(np.float32))):
+    for number, one in enumerate(
+        read_rvt(tmp_path / "weights.pt", "")(histogram.astype(np.float32))
+    ):
         other = expected[number + 1][0, :, : one.shape[1], : one.shape[2]]
         np.testing.assert_allclose(one, other, atol=1e-5)
         assert np.abs(one).max() > 0.05

@@ -15,7 +15,8 @@ from texvent._registry import GENERATORS
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
-from texvent.generation.video_models.known_models import LEAST_FPS, MODELS, VideoModel
+from texvent.generation.video_models.config import LEAST_FPS, VideoModel
+from texvent.generation.video_models.known_models import MODELS
 from texvent.generation.video_models.model_files import find_downloaded
 
 DESCRIPTION = """List the text-to-video generators: what they make, what they need, under which

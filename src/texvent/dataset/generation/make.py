@@ -23,8 +23,8 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
 from texvent.io.atomic import sweep
+from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.engines import local_engine
-from texvent.runtime.progress import ProgressOption, open_progress
 
 
 @dataclass(frozen=True)

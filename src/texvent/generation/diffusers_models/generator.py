@@ -39,8 +39,7 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     place,
     resolve_device,
 )
-from texvent.generation.video_config import DiffusersConfig
-from texvent.generation.video_models.known_models import VideoModel
+from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.lora import check_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,

@@ -11,8 +11,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
-from texvent.generation.video_config import DiffusersConfig
-from texvent.generation.video_models.known_models import VideoModel
+from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.runtime.progress import Progress
 
 EXTRA = "generate"

@@ -17,8 +17,7 @@ from texvent.generation.diffusers_models.guardrail import (
     load_guardrail,
     needs_guardrail,
 )
-from texvent.generation.video_config import DiffusersConfig
-from texvent.generation.video_models.known_models import VideoModel
+from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.lora import Lora, load_loras
 from texvent.generation.video_models.model_files import loading, read_pipeline_index, without_bars
 

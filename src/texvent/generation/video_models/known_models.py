@@ -13,100 +13,19 @@ import os
 import re
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError, shown, warn
-from texvent.generation.video_config import DiffusersConfig
-from texvent.generation.video_models.model_files import HUB, NOT_READ, REPOSITORY
+from texvent.generation.video_models.config import LEAST_FPS, DiffusersConfig, VideoModel
+from texvent.generation.video_models.model_files import HUB, REPOSITORY
 
 if TYPE_CHECKING:
     from texvent.generation.diffusers_models.generator import DiffusersGenerator
     from texvent.sensor import SensorSize
-
-LEAST_FPS = 24
-"""Frame rate from which a model is recommended for events."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class VideoModel:
-    """One learned model; None: the pipeline's own default."""
-
-    name: str
-    """Name that `--generator` takes."""
-    repo: str = ""
-    """Repository on the model hub, `org/name`; empty for a local folder."""
-    folder: Path | None = None
-    """Local folder with the model, instead of the repository."""
-    revision: str | None = None
-    """Branch, tag or commit; None: the default branch."""
-    pipeline: str | None = None
-    """diffusers class; None: the one that `model_index.json` names."""
-    image_pipeline: str | None = None
-    """diffusers class that starts from an image with the same weights."""
-    needs_image: bool = False
-    """Whether an image is required."""
-    fps: Fraction | None = None
-    """Frame rate the model was trained for; the weights do not state it."""
-    frames: int | None = None
-    width: int | None = None
-    height: int | None = None
-    steps: int | None = None
-    guidance: float | None = None
-    negative_prompt: str | None = None
-    """Content to avoid, by the publisher's own program; the pipeline's default is none."""
-    differs: str = ""
-    """Why frames, size, steps or guidance are not the call defaults of the pipeline."""
-    call: Mapping[str, Any] = field(default_factory=dict, hash=False)
-    """Further arguments of the pipeline's call."""
-    sigmas: tuple[float, ...] = ()
-    """Noise levels that a few-step model was distilled for, first to last; used with as many
-    steps."""
-    scheduler: Mapping[str, Any] = field(default_factory=dict, hash=False)
-    """Settings of the noise schedule that the publisher asks for."""
-    licence: str = NOT_READ
-    """Licence of the weights, by its SPDX name where it has one."""
-    licence_source: str = ""
-    """Publisher's repository or page and file where the licence was read; empty: not read."""
-    licence_terms: str = ""
-    """Obligations beyond keeping notices, in a few words."""
-    gpu_gb: float | None = None
-    """GPU memory with every part on the device, GB, as makers or users report it."""
-    offload_gb: float | None = None
-    """GPU memory with parts moved to the device when used, GB."""
-    dtype: str = "bfloat16"
-    """Number format on a GPU."""
-    needs_float32_vae: bool = False
-    """Whether the decoder should stay in float32 (Wan's page asks for it)."""
-    ignores_fps: bool = False
-    """Whether the rate is known not to change the frames."""
-
-    @property
-    def is_low_fps(self) -> bool:
-        """Whether the rate is below `LEAST_FPS`."""
-        return self.fps is not None and self.fps < LEAST_FPS
-
-    @property
-    def licence_and_terms(self) -> str:
-        """Licence with its terms, for messages and metadata."""
-        return f"{self.licence}; {self.licence_terms}" if self.licence_terms else self.licence
-
-    @property
-    def memory(self) -> str:
-        """GPU memory that it needs, for messages."""
-        parts = [f"{self.gpu_gb:g} GB"] if self.gpu_gb else []
-        parts += [f"{self.offload_gb:g} GB with --offload model"] if self.offload_gb else []
-        return f"GPU memory {', '.join(parts) or 'not known'}"
-
-    @property
-    def source(self) -> str:
-        """Origin of the weights, for messages and metadata."""
-        if self.folder is not None:
-            return str(self.folder)
-        return f"{self.repo}@{self.revision}" if self.revision else self.repo
 
 
 def _read_table() -> dict[str, VideoModel]:

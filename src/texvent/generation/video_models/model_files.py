@@ -19,7 +19,7 @@ from texvent._require import require
 from texvent.errors import FileFormatError, InputError, TexventError, one_line
 
 if TYPE_CHECKING:
-    from texvent.generation.video_models.known_models import VideoModel
+    from texvent.generation.video_models.config import VideoModel
 
 EXTRA = "generate"
 LIBRARIES = ("diffusers", "transformers")

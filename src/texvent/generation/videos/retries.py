@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
-from texvent.generation.video_config import GeneratedVideoConfig
+from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.stored_video import StoredVideo
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.video_check.checks import VideoReport, check_video

@@ -14,12 +14,12 @@ from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
 from texvent.frames import Frame, FrameStream
 from texvent.interpolate.rife.weights import (
-    Tensor,
     describe_rife_weights,
     find_rife_weights,
     import_torch,
     read_rife_weights,
 )
+from texvent.networks.weight_files import Tensor
 from texvent.pairs.instants import matching_levels, position
 from texvent.pairs.on_device import levels_on, luma_on
 from texvent.runtime.devices import Device, explain_device_memory, to_device

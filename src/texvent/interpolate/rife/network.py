@@ -16,10 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from texvent.interpolate.rife.weights import Tensor, import_torch
+from texvent._require import require
+from texvent.networks.weight_files import Tensor
 from texvent.runtime.devices import to_device
 
-torch: Any = import_torch()
+torch: Any = require("torch", extra="rife")
 nn: Any = torch.nn
 _Module: Any = nn.Module
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from texvent.interpolate.rife.network import IntermediateFlow, RifeNetwork, torch
-from texvent.interpolate.rife.weights import Tensor
+from texvent.networks.weight_files import Tensor
 
 WARM_UPS = 3
 """Runs before recording, in which libraries choose and set up what they need."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 EXTRA = "rife"
 """The texvent extra that installs torch and safetensors."""
-Tensor: TypeAlias = Any
-"""torch.Tensor."""
 DEFAULT_FILE = "rife.safetensors"
 """Name, in the weights folder, of the file that `texvent weights pull rife` writes."""
 WHERE_FROM = (

@@ -15,8 +15,8 @@ from texvent.simulation.crossing.trigger_levels import (
     TriggerLevels,
     trigger_factors,
 )
+from texvent.simulation.esim.config import WHITE, EsimConfig
 from texvent.simulation.esim.crossings import CrossingState, RampPixels, cross_thresholds
-from texvent.simulation.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulation.fused.bounds import (
     CrossingCandidates,
     Float64Array,
@@ -150,3 +150,19 @@ class EsimPixels:
             return self._lowest
         y, x = np.divmod(pixel, self._shape[1])
         return Thresholds(*draw_threshold_pair_at(y, x, key, self._config))
+
+
+def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
+    """Log intensity `ln(I / 255 + ε)` that ESIM compares.
+
+    Args:
+        intensity: 0..255 scale, any shape, uint8 or float.
+        log_eps: ε, above 0.
+
+    Returns:
+        Of the same shape, float64.
+    """
+    if intensity.dtype == np.uint8:
+        table = np.log(np.arange(256) / WHITE + log_eps)
+        return np.asarray(table.take(intensity))
+    return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))

@@ -8,66 +8,14 @@ which runs it on video frames. docs/simulators.md gives the equations and the de
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.pairs.frame_pair import FramePair
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.packets import FrameInterval, SortedEvents
-from texvent.simulation.random.mismatch import (
-    Float64Array,
-    check_nominal_thresholds,
-    smaller_threshold,
-)
 from texvent.simulation.streaming import IntensityArray, StreamingSimulator
-
-WHITE = 255.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class EsimConfig:
-    """Options of the ESIM pixel model; the defaults are those of VID2E.
-
-    Raises:
-        ConfigError: an option is out of range.
-
-    Example:
-        >>> from texvent.pixel_models import EsimConfig
-        >>> config = EsimConfig(contrast_threshold_on=0.3)
-        >>> config.contrast_threshold, config.balance
-        (0.2, 0.255)
-    """
-
-    contrast_threshold_on: float = 0.2
-    """Rise of ln(I/255 + log eps) that fires an ON event."""
-    contrast_threshold_off: float = 0.2
-    """Fall of ln(I/255 + log eps) that fires an OFF event."""
-    threshold_sigma: float = 0.0
-    """Standard deviation of both thresholds, log units; they are drawn again for every pixel and
-    frame, as ESIM describes it, and are at least 0.01."""
-    log_eps: float = 1e-3
-    """Added to intensities on the 0..1 scale before the logarithm, above 0."""
-    refractory_period_us: int = 0
-    """Time after an event in which the pixel cannot fire; crossings in it are lost."""
-
-    def __post_init__(self) -> None:
-        check_nominal_thresholds(self)
-        check_range("log_eps", self.log_eps, 1e-9, 1.0)
-        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-
-    @property
-    def contrast_threshold(self) -> float:
-        """The smaller threshold, log units: δ that Eq. 4 should count with."""
-        return smaller_threshold(self)
-
-    @property
-    def balance(self) -> float:
-        """`255 · log_eps`, the α with which Eq. 4's logarithm is the model's own."""
-        return WHITE * self.log_eps
 
 
 class EsimSimulator(StreamingSimulator[EsimConfig]):
@@ -127,19 +75,3 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
         return self._pixels.advance(intensity, interval)
-
-
-def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
-    """Log intensity `ln(I / 255 + ε)` that ESIM compares.
-
-    Args:
-        intensity: 0..255 scale, any shape, uint8 or float.
-        log_eps: ε, above 0.
-
-    Returns:
-        Of the same shape, float64.
-    """
-    if intensity.dtype == np.uint8:
-        table = np.log(np.arange(256) / WHITE + log_eps)
-        return np.asarray(table.take(intensity))
-    return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))

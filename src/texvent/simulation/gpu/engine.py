@@ -16,8 +16,8 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.gpu.pixels import EsimPixels
-from texvent.simulation.esim.simulator import EsimConfig
 from texvent.simulation.gpu.intervals import Clock, Span
 from texvent.simulation.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
 from texvent.simulation.gpu.launch import EXTRA, alignment, check_device, on_device, to_device

@@ -14,8 +14,9 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.pairs.on_device import batches_on, luma_on
 from texvent.runtime.devices import Device, Tensor, explain_device_memory
 from texvent.simulation.gpu.engine import GpuSimulator
-from texvent.simulation.packets import FrameInterval, UnsortedEvents, make_packet
+from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.protocol import Simulator
+from texvent.simulation.streaming import make_packet
 
 
 class ResidentSimulator:

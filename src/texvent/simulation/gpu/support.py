@@ -11,7 +11,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.runtime.device_names import AUTO, CPU
 from texvent.runtime.devices import Device, describe_device, find_gpu, total_bytes, triton_fault
 from texvent.sensor import SensorSize
-from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.texvent.config import TexventConfig
 
 MODELS = "texvent", "esim"

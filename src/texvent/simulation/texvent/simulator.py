@@ -11,9 +11,9 @@ from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.frames import Frame, StreamChecker, check_intensity
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulation.packets import FrameInterval, UnsortedEvents, make_packet
+from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.random.draws import frame_key
-from texvent.simulation.streaming import SteppingSimulator
+from texvent.simulation.streaming import SteppingSimulator, make_packet
 from texvent.simulation.texvent.config import PRESETS, TexventConfig
 
 if TYPE_CHECKING:

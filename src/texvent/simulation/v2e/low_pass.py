@@ -14,7 +14,7 @@ from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulation.kernels.active_pixels import WORD, is_equal, list_marked
 from texvent.simulation.kernels.compiled_elementary import natural_log
 from texvent.simulation.random.mismatch import PixelMismatch
-from texvent.simulation.v2e.simulator import LINEAR_BELOW
+from texvent.simulation.v2e.config import LINEAR_BELOW
 
 Float64Array: TypeAlias = NDArray[np.float64]
 

@@ -21,6 +21,7 @@ from texvent.simulation.random.mismatch import (
 )
 from texvent.simulation.random.poisson_noise import PoissonNoise
 from texvent.simulation.streaming import IntensityArray
+from texvent.simulation.v2e.config import LINEAR_BELOW, V2eConfig
 from texvent.simulation.v2e.emit_and_reset import EmissionRules, LastEvents, emit_and_reset
 from texvent.simulation.v2e.low_pass import (
     DARK_OFFSET,
@@ -30,7 +31,6 @@ from texvent.simulation.v2e.low_pass import (
     apply_low_pass,
     new_state,
 )
-from texvent.simulation.v2e.simulator import LINEAR_BELOW, V2eConfig
 
 Float64Array = NDArray[np.float64]
 

@@ -27,7 +27,7 @@ from texvent.simulation.kernels.radix_sort import key_bits, sort_keyed_events
 from texvent.simulation.packets import FrameInterval, SortedEvents
 from texvent.simulation.random.compiled_draws import draw_halves_at, draw_uniform_at, place_of
 from texvent.simulation.random.draws import Purpose
-from texvent.simulation.voltmeter.simulator import Constants
+from texvent.simulation.voltmeter.config import Constants
 from texvent.simulation.voltmeter.voltage import (
     BLOCK,
     LONGEST_US,

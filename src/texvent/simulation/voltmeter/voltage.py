@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulation.voltmeter.simulator import Constants
+from texvent.simulation.voltmeter.config import Constants
 
 Float64Array: TypeAlias = NDArray[np.float64]
 

@@ -60,6 +60,7 @@ class DetectionConfig(TrainingConfig):
     """A detector: RVT-T, the smallest of RVT's networks."""
 
     packages: ClassVar[str] = EXTRA
+    task: ClassVar[str] = "texvent_lab.bench.detection.task:open_task"
     schedule: Schedule = SCHEDULE
     data: DetectionData = field(default_factory=DetectionData)
     flip_x: bool = True
@@ -67,13 +68,8 @@ class DetectionConfig(TrainingConfig):
 
     def make_task(self) -> Task:
         """See `TrainingConfig`."""
-        folder, data = self.data.folder, self.data
-        if folder is None:
+        if self.data.folder is None:
             raise ConfigError(
                 "data.folder is missing; name what texvent dataset export --layout rvt wrote"
             )
-        from texvent_lab.bench.detection.clips import read_classes, read_clips
-        from texvent_lab.bench.detection.task import DetectionTask  # brings torch
-
-        classes = read_classes(folder)
-        return DetectionTask(self, classes, read_clips(folder, data.validation_split, data.binning))
+        return super().make_task()

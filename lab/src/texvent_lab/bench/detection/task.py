@@ -26,6 +26,7 @@ from texvent_lab.bench.detection.clips import (
     WINDOW_US,
     Clip,
     dense,
+    read_classes,
     read_clips,
 )
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
@@ -80,6 +81,13 @@ class DrawnClips:
         learned = chance.choice(seen, self.windows) - first
         flip = self.flips and bool(chance.random() < 0.5)
         return {NUMBER: place, FLIP: np.bool_(flip), FIRST: np.int64(first), LEARNED: learned}
+
+
+def open_task(config: DetectionConfig) -> DetectionTask:
+    """The task of a training file; see `TrainingConfig.make_task`."""
+    folder, data = Path(config.data.folder or ""), config.data
+    classes = read_classes(folder)
+    return DetectionTask(config, classes, read_clips(folder, data.validation_split, data.binning))
 
 
 class DetectionTask:

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar
 
 from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
 from texvent.sensor import as_size
 from texvent_lab.train.schedule import TrainingConfig
-
-if TYPE_CHECKING:
-    from texvent_lab.train.task import Task
 
 OWN_NETWORKS = ("small-cnn", "resnet34")
 PREFIX = "torchvision:"
@@ -122,6 +119,8 @@ class Augmentation:
 class ClassificationConfig(TrainingConfig):
     """A classifier of recordings."""
 
+    task: ClassVar[str] = "texvent_lab.train.classification.task:ClassificationTask"
+
     start_from: Path | None = None
     """Weights that training begins with, of the same network; its last layer begins anew where
     they are of other classes. None: random ones."""
@@ -137,9 +136,3 @@ class ClassificationConfig(TrainingConfig):
             raise ConfigError(
                 "[extra] has no samples; give folder or recordings in it, or leave it out"
             )
-
-    def make_task(self) -> Task:
-        """See `TrainingConfig`."""
-        from texvent_lab.train.classification.task import ClassificationTask
-
-        return ClassificationTask(self)

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import ClassVar, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent_lab.train.reconstruction.sequences import SequenceData
 from texvent_lab.train.schedule import Schedule, TrainingConfig
-
-if TYPE_CHECKING:
-    from texvent_lab.train.task import Task
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,6 +99,8 @@ class ExtraClips:
 class ReconstructionConfig(TrainingConfig):
     """A network that turns events into images."""
 
+    task: ClassVar[str] = "texvent_lab.train.reconstruction.task:ReconstructionTask"
+
     data: SequenceData = field(default_factory=lambda: SequenceData(length=40, crop=112))
     extra: ExtraClips = field(default_factory=ExtraClips)
     network: ReconstructionNetwork = field(default_factory=ReconstructionNetwork)
@@ -117,9 +116,3 @@ class ReconstructionConfig(TrainingConfig):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_range("score_every", self.score_every, 1, 1_000_000)
-
-    def make_task(self) -> Task:
-        """See `TrainingConfig`."""
-        from texvent_lab.train.reconstruction.task import ReconstructionTask
-
-        return ReconstructionTask(self)

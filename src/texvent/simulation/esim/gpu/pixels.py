@@ -13,7 +13,8 @@ import triton
 import triton.language as tl
 
 from texvent._require import require
-from texvent.simulation.esim.simulator import WHITE, EsimConfig, log_intensity
+from texvent.simulation.esim.config import WHITE, EsimConfig
+from texvent.simulation.esim.pixels import log_intensity
 from texvent.simulation.gpu.blocks_triton import (
     count_bad,
     find_cell,
