@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent_scenes.models.shapes import compose, point, shift
+from texvent_scenes.models.shapes import affine, compose, point, shift
 from texvent_scenes.models.shapes import rotation as about
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.tracks.keys import (
@@ -65,7 +65,7 @@ class BodyState:
         turn = rotation(self.yaw, self.pitch, self.roll)
         pivot = np.array([0.0, 0.0, self.pivot_m])
         offset = np.array(self.position) + pivot - turn @ pivot
-        return np.column_stack([turn, offset])
+        return affine(turn, offset)
 
 
 def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
