@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from texvent.prompt_report import PromptReport
     from texvent.runtime.progress import Progress
     from texvent_scenes.description import SceneDescription
+    from texvent_scenes.in_view import Unseen
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.raycast.incremental import IncrementalRenderer
     from texvent_scenes.rendered_scene import RenderedScene
@@ -355,21 +356,17 @@ class ProceduralGenerator:
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent_scenes.assets.nouns import list_files
-        from texvent_scenes.in_view import find_unseen, without_words
-        from texvent_scenes.staging.compose import compose_scene
+        from texvent_scenes.in_view import without_words
 
         named = nouns_of(prompt, self._nouns)
         description = understand(prompt, named)
         said = self._accepted(report_of(description))  # before the scene is built
-        duration_s = self.config.duration
-        scene = compose_scene(
-            description,
-            seed=self.seed,
-            size=self.size,
-            duration_s=duration_s,
-            nouns=_shown_nouns(description, named),
+        files = list_files(description, named)
+        nouns = tuple(named[one.noun] for one in description.objects)
+        contents = tuple(tuple(one.values()) for one in files)
+        scene, unseen = _staged(
+            description, nouns, contents, self.seed, self.size, self.config.duration
         )
-        unseen = find_unseen(scene, description, self.size, duration_s)
         report = replace(
             said,
             shown=without_words(said.shown, unseen.violations),
@@ -378,7 +375,7 @@ class ProceduralGenerator:
             too_small=unseen.too_small,
         )
         scene = replace(scene, has_highlights=self.config.hdr)
-        return scene, self._accepted(report), list_files(description, named)
+        return scene, self._accepted(report), files
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:
@@ -393,8 +390,34 @@ class ProceduralGenerator:
         return report
 
 
-def _shown_nouns(description: SceneDescription, named: Mapping[str, Noun]) -> Mapping[str, Noun]:
-    """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
-    from texvent_scenes.models.nouns import NOUNS
+@lru_cache(maxsize=4)
+def _staged(
+    description: SceneDescription,
+    named: tuple[Noun, ...],
+    contents: tuple[tuple[str, ...], ...],
+    seed: int,
+    size: SensorSize,
+    duration_s: float,
+) -> tuple[ComposedScene, Unseen]:
+    """A scene and what it does not show; kept, since one is often simulated several times.
 
-    return {**NOUNS, **{one.noun: named[one.noun] for one in description.objects}}
+    Assets are shown where the prompt names them, not as scenery.
+
+    Args:
+        description: the scene.
+        named: the noun of each of its objects.
+        contents: states of the files that it is made of: with others it is another scene.
+        seed: decides the layout.
+        size: of the image, pixels.
+        duration_s: length of the clip, s.
+    """
+    del contents
+    from texvent_scenes.in_view import find_unseen
+    from texvent_scenes.models.nouns import NOUNS
+    from texvent_scenes.staging.compose import compose_scene
+
+    shown = {one.noun: noun for one, noun in zip(description.objects, named, strict=True)}
+    scene = compose_scene(
+        description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
+    )
+    return scene, find_unseen(scene, description, size, duration_s)

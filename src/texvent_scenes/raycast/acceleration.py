@@ -229,7 +229,7 @@ def build_world(
     shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
-    casts = exists & (np.asarray(primitives.emission) <= 0.0)
+    casts = exists & (np.asarray(primitives.emission) <= 0.0) & (instant["shadows"] != 0)
     sun_cells = _describe_sun_cells(instant[0], shapes, primitives, casts, wanted)
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)

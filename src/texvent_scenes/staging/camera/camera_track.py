@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -91,13 +91,16 @@ def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove
     return [one for one in timed if one.begin_s < min(one.end_s, duration_s)]
 
 
-def terms_of(moves: Sequence[TimedMove], duration_s: float) -> tuple[Term, ...]:
+@lru_cache(maxsize=64)
+def terms_of(moves: tuple[TimedMove, ...], duration_s: float) -> tuple[Term, ...]:
     """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along"."""
     terms = tuple(term for one in moves for term in _expand(one))
     edges = {0.0, duration_s, *(time for one in moves for time in (one.begin_s, one.end_s))}
     middles = []
     for kind in AMOUNTS:
         going = [term for term in terms if term.channel == kind and term.drift]
+        if not going:
+            continue
         reached = [add_up(going, min(time, duration_s)).get(kind, 0.0) for time in edges]
         least = max(reached) if kind in _NEAREST else min(reached)
         middles.append(Term(kind, offset=-0.5 * (least + max(reached))))
