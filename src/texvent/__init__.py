@@ -28,7 +28,16 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'texvent' has no attribute {name!r}")
     if _HOME_OF[name] == __name__:
         return importlib.import_module(f"{__name__}.{name}")
-    value = getattr(importlib.import_module(_HOME_OF[name]), name)
+    try:
+        value = getattr(importlib.import_module(_HOME_OF[name]), name)
+    except ModuleNotFoundError as error:
+        from texvent._registry import absent_package, say_absent
+        from texvent.errors import MissingDependencyError
+
+        package = absent_package(_HOME_OF[name])
+        if package is None:
+            raise
+        raise MissingDependencyError(f"texvent.{name}: {say_absent(package)}") from error
     globals()[name] = value
     return value
 

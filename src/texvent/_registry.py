@@ -10,13 +10,14 @@ from __future__ import annotations
 import difflib
 import functools
 import importlib
+import importlib.util
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
-from texvent.errors import ConfigError, TexventError, one_line, shown
+from texvent.errors import ConfigError, MissingDependencyError, TexventError, one_line, shown
 
 LONGEST_NAME = 60
 """Longer names are no misspelling of an allowed one."""
@@ -31,6 +32,20 @@ def load_object(target: str) -> Any:
     module, _, attribute = target.partition(":")
     home = importlib.import_module(module)
     return getattr(home, attribute) if attribute else home
+
+
+def absent_package(target: str) -> str | None:
+    """The package of a `"module:attribute"` string, where it is not installed; else None."""
+    package = target.partition(":")[0].partition(".")[0]
+    return package if importlib.util.find_spec(package) is None else None
+
+
+def say_absent(package: str) -> str:
+    """Say that a package of texvent's own distribution is gone, and what brings it back."""
+    return (
+        f"the package {package}, a part of texvent, is missing; install it anew: "
+        "pip install --force-reinstall texvent, or pip install -e . in a checkout"
+    )
 
 
 def nearest(word: str, names: Sequence[str]) -> str | None:
@@ -83,8 +98,15 @@ class Registry:
         return f"texvent.{self.kind.replace(' ', '_')}s"
 
     def shipped(self) -> dict[str, str]:
-        """Name → target of the parts of texvent's own distribution."""
-        return {**_plugged_in(self.group, is_own=True), **self.builtin}
+        """Name → target of the parts of texvent's own distribution that are here."""
+        own = _plugged_in(self.group, is_own=True)
+        here = {name: target for name, target in own.items() if not absent_package(target)}
+        return {**here, **self.builtin}
+
+    def absent(self) -> dict[str, str]:
+        """Name → package of the parts of texvent's own distribution whose package is missing."""
+        own = _plugged_in(self.group, is_own=True)
+        return {name: one for name, target in own.items() if (one := absent_package(target))}
 
     def entries(self) -> dict[str, str]:
         """Name → target of shipped and plugged-in parts; shipped names cannot be replaced."""
@@ -105,6 +127,7 @@ class Registry:
 
         Raises:
             ConfigError: no part has that name.
+            MissingDependencyError: its package, one of texvent's own, is missing.
             TexventError: a part of another package is broken.
         """
         is_name = isinstance(name, str)  # a config file may hold anything
@@ -114,6 +137,8 @@ class Registry:
         if is_name and name in entries:
             return self._load_plugged_in(name, entries[name])
         part = importlib.import_module(self.table).find(name) if self.table and is_name else None
+        if part is None and is_name and name in (absent := self.absent()):
+            raise MissingDependencyError(f"{self.kind} {name!r}: {say_absent(absent[name])}")
         if part is None:
             raise ConfigError(f"unknown {self.kind} {shown(name)}; {suggest(name, self.names())}")
         return part

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
-from texvent.event_edits import EventEdits, time_edit, with_edit
+from texvent.event_methods import EventMethods, call_method, time_edit, with_edit
 from texvent.events import EventStream
 from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.progress import Progress
@@ -55,7 +55,7 @@ def _ignore(times: SeenTimes) -> None:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EventPackets(EventEdits):
+class EventPackets(EventMethods):
     """Events packet by packet, for recordings that need not fit in memory.
 
     Every pass reads or simulates them again; of a generator or a camera there is one pass.
@@ -163,7 +163,6 @@ class EventPackets(EventEdits):
         make = partial(packets.between, start_us, stop_us)
         return EventPackets(LazyPackets(make), self.size, self.metadata)
 
-    # What lies above this module is imported when it is called: a convenience for users.
     def save(
         self,
         path: str | Path,
@@ -193,32 +192,10 @@ class EventPackets(EventEdits):
             >>> packets.save("ball.npz", progress=False).name
             'ball.npz'
         """
-        from texvent.io.files import save
-
         with open_progress(progress) as shown:
             packets = self.reporting_to(shown)
-            return save(path, packets, format=format, overwrite=overwrite)
-
-    def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
-        """Make a page of a sample of the events; see `EventStream.show`.
-
-        Example:
-            >>> from texvent import EventPackets, EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> EventPackets([events], events.size).show("two.html").name
-            'two.html'
-        """
-        from texvent.view.page.writer import show
-
-        return show(self, path, overwrite=overwrite)
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """Display in a notebook: what is known without going through the packets."""
-        from texvent.view.notebook import mime_bundle, packets_html
-
-        return mime_bundle(self, lambda: packets_html(self), include, exclude)
+            saved: Path = call_method("save", path, packets, format=format, overwrite=overwrite)
+        return saved
 
     def represent(
         self,
@@ -251,11 +228,9 @@ class EventPackets(EventEdits):
             >>> [int(frame.sum()) for frame in frames]
             [1, -1]
         """
-        from texvent.represent.slices import represent_slices
-
-        return represent_slices(
-            name, self, duration_us=duration_us, count=count, device=device, **options
-        )
+        given = {"duration_us": duration_us, "count": count, "device": device, **options}
+        arrays: Iterator[Any] = call_method("represent_slices", name, self, **given)
+        return arrays
 
     def reporting_to(self, progress: Progress) -> EventPackets:
         """The same packets; `progress` is called for each, at every pass."""

@@ -13,16 +13,15 @@ What always holds:
 from __future__ import annotations
 
 import copy
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.errors import InputError, one_line, shown
-from texvent.event_edits import EventEdits, time_edit, with_edit
+from texvent.event_methods import StreamMethods, time_edit, with_edit
 from texvent.options.arrays import HOW_TO_ROUND, as_array, whole_numbers
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
@@ -46,7 +45,7 @@ OPTIONAL_COLUMNS = ("label", *ID_COLUMNS)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EventStream(EventEdits):
+class EventStream(StreamMethods):
     """Events in time order: a whole recording, or one packet of it.
 
     Raises:
@@ -322,154 +321,6 @@ class EventStream(EventEdits):
             array([1, 2], dtype=uint16)
         """
         return replace(self, instance=instance, class_id=class_id)
-
-    # What lies above this module is imported when it is called: a convenience for users.
-    def represent(self, name: str, *, device: str | None = None, **options: Any) -> Any:
-        """A dense array of the events: `name` such as "voxel-e2vid", options such as `bins=5`.
-
-        See `texvent.represent.named.represent`; with `device`, a torch tensor.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.represent("event-frame")[0].tolist()
-            [0, 0, 0, 1, -1, 0, 0, 0]
-            >>> events.represent("voxel-e2vid", bins=2).shape
-            (2, 6, 8)
-        """
-        from texvent.represent.named import represent
-
-        return represent(name, self, device=device, **options)
-
-    def to_structured(self) -> NDArray[Any]:
-        """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.to_structured()
-            array([(3, 0, 10, 1), (4, 0, 20, 0)],
-                  dtype=[('x', '<u2'), ('y', '<u2'), ('t', '<i8'), ('p', 'u1')])
-        """
-        from texvent.represent.named import to_structured
-
-        return to_structured(self)
-
-    def to_tonic(self) -> NDArray[Any]:
-        """One record per event, [n], as tonic's transforms take it: x, y int16, t int64, p int8.
-
-        Raises:
-            InputError: a side of the sensor is above 32768 pixels, so coordinates do not fit.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.to_tonic()["p"]
-            array([1, 0], dtype=int8)
-        """
-        from texvent.represent.named import to_tonic
-
-        return to_tonic(self)
-
-    def to_dataframe(self) -> Any:
-        """A pandas DataFrame with one row per event and the columns and types of `columns()`.
-
-        Raises:
-            MissingDependencyError: pandas is not installed.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.to_dataframe()
-               x  y   t  p
-            0  3  0  10  1
-            1  4  0  20  0
-        """
-        from texvent.represent.named import to_dataframe
-
-        return to_dataframe(self)
-
-    def to_torch(self, device: str = "cpu") -> dict[str, Any]:
-        """Tensors x, y (int32), t (int64, µs), p and, if known, label (int8), each [n].
-
-        Raises:
-            ConfigError: torch knows or finds no such device.
-            MissingDependencyError: torch is not installed.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.to_torch()["t"]
-            tensor([10, 20])
-        """
-        from texvent.represent.tensors import to_torch
-
-        return to_torch(self, device)
-
-    def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
-        """Write to a file, its format taken from the extension unless given; see `texvent.io`.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.save("two.raw", format="evt3").stat().st_size > 8
-            True
-        """
-        from texvent.io.files import save
-
-        return save(path, self, format=format, overwrite=overwrite)
-
-    def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
-        """Make a self-contained page (x-y-t cloud, rate curve) and open it in the browser.
-
-        Args:
-            path: where to save the page; then nothing is opened. Default: a temporary file.
-            overwrite: whether an existing file may be replaced.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> events.show("two.html").suffix
-            '.html'
-        """
-        from texvent.view.page.writer import show
-
-        return show(self, path, overwrite=overwrite)
-
-    def plot(self, kind: str = "frame", *, ax: Any = None, **options: Any) -> Any:
-        """Draw the events by matplotlib and give the axes.
-
-        Args:
-            kind: "frame" (counted per pixel), "cloud" (x, y and time), "rate" (over time) or
-                "isi" (times between events of a pixel).
-            ax: axes to draw into; default: those of a new figure. A cloud needs 3-D ones.
-            **options: of the kind, such as `palette="v2e"`; see `texvent.view.plots`.
-
-        Returns:
-            The axes (`matplotlib.axes.Axes`).
-
-        Raises:
-            ConfigError: unknown kind or option, or axes that do not fit it.
-            MissingDependencyError: matplotlib is not installed.
-
-        Example:
-            >>> from texvent import EventStream
-            >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size="8x6")
-            >>> axes = events.plot("frame")
-            >>> axes.get_xlabel(), axes.get_ylabel()
-            ('x, pixels', 'y, pixels')
-        """
-        from texvent.view.plots import plot
-
-        return plot(self, kind, ax=ax, **options)
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """Display in a notebook: the busiest moment, the event rate, facts."""
-        from texvent.view.notebook import mime_bundle, stream_html
-
-        return mime_bundle(self, lambda: stream_html(self), include, exclude)
 
 
 def _checked_optional(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:

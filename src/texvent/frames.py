@@ -16,11 +16,11 @@ What always holds:
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Protocol, cast, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from texvent.brightness import luma_bt601
 from texvent.errors import InputError, shown
 from texvent.options.arrays import as_array, usable_pixels, whole_us
+from texvent.runtime.displays.notebook_value import NotebookValue
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 
@@ -84,7 +85,7 @@ class MotionVectors:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Frame:
+class Frame(NotebookValue):
     """One image and its time.
 
     A source frame and its motion are copies, as they are kept until the next frame comes: cameras
@@ -128,14 +129,6 @@ class Frame:
         light = ", linear" if self.transfer is Transfer.LINEAR else ""
         pixels = f"{self.pixels.dtype} {'RGB' if self.pixels.ndim == 3 else 'grey'}"
         return f"Frame({self.size} {pixels}, t {self.t_us} µs{light}{kind})"
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """Display in a notebook: the image and its time."""
-        from texvent.view.notebook import frame_html, mime_bundle
-
-        return mime_bundle(self, lambda: frame_html(self), include, exclude)
 
     @property
     def size(self) -> SensorSize:
@@ -213,17 +206,8 @@ class FrameStream(Protocol):
         ...
 
 
-class NotebookFrames:
+class NotebookFrames(NotebookValue):
     """A stream of frames that shows itself in notebooks, and is not read up by that."""
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """Display in a notebook: some frames and facts."""
-        from texvent.view.notebook import mime_bundle, video_html
-
-        stream = cast(FrameStream, self)
-        return mime_bundle(self, lambda: video_html(stream), include, exclude)
 
 
 @runtime_checkable

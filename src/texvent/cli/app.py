@@ -8,7 +8,7 @@ import signal
 import sys
 from collections.abc import Sequence
 
-from texvent._registry import Registry, suggest
+from texvent._registry import Registry, say_absent, suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
 from texvent.cli.standard_streams import (
@@ -163,7 +163,8 @@ def _dispatch(words: list[str]) -> int:
                 "install it with: pip install texvent-lab, or pip install ./lab in a checkout"
             )
         listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
-        raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}")
+        gone = "".join(f"; {say_absent(one)}" for one in {*PACKAGES.absent().values()})
+        raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}{gone}")
     module, _, function = commands[words[0]][0].partition(":")
     command = getattr(importlib.import_module(module), function or "run")
     code: int = command(words[1:])

@@ -118,8 +118,9 @@ def scenes() -> ScenePackage:
     for name in SCENES.entries():
         return cast(ScenePackage, SCENES.load(name))
     raise MissingDependencyError(
-        "no package brings scenes, for the entry points of texvent are missing; install it anew: "
-        "pip install --force-reinstall texvent, or pip install -e . in a checkout"
+        "no package brings scenes, for the entry points of texvent or its package texvent_scenes "
+        "are missing; install it anew: pip install --force-reinstall texvent, or pip install -e . "
+        "in a checkout"
     )
 
 

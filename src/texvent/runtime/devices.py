@@ -56,9 +56,7 @@ def find_gpu(wish: str) -> Device | None:
         return _any_gpu()
     torch = require("torch", extra=EXTRA)
     if not torch.cuda.is_available():
-        raise ConfigError(
-            f"device is {wish!r}, and torch {torch.__version__} finds no GPU here; use device='cpu'"
-        )
+        raise ConfigError(f"device is {wish!r}, and {say_no_gpu(torch)}; use device='cpu'")
     device, count = torch.device(wish), torch.cuda.device_count()
     if device.index is not None and device.index >= count:
         names = "cuda:0" if count == 1 else f"cuda:0 to cuda:{count - 1}"
@@ -66,6 +64,13 @@ def find_gpu(wish: str) -> Device | None:
     if _is_old(torch, device):
         raise ConfigError(f"device is {wish!r}, a GPU too old for Triton; use device='cpu'")
     return device if device.index is not None else _current(torch)
+
+
+def say_no_gpu(torch: Any) -> str:
+    """Say why this torch has no GPU: it was built for CPUs alone, or finds none."""
+    if not (torch.version.cuda or torch.version.hip):
+        return f"torch {torch.__version__} is built for CPUs alone; install a build for CUDA"
+    return f"torch {torch.__version__} finds no GPU here"
 
 
 def _is_old(torch: Any, device: Device | None = None) -> bool:

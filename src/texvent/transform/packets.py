@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.event_edits import with_edit
+from texvent.event_methods import with_edit
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

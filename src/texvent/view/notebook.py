@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import sys
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -38,23 +38,21 @@ JPEG_QUALITY = 90
 
 
 def mime_bundle(
-    shown: object,
-    make_html: Callable[[], str],
+    shown: EventStream | EventPackets | Frame | FrameStream,
     include: Collection[str] | None = None,
     exclude: Collection[str] | None = None,
 ) -> dict[str, str]:
     """Result of `_repr_mimebundle_`: text always, HTML where it can be seen.
 
     Args:
-        shown: the value.
-        make_html: makes its HTML; not called in a terminal, which shows text alone.
+        shown: the value. In a terminal, which shows text alone, its HTML is not made.
         include: types that are wanted; None: all.
         exclude: types that are not.
     """
     bundle = {"text/plain": repr(shown)}
     is_wanted = include is None or "text/html" in include
     if is_wanted and "text/html" not in (exclude or ()) and not _is_terminal():
-        bundle["text/html"] = make_html()
+        bundle["text/html"] = _html_of(shown)
     return bundle
 
 
@@ -63,6 +61,14 @@ def _is_terminal() -> bool:
     ipython = sys.modules.get("IPython")
     shell = None if ipython is None else ipython.get_ipython()
     return shell is not None and "text/html" not in shell.display_formatter.active_types
+
+
+def _html_of(shown: EventStream | EventPackets | Frame | FrameStream) -> str:
+    if isinstance(shown, EventStream):
+        return stream_html(shown)
+    if isinstance(shown, EventPackets):
+        return packets_html(shown)
+    return frame_html(shown) if isinstance(shown, Frame) else video_html(shown)
 
 
 def stream_html(events: EventStream) -> str:

@@ -16,6 +16,7 @@ from texvent.events import EventStream
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.runtime.devices import say_no_gpu
 from texvent.runtime.memory import explain_memory
 from texvent.sensor import SensorSize
 from texvent_lab.networks import EXTRA, Padding
@@ -85,7 +86,7 @@ def load_reconstructor(
     torch = require("torch", extra=EXTRA)
     has_gpu = torch.cuda.is_available()
     if device == "cuda" and not has_gpu:
-        raise ConfigError("device is cuda, but torch finds no GPU here; use device='cpu' or auto")
+        raise ConfigError(f"device is cuda, and {say_no_gpu(torch)}; use device='cpu' or auto")
     chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
     network = read_network(published, path)
     return Reconstructor(published, network, sha256=describe_file(path)["sha256"], device=chosen)

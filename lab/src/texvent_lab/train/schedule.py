@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.extending import load_object, require
+from texvent.runtime.devices import say_no_gpu
 from texvent.simulation.random.draws import frame_key, frame_keys
 
 if TYPE_CHECKING:
@@ -110,7 +111,7 @@ class Hardware:
         torch = require("torch", extra=EXTRA)
         has_gpu = torch.cuda.is_available()
         if self.device == "cuda" and not has_gpu:
-            raise ConfigError("device is cuda, but torch finds no GPU here; use cpu or auto")
+            raise ConfigError(f"device is cuda, and {say_no_gpu(torch)}; use cpu or auto")
         return torch.device("cuda" if has_gpu and self.device != "cpu" else "cpu")
 
     def autocast(self, device: Any) -> AbstractContextManager[Any]:
