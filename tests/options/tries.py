@@ -117,6 +117,7 @@ ELSEWHERE: dict[tuple[str, str], str] = {
     ("simulate", "interpolator-weights"): "tests/interpolate/rife",
     ("simulate", "rife-flow"): "tests/interpolate/rife",
     ("simulate", "device"): "tests/simulation/gpu",
+    ("dataset make", "device"): "tests/dataset/generation/test_batches.py",
     ("convert", "frames"): "tests/capture/test_aedat4_frames.py",
     ("convert", "triggers"): "tests/io/test_side_data.py",
     ("convert", "imu"): "tests/io/test_side_data.py",

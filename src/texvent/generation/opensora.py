@@ -26,7 +26,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked
-from texvent.generation.videos.stored_video import StoredVideo, open_stored
+from texvent.generation.videos.stored_video import FinishedVideo, StoredVideo, open_stored
 from texvent.generation.videos.video_cache import VideoCache, content_key
 from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
@@ -120,7 +120,7 @@ class OpenSoraGenerator:
             )
         return None
 
-    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> FinishedVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Raises:

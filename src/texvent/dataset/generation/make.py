@@ -23,6 +23,7 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
 from texvent.io.atomic import sweep
+from texvent.runtime.device_names import AUTO
 from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.engines import local_engine
 
@@ -34,6 +35,7 @@ class ShardTask:
     folder: Path
     units: tuple[Shard, ...]
     retry_failed: bool = False
+    device: str = AUTO
 
     @property
     def is_video(self) -> bool:
@@ -60,11 +62,18 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        return make_together(recipe, self.folder, self.units, retry_failed=self.retry_failed)
+        return make_together(
+            recipe, self.folder, self.units, retry_failed=self.retry_failed, device=self.device
+        )
 
 
 def find_work(
-    recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
+    recipe: Recipe,
+    folder: Path,
+    *,
+    part: tuple[int, int] = (1, 1),
+    retry_failed: bool = False,
+    device: str = AUTO,
 ) -> Work:
     """Complete shards, with their counts of samples by status, and tasks that make the others.
 
@@ -75,14 +84,15 @@ def find_work(
         folder: of the data set.
         part: (K, N): of N parts of all shards, the K-th, 1 ≤ K ≤ N.
         retry_failed: whether shards with failed samples are made again.
+        device: of the pixel model and networks; "auto": that of the specification.
 
     Raises:
-        ConfigError: there is no such part.
+        ConfigError: there is no such part, or no such device.
         FileFormatError: the record of a shard is damaged.
     """
+    recipe.check_device(device)
     which, parts = part
     work = Work(summary=attrgetter("statuses"))
-    renders = not (recipe.items.are_videos or recipe.stores_videos)
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
         for number, shard in enumerate(recipe.shards(stage)):
@@ -95,12 +105,12 @@ def find_work(
                 record = None
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                place = number if renders else (stage, number)
+                place = number if recipe.renders else (stage, number)
                 together.setdefault((place, again), []).append(shard)
             else:
                 work.complete[shard] = record.statuses
     for (_, again), shards in together.items():
-        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again))
+        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again, device=device))
     return work
 
 
@@ -133,6 +143,7 @@ def make(
     *,
     workers: int = 1,
     retry_failed: bool = False,
+    device: str = AUTO,
     progress: ProgressOption = None,
 ) -> Work:
     """Make a data set, or what is missing of it; see docs/datasets.md.
@@ -143,6 +154,8 @@ def make(
         workers: processes; 1: this one. A program that uses more needs the usual
             `if __name__ == "__main__":`, because they import its main module.
         retry_failed: make samples that failed again.
+        device: of the pixel model and networks, as the option of `texvent.simulate`; "auto": that
+            of the specification.
         progress: receives every shard.
 
     Returns:
@@ -164,7 +177,7 @@ def make(
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
-    work = find_work(recipe, folder, retry_failed=retry_failed)
+    work = find_work(recipe, folder, retry_failed=retry_failed, device=device)
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         for _ in work.make(engine, display):
             pass

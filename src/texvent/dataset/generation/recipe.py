@@ -6,7 +6,7 @@ import functools
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,7 @@ from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note
 from texvent.run.prepare import check_run
+from texvent.runtime.device_names import AUTO, check_device_name
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
@@ -123,6 +124,11 @@ class Recipe:
         name = self.specification.options.get("generator", DEFAULT_GENERATOR)
         return not renders_instants(GENERATORS.load(name))
 
+    @property
+    def renders(self) -> bool:
+        """True if clips are rendered while they are simulated."""
+        return not (self.items.are_videos or self.stores_videos)
+
     @functools.cached_property
     def settings(self) -> Mapping[str, ClipSettings]:
         """Stage → the settings of its clips."""
@@ -150,6 +156,17 @@ class Recipe:
                         f"variant {name} sets {wrong[0]}, which changes the video; all variants "
                         "are simulated from the same one: set it in options"
                     )
+
+    def check_device(self, device: str) -> None:
+        """Refuse a device that some run would refuse.
+
+        Raises:
+            ConfigError, MissingDependencyError: as `texvent.run.prepare.check_run`.
+        """
+        check_device_name(device)
+        for name in self.variants if device != AUTO else ():
+            for settings in self.settings[name].extremes:
+                check_run(replace(settings, run=replace(settings.run, device=device)))
 
     @property
     def prompt_settings(self) -> Settings:
