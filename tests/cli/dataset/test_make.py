@@ -73,6 +73,12 @@ def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):
     assert "paper (2 seeds), esim" in said
     assert "classes  2, 2 prompts each" in said
     assert "no license" in said
+    classes = {line.split()[0]: line.split()[1:] for line in said.splitlines() if line.split()}
+    assert classes["class"] == ["train", "test"]
+    counts = {name: [*map(int, classes[name])] for name in ("bus", "car")}
+    assert [sum(column) for column in zip(*counts.values(), strict=True)] == [3, 1]
+    (lacking,) = (name for name, (_, test) in counts.items() if test == 0)
+    assert f"warning  test has no {lacking}" in said
     assert "prompts  4 of 4 prompts understood word for word" in said
     assert [path.name for path in folder.iterdir()] == ["cars.toml"]
 

@@ -21,7 +21,7 @@ from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
+from texvent.errors import ConfigError, OutputError, TexventError, few, shown, warn
 from texvent.io.atomic import sweep
 from texvent.runtime.engines import local_engine
 from texvent.runtime.progress import ProgressOption, open_progress
@@ -118,6 +118,9 @@ def begin(recipe: Recipe, folder: Path) -> None:
             for item in recipe.items.all
         ]
         refuse_prompts(subjects, recipe.prompt_settings)
+    if not (folder / SPECIFICATION_FILE).exists():
+        for split, classes in recipe.clips.lacking().items():
+            warn(f"{split} has no {few(classes)}; give more of each class, or other splits")
     recipe.begin(folder)
 
 
