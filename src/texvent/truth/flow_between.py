@@ -45,7 +45,8 @@ class FrameFlow:
         unknown = np.full((2, *shape), np.nan, np.float32)
         if len(times) < 2 or start_us < times[0] or stop_us > times[-1]:
             return unknown
-        y, x = np.indices(shape).astype(np.float64)
+        places = np.indices(shape, np.float64)
+        x, y = places[1], places[0]
         step = int(np.searchsorted(times, start_us, "right")) - 1
         moved = np.zeros((2, *shape))
         if (part := self._part(step, start_us)) > 0:
@@ -63,7 +64,7 @@ class FrameFlow:
     def _part(self, step: int, t_us: int) -> float:
         """Share of a step that is over at an instant."""
         before, after = self.times_us[step : step + 2].tolist()
-        return (t_us - before) / (after - before)
+        return float((t_us - before) / (after - before))
 
     def _found_before(self, step: int, x: Plane, y: Plane, part: float) -> Plane:
         """Flow of the step of what a pixel shows when a part of it is over, sought by iteration."""

@@ -128,6 +128,27 @@ def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     assert not (folder / "wugs").exists()
 
 
+def test_a_class_that_is_not_shown_is_planned_as_refused_and_made_if_allowed(folder, capsys):
+    (folder / "wugs.toml").write_text(WUGS.replace("qwerty zxcv", "a wug rolls") + 'label = "wug"')
+    assert run("plan", "wugs.toml", "--trial", 0) == 0
+    assert "make refuses" not in capsys.readouterr().out  # one of its prompts goes without the word
+    head, _, _ = WUGS.partition("prompts =")
+    text = f'{head}template = "a {{class}} runs"\nclasses = ["dog", "wug dog"]\n'
+    (folder / "wugs.toml").write_text(text)
+    assert run("plan", "wugs.toml", "--trial", 0) == 0
+    assert "make refuses class 'wug dog': not understood: wug" in capsys.readouterr().out
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
+    assert "1 of 2 classes would not be shown" in capsys.readouterr().err
+    assert not (folder / "wugs").exists()
+    (folder / "wugs.toml").write_text('allow_classes = ["wug dig"]\n' + text)
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
+    assert "did you mean 'wug dog'" in capsys.readouterr().err
+    (folder / "wugs.toml").write_text('allow_classes = ["wug dog"]\n' + text)
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 0
+    (folder / "wugs.toml").write_text(text)  # what was begun goes on
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 0
+
+
 def test_going_on_needs_the_folder_alone(folder, whole):
     assert run("make", "cars.toml", "--shards", "1/2", "--workers", 1, "-q") == 0
     (folder / "cars.toml").unlink()

@@ -22,7 +22,7 @@ from texvent.dataset.generation.shard_files import FILTERED
 from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, class_lines, summary_lines
-from texvent.errors import few
+from texvent.errors import few, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
@@ -88,7 +88,11 @@ def _prompts(recipe: Recipe) -> str:
     tally = tally_prompts([item.subject for item in items], recipe.prompt_settings)
     if tally is None:
         return ""
-    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n"
+    untrue = [
+        f"warning  make refuses class {shown(label)}: not understood: {few(words)}\n"
+        for label, words in recipe.untrue_classes().items()
+    ]
+    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n{''.join(untrue)}"
 
 
 def describe_contents(recipe: Recipe) -> list[str]:
