@@ -97,6 +97,7 @@ class ReadingOptions(TypedDict, total=False):
     timestamps_unit: Literal["s", "ms", "us", "ns"] | None
     start: float | None
     stop: float | None
+    topic: str | None
     white_level: float | None
     transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] | None
 

@@ -21,11 +21,14 @@ from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
+from texvent.errors import ConfigError, InputError, OutputError, TexventError, few, shown, warn
 from texvent.io.atomic import sweep
 from texvent.runtime.device_names import AUTO
 from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.engines import local_engine
+
+MOST_NAMED = 5
+"""Classes that the error names."""
 
 
 @dataclass(frozen=True)
@@ -118,17 +121,33 @@ def begin(recipe: Recipe, folder: Path) -> None:
     """Note in a folder what will be made there, after a look at the prompts of a new data set.
 
     Raises:
-        InputError: prompts that `strict` refuses, or scenes that name files that are not there.
+        InputError: prompts that `strict` refuses, classes that prompts do not show, or scenes that
+            name files that are not there.
         ConfigError: a field of a scene is wrong, or the folder holds another data set.
         OutputError: the folder is a file or cannot be written.
     """
-    if not recipe.items.are_videos and not (folder / SPECIFICATION_FILE).exists():
-        subjects = [
-            (shown(item.prompt) if item.prompt else "a scene", item.subject)
-            for item in recipe.items.all
-        ]
-        refuse_prompts(subjects, recipe.prompt_settings)
+    if not (folder / SPECIFICATION_FILE).exists():
+        if not recipe.items.are_videos:
+            subjects = [
+                (shown(item.prompt) if item.prompt else "a scene", item.subject)
+                for item in recipe.items.all
+            ]
+            refuse_prompts(subjects, recipe.prompt_settings)
+            _refuse_untrue(recipe)
+        for split, classes in recipe.clips.lacking().items():
+            warn(f"{split} has no {few(classes)}; give more of each class, or other splits")
     recipe.begin(folder)
+
+
+def _refuse_untrue(recipe: Recipe) -> None:
+    untrue = recipe.untrue_classes()
+    if untrue:
+        faults = [f"{shown(label)}: {few(words)}" for label, words in untrue.items()]
+        raise InputError(
+            f"{len(untrue)} of {len(recipe.items.labels)} classes would not be shown, for words "
+            f"that are not understood ({'; '.join(faults[:MOST_NAMED])}); say them in words of "
+            f"`texvent scenes`, or allow them: allow_classes = {[*untrue][:MOST_NAMED]}"
+        )
 
 
 def remove_dead_parts(recipe: Recipe, folder: Path) -> None:
