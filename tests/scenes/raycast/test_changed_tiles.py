@@ -10,6 +10,7 @@ from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast import changed_tiles as changed
 from texvent_scenes.raycast.changed_tiles import Drawn, changed_tiles
 from texvent_scenes.raycast.incremental import IncrementalRenderer
+from texvent_scenes.raycast.optics import Optics
 from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.rendered_scene import Shape
 
@@ -24,9 +25,10 @@ def drawn(scene, time_s: float) -> Drawn:
 
 def share_changed(scene, *times: float) -> float:
     """Share of tiles drawn at the last of two instants; all of them are as when all are drawn."""
-    renderer = IncrementalRenderer(scene, SIZE, samples=2, shadows=True)
+    optics = Optics(0.7, vignetting=True)
+    renderer = IncrementalRenderer(scene, SIZE, samples=2, shadows=True, optics=optics)
     for time_s in times:
-        whole = render(scene, time_s, SIZE)
+        whole = render(scene, time_s, SIZE, optics=optics)
         np.testing.assert_array_equal(renderer.render(time_s)[0], whole)
     tiles = changed_tiles(drawn(scene, times[-2]), drawn(scene, times[-1]))
     return 1.0 if tiles is None else float(tiles.mean())
@@ -76,5 +78,7 @@ def test_embedded_scenes_are_drawn_as_if_whole(prompt):
     video = ProceduralGenerator(ProceduralConfig(), seed=0, size=size).generate(prompt)
     for t_us in (0, 2_000, 300_000, 304_000):
         np.testing.assert_array_equal(
-            video.at(t_us).pixels, render(video.scene, t_us / 1e6, size), strict=True
+            video.at(t_us).pixels,
+            render(video.scene, t_us / 1e6, size, optics=video.optics),
+            strict=True,
         )
