@@ -283,7 +283,7 @@ class ProceduralVideo(NotebookFrames):
         return replace(self, transfer=Transfer.GAMMA, metadata=facts)
 
     @property
-    def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
+    def _code(self) -> Callable[[NDArray[Any]], NDArray[np.float32]]:
         """Light (1 is white) → levels of a frame."""
         return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
 

@@ -17,9 +17,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.brightness import luma_bt601
 from texvent.runtime.jit import jit
@@ -88,7 +89,7 @@ class IncrementalRenderer:
 
     def __init__(
         self, scene: RenderedScene, size: SensorSize, *, samples: int, shadows: bool,
-        code: Callable[[Float32Array], Float32Array] = encode_srgb, optics: Optics = PERFECT,
+        code: Callable[[NDArray[Any]], Float32Array] = encode_srgb, optics: Optics = PERFECT,
     ) -> None:  # fmt: skip
         self._size, self._code, self._optics = size, code, optics
         self._draw = partial(world_and_shapes, scene, size=size, shadows=shadows, samples=samples)

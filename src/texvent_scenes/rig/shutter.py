@@ -121,8 +121,8 @@ def expose_frames(
         light = expose(scene, size, shutter, time_s, samples=samples, shadows=shadows)
         world = world_at(scene, time_s, size, shadows=False)
         everywhere = np.ones(size.shape, dtype=np.bool_)
-        light = optics.passed(light.astype(np.float32), world, everywhere).reshape(light.shape)
-        pixels = np.clip(np.round(encode_srgb(light)), 0, 255).astype(np.uint8)
+        passed = optics.passed(light.astype(np.float32), world, everywhere).reshape(light.shape)
+        pixels = np.clip(np.round(encode_srgb(passed)), 0, 255).astype(np.uint8)
         first_s = time_s - shutter.half_s
         yield ExposedFrame(pixels, t_us, first_s, shutter.row_s, shutter.exposure_s)
 
