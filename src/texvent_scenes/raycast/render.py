@@ -22,6 +22,7 @@ from texvent_scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent_scenes.raycast.media import describe_media
 from texvent_scenes.raycast.optics import PERFECT, Optics
 from texvent_scenes.raycast.records import World
+from texvent_scenes.raycast.shading.ambient import list_windows
 from texvent_scenes.rendered_scene import (
     Environment,
     Float32Array,
@@ -48,6 +49,7 @@ def light_up(
         rays: the camera's rays.
         shadows: False turns the shadows of lamps off.
     """
+    list_windows(world.instant)
     if not len(environment.lamps) and not len(environment.media):
         return world
     instant = world.instant
