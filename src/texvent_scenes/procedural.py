@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,12 +47,11 @@ if TYPE_CHECKING:
     from texvent_scenes.description import SceneDescription
     from texvent_scenes.in_view import Unseen
     from texvent_scenes.models.protocol import Noun
-    from texvent_scenes.raycast.incremental import IncrementalRenderer
+    from texvent_scenes.raycast.incremental import IncrementalRenderer, RenderedFrame
+    from texvent_scenes.raycast.optics import Optics
     from texvent_scenes.rendered_scene import RenderedScene
     from texvent_scenes.staging.compose import ComposedScene
 
-Rendered: TypeAlias = tuple[NDArray[np.float32], NDArray[np.int64]]
-"""Pixels and codes, as of `SceneFrame`."""
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
 IMAGES_AHEAD = 8
@@ -74,6 +73,10 @@ class ProceduralConfig:
     enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
+    point_spread: float = 0.7
+    """Standard deviation of the lens' image of a point, in pixels; 0 = a perfect lens."""
+    vignetting: bool = True
+    """Whether the lens passes less light off its axis: cos⁴ of the angle to it."""
     assets: Path | None = None
     """Folder of models (GLB, OBJ, PLY), which prompts call by their file names; they take the place
     of embedded ones of the same name. See docs/assets.md."""
@@ -87,6 +90,7 @@ class ProceduralConfig:
     def __post_init__(self) -> None:
         check_range("duration", self.duration, 1e-6, 86_400.0)
         check_range("samples", self.samples, 1, 8)
+        check_range("point_spread", self.point_spread, 0.0, 10.0)
         check_range("fps", self.fps, *FPS_RANGE)
         if self.intervals < 1:
             raise ConfigError(
@@ -104,8 +108,7 @@ class ProceduralConfig:
 class SceneFrame(Frame):
     """A frame of a scene."""
 
-    codes: NDArray[np.int64] | None = None
-    """[H, W] what fills its pixels; see `raycast.adaptive_sampling.render_rows`."""
+    made_of: RenderedFrame | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -156,18 +159,18 @@ class ProceduralVideo(NotebookFrames):
         renderer = self._make_renderer()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels, codes = self._render(renderer, t_us)
+            made = self._render(renderer, t_us)
             motion = self._motion(index) if self.has_motion else None
-            yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
+            yield SceneFrame(made.pixels, t_us, motion=motion, transfer=self.transfer, made_of=made)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._render(self._renderer, t_us)
+        pixels = self._render(self._renderer, t_us).pixels
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
-    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> RenderedFrame:
         make = partial(renderer.render, t_us / MICROSECONDS)
-        return cast(Rendered, self._once("frame", t_us, make=make))
+        return cast("RenderedFrame", self._once("frame", t_us, make=make, bytes_per_pixel=48))
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -237,9 +240,11 @@ class ProceduralVideo(NotebookFrames):
         start, stop = first.motion or MotionVectors(), second.motion or MotionVectors()
         speeds = block_speeds(self.size, start.forward, stop.backward)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        before = DrawnInstant(0, first.float_luma, getattr(first, "codes", None))
-        after = DrawnInstant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
-        return self._renderer.render_between(before, after, speeds, times)
+        ends = []
+        for number, frame in ((0, first), (len(times) - 1, second)):
+            made = getattr(frame, "made_of", None) or self._render(self._renderer, frame.t_us)
+            ends.append(DrawnInstant(number, frame.float_luma, made.light, made.codes))
+        return self._renderer.render_between(ends[0], ends[1], speeds, times)
 
     def _motion(self, index: int) -> MotionVectors:
         """Motion from a frame to its neighbours."""
@@ -263,8 +268,15 @@ class ProceduralVideo(NotebookFrames):
 
         samples, shadows, code = self.config.samples, self.config.shadows, self._code
         return IncrementalRenderer(
-            self.scene, self.size, samples=samples, shadows=shadows, code=code
+            self.scene, self.size, samples=samples, shadows=shadows, code=code, optics=self.optics
         )
+
+    @property
+    def optics(self) -> Optics:
+        """The lens of the camera."""
+        from texvent_scenes.raycast.optics import Optics
+
+        return Optics(self.config.point_spread, self.config.vignetting)
 
     def gamma_coded(self) -> ProceduralVideo:
         """The same scene in gamma-coded frames, which go above white where it has highlights."""
@@ -272,7 +284,7 @@ class ProceduralVideo(NotebookFrames):
         return replace(self, transfer=Transfer.GAMMA, metadata=facts)
 
     @property
-    def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
+    def _code(self) -> Callable[[NDArray[Any]], NDArray[np.float32]]:
         """Light (1 is white) → levels of a frame."""
         return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
 

@@ -126,6 +126,8 @@ class GeneratorOptions(TypedDict, total=False):
     duration: float | None
     samples: int | None
     shadows: bool | None
+    point_spread: float | None
+    vignetting: bool | None
     assets: str | Path | None
     hdr: bool | None
     strict: bool | None

@@ -18,6 +18,7 @@ from texvent.lens import Lens, lens_reach
 from texvent.runtime.jit import jit
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.meshes.tree import describe_surfaces, tree_of
+from texvent_scenes.raycast.mirrored import list_mirrored
 from texvent_scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
@@ -241,6 +242,7 @@ def build_world(
         lamps=np.zeros(0, dtype=LAMP_RECORD),
         media=np.zeros(0, dtype=SEEN_MEDIUM_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
+        mirrored=list_mirrored(primitives, inverse, environment),
     ).addressed()
 
 
