@@ -65,6 +65,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    notes: tuple[str, ...] = ()
+    """Decisions that the scene leaves open, as sentences, such as where the roads cross."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
@@ -146,6 +148,8 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys(_list_late(description, duration_s))),
+        tuple(f"the roads cross at ({x:.3g}, {y:.3g}) m" for x, y, _ in view.road.crossings)
+        if ground.has_road else (),
     )  # fmt: skip
 
 

@@ -87,10 +87,18 @@ def find_road(
         one.placement != "lane" for one in description.objects
     )
     road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
-    if description.place.road == "crossing" and not road.crossings:
-        x, y, angle = road.at(_CROSSING_AHEAD_M)
-        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
-    return road
+    return road if road.crossings else with_crossing(road, description.place, _CROSSING_AHEAD_M)
+
+
+def with_crossing(road: RoadLine, said: Place, usual_m: float) -> RoadLine:
+    """The road with the one that crosses it where the scene says, or so far along it, m."""
+    if said.crossing_m is not None:
+        east, north = np.subtract(said.crossing_m, road.offset)
+        usual_m = float(east * math.cos(road.angle) + north * math.sin(road.angle))
+    elif said.road != "crossing":
+        return road
+    x, y, angle = road.at(usual_m)
+    return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
 
 
 def _straight_road(
