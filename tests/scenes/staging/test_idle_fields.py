@@ -44,7 +44,7 @@ ROWS = [
         itertools.product(sorted(MOTIONS - {"stand", "hang", "sit", "lie", "move"}), VALUES.items())
     )
     for value in values
-]
+][::2]
 
 
 def place(one: SceneObject, *others: SceneObject, duration_s: float = 2.0) -> list[Actor]:
