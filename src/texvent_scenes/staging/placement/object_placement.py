@@ -38,6 +38,7 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
     orbit,
@@ -74,6 +75,8 @@ class ObjectPlacer:
         self._level_m = level_m
         """Height of the origin of what lives in the air and in the water, in own sizes."""
         self.groups: dict[int, ObjectGroup] = {}
+        self.not_shown: list[str] = []
+        """Objects that have no place, and why."""
         self._travel = travel
         bodies = sum(scene_object.count for scene_object in description.objects)
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
@@ -82,8 +85,14 @@ class ObjectPlacer:
         """Every copy of every object, with its track."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
+        orphans = {*list_orphans(self._description)}
+        self.not_shown = [
+            f"the {objects[n].noun} (nobody has it and nothing carries it: say who or where)"
+            for n in sorted(orphans)
+        ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
-            self._place(index, frozenset())
+            if index not in orphans:
+                self._place(index, frozenset())
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))

@@ -128,7 +128,9 @@ def _straight_road(
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
     """The road whose right lane, or whose edge, the first mover keeps to, also where it turns."""
     first = movers[0]
-    is_alone = len(movers) == 1 and lane_m > 0.6 * first.model.width
+    headings = [one.track.at(0.0).yaw - first.track.at(0.0).yaw for one in movers]
+    has_oncoming = any(math.cos(turn) < -0.9 for turn in headings)
+    is_alone = (len(movers) == 1 or has_oncoming) and lane_m > 0.6 * first.model.width
     lane = lane_m if is_alone else 0.0
     if first.noun.motion != "drive":
         lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
@@ -181,7 +183,11 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
         gap, state = 0.0, swimmers[0].track.at(0.0)
         angle = state.yaw if swimmers[0].is_mover else angle
         x, y = float(state.position[0]), float(state.position[1])
-    elif swimmers:
+    elif not swimmers:
+        away = np.array([-math.sin(angle), math.cos(angle)])
+        corners = np.vstack([one.corners(time) for one in actors for time in (0.0, _USUAL_S)])
+        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + _LEAST_BANK_M)
+    else:
         gap = -_NEARER * path.framing.distance_m
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
