@@ -44,7 +44,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     """
     description = _rest(_set_far(description), nouns)
     objects = tuple(
-        replace(one, motions=(*_decide_motion(one.motion, nouns[one.noun]), *one.motions[1:]))
+        replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
     )
     description = _darken(_move_others(replace(description, objects=objects), nouns))
@@ -87,6 +87,12 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
 
 
+def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
+    """Motions as they are staged, of one object by itself."""
+    later = (_at_rate(one, noun) for one in motions[1:])
+    return (*_decide_motion(motions[0] if motions else None, noun), *later)
+
+
 def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
     """The usual motion for "move", and for what always moves."""
     if noun.is_working and _is_work(motion, noun):
@@ -100,9 +106,15 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
-    if motion.kind == "spin" and motion.rate_hz is not None:
-        motion = replace(motion, pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
-    return (motion,)
+    return (_at_rate(motion, noun),)
+
+
+def _at_rate(motion: Motion, noun: Noun) -> Motion:
+    """A spin at the pace that its turns per second are; only hands rotate, all else spins."""
+    turns = motion.kind == "spin" or (motion.kind == "rotate" and noun.name not in HAND_NOUNS)
+    if not turns or motion.rate_hz is None:
+        return motion
+    return replace(motion, kind="spin", pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
 
 
 def _is_work(motion: Motion | None, noun: Noun) -> bool:
@@ -122,8 +134,11 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
     direction = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
+    belt_m_s = trait_value("belt speed", noun.name)
     if motion.rate_hz is not None and own_hz is not None:
         pace = motion.rate_hz / own_hz
+    elif motion.speed_m_s is not None and belt_m_s is not None:
+        pace = motion.speed_m_s / belt_m_s
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
     return Motion("work", direction, pace, end_pace=motion.end_pace)

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from texvent_scenes.description import SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
+    from texvent_scenes.staging.idle_fields import Idle
+
+_MOST_PASSES = 3
+"""Passes that leave out fields without effect: one left out may leave another without."""
 
 
 def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
@@ -42,10 +46,11 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    return _read(prompt, list_nouns(assets))
+    return _read(prompt, list_nouns(assets))[0]
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str]]:
+    """The reading of a prompt, without fields that change nothing, and notes of these."""
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
 
@@ -62,7 +67,29 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
             "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
             "models that take any text"
         )
-    return reading
+    scene, notes = _without_idle(reading.scene, nouns)
+    return replace(reading, scene=scene), notes
+
+
+def _without_idle(scene: Scene, nouns: Mapping[str, Noun]) -> tuple[Scene, list[str]]:
+    from texvent_scenes.staging.idle_fields import leave_out
+
+    notes: list[str] = []
+    for _ in range(_MOST_PASSES):
+        idle = _list_idle(scene, nouns)
+        if not idle:
+            break
+        scene = leave_out(scene, idle)
+        notes += [f"{one.path} would change nothing and is left out: {one.why}" for one in idle]
+    return scene, notes
+
+
+def _list_idle(scene: Scene, nouns: Mapping[str, Noun]) -> list[Idle]:
+    from texvent_scenes.defaults import complete
+    from texvent_scenes.description import to_description
+    from texvent_scenes.staging.idle_fields import list_idle
+
+    return list(list_idle(scene, complete(to_description(scene), nouns), nouns))
 
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
@@ -125,14 +152,14 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading = _read(str(subject), nouns)
+    reading, notes = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
     words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
     )
-    return replace(description, words=words)
+    return replace(description, words=words, notes=(*description.notes, *notes))
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -147,6 +174,8 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
+    for idle in _list_idle(scene, nouns):
+        raise ConfigError(f"{idle.path} has no effect: {idle.why}")
     return complete(to_description(scene), nouns)
 
 
