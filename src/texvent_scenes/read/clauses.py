@@ -18,6 +18,12 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 
 
+def _counts(token: Token) -> list[float]:
+    """Numbers of things that a word means."""
+    values = (sense.value for sense in token.all("field"))
+    return [float(value) for field, value in values if field == "count"]
+
+
 @dataclass(frozen=True)
 class Group:
     """Noun group: a head with its determiner, number and adjectives."""
@@ -34,8 +40,7 @@ class Group:
     @property
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
-        fields = [sense.value for one in self.modifiers for sense in one.all("field")]
-        counts = [value for field, value in fields if field == "count"]
+        counts = [count for one in self.modifiers for count in _counts(one)]
         if counts or self.head is None:
             return any(count > 1 for count in counts)
         if self.head.has("effect") and not self.head.has("noun"):
@@ -66,8 +71,9 @@ class Clause:
     """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before, or "then",
-    after it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+    """Subject that is not named here: "camera"; "same", those of the clause before, "meanwhile" at
+    the same time, or "then", after it; "nearest", its last group; "company", either: "a boat with
+    dolphins jumping"."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -132,10 +138,8 @@ class _Parser:
         if token.has("conjunctions"):
             self._take()
             return Clause(about="then") if word == "then" else Clause()
-        phrase = clause.after[-1] if clause.after else None
-        if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
-            is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
-            return Clause(phrase.groups, about="company") if is_next else None
+        if (second := self._begin_with_verb(clause)) is not None:
+            return second
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
             return Clause(about="nearest")
@@ -148,6 +152,27 @@ class _Parser:
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _begin_with_verb(self, clause: Clause) -> Clause | None:
+        """Clause of a second verb: a participle's, about the noun before it if that can do so.
+
+        A verb after a participle is about the same: "a car turning left passes".
+        """
+        token, before = self._token(), clause.after[-1] if clause.after else None
+        is_phrase = isinstance(before, Phrase)
+        groups = before.groups if isinstance(before, Phrase) else clause.objects
+        is_here = bool(groups) and groups[-1].head is self._token(-1)
+        if token.verbs("ing") and is_here and (is_phrase or clause.verb):
+            is_thing = self._token(-1).has("noun") or clause.verb is not None
+            is_next = is_thing or (is_phrase and before.preposition.text == "with")
+            return Clause(groups, about="company") if is_next else None
+        verb = clause.verb
+        if verb is None or (verb.is_unknown and verb is self._token(-1)):
+            return None
+        is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
+        is_next = token.verbs("ing") or (is_open and token.verbs("s", "base"))
+        is_next = is_next and self._is_verb(replace(clause, verb=None))
+        return Clause(about="meanwhile") if is_next else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -167,7 +192,20 @@ class _Parser:
         if not self._token().has("negations"):
             return None
         self._take()
-        return replace(clause, absent=(*clause.absent, self._group()))
+        return replace(clause, absent=(*clause.absent, *self._absent()))
+
+    def _absent(self) -> list[Group]:
+        """Groups of a list that "and" or "or" ends, all with articles or none."""
+        found, known, end = [self._group()], 1, self._at
+        while self._token().text in (",", "and", "or") and self._starts_group(1):
+            is_last = self._take().text != ","
+            found.append(self._group())
+            is_alike = bool(found[-1].article) == bool(found[0].article)
+            if not is_alike or self._is_verb(Clause((found[-1],))):
+                break
+            known, end = (len(found), self._at) if is_last else (known, end)
+        self._at = end
+        return found[:known]
 
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
@@ -181,7 +219,11 @@ class _Parser:
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        is_object = self._starts_group() and not self._token().has("adverb")
+        after = self._token()
+        is_adverb = after.has("adverb") or (
+            after.is_unknown and not after.text.endswith("s") and not self._starts_group(1)
+        )  # "outside"
+        is_object = self._starts_group() and not is_adverb
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
     def _is_verb(self, clause: Clause) -> bool:
@@ -275,7 +317,8 @@ class _Parser:
             start = self._at
             self._take()
             group = self._group()
-            if self._is_verb(Clause((group,))) or self._is_like(preposition):
+            is_subject = group.article or group.is_plural
+            if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
                 break
             found.append(group)
@@ -298,8 +341,10 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown:  # the words before it qualify it
-                unknown, modifiers = [*unknown, *modifiers, token], []
+            if token.is_unknown:
+                unknown.append(token)
+                if article in ("a", "an"):  # "a six axis arm" is one
+                    modifiers = [one for one in modifiers if not _counts(one)]
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
             elif self._is_compound(article, first):
@@ -308,10 +353,20 @@ class _Parser:
                 head = token
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
+        tail = [self._take() for _ in range(self._tail() if head is not None else 0)]
+        known = tuple(modifiers) if head is not None else ()
+        lost = (*modifiers[len(known) :], *unknown, *tail[:-1])
         of = None
         if self._token().text == "of" and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
-        return Group(head, tuple(modifiers), tuple(unknown), article, of)
+        return Group(head, (*known, *tail[-1:]), lost, article, of)
+
+    def _tail(self) -> int:
+        """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""
+        ahead = 0
+        while self._token(ahead).is_unknown:
+            ahead += 1
+        return ahead + 1 if self._token(ahead).has("hollow") else 0
 
     def _ends_group(self, first: int) -> bool:
         token = self._token()
@@ -319,6 +374,9 @@ class _Parser:
             return True
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
+        before = self._token(-1)
+        if before.is_unknown and before.text.endswith("s") and token.verbs("ing"):
+            return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 
     def _stands_before(self, token: Token) -> bool:
@@ -334,7 +392,7 @@ class _Parser:
         is_head = is_head and self._agrees(article, first) and not self._has_object()
         is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
         is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
-        is_word = after.is_unknown and after.text.isalpha() and not is_verb
+        is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
         return (is_head or is_word) and not is_many
 
     def _agrees(self, article: str, first: int) -> bool:
@@ -342,8 +400,7 @@ class _Parser:
         senses = [one.value for one in self._token().all("noun")]
         words, is_one = self._tokens[first : self._at], article in ("a", "an")
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
-        said = [sense.value for one in words for sense in one.all("field") if not is_other]
-        counts = [float(value) for field, value in said if field == "count"]
+        counts = [count for one in words for count in _counts(one) if not is_other]
         if not senses or not (counts or is_one):
             return True
         return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)

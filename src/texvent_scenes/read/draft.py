@@ -45,11 +45,19 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
 
 
-def add_motion(thing: dict[str, Any], act: VerbSense) -> None:
-    """Add a motion; it takes the place of one of which only the pace is said."""
+def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:
+    """Add a motion; it takes the place of one of which only the pace is said.
+
+    What goes on moves as before: "a truck driving at 20 m/s passes".
+    """
     motions, pace = thing["motions"], act.pace
     if not act.kind:
         return
+    if goes_on and act.kind == "move" and motions and motions[-1]["kind"] in _MEANS:
+        motions[-1].update({"direction": act.direction} if act.direction else {})
+        return
+    if goes_on and motions and motions[-1]["kind"] == "stand":
+        motions.pop()  # "stands reading"
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
@@ -88,6 +96,8 @@ class SceneDraft:
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
     """Fields of the camera, the light and the place."""
+    has_weak_place: bool = False
+    """Whether the place takes the place of one said of it later: "on the water of a lake"."""
     _fates: dict[int, str] = field(default_factory=dict)
     """Number of a token → "lost", "shown", or the noun that it is shown as."""
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, set_field
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
+from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
@@ -40,15 +43,25 @@ class _SentenceReader:
         self._nearest: list[int] = []
         """Objects of the last noun group."""
         self._was_camera = False
+        self._verb: Token | None = None
+        """The last verb: "then right", "then a truck" say no other."""
+        self._phases = 0
+        """Times that "then" was said of things."""
+        self._goes_on = False
+        """Whether the clause is about the same as the one before, at the same time."""
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
+        if clause.about == "then" and clause.verb is None and not self._was_camera:
+            clause = replace(clause, verb=self._verb)
+        self._verb = clause.verb or self._verb
+        self._goes_on = clause.about in ("meanwhile", "company")
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        goes_on = self._was_camera and clause.about in ("same", "then")
+        goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_camera = goes_on or clause.about == "camera"
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
@@ -58,6 +71,7 @@ class _SentenceReader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
+        known = len(self._draft.things)
         told = subjects = self._find_subjects(clause)
         first = clause.verb.at if clause.verb is not None else 0
         before = [one for one in clause.after
@@ -65,36 +79,94 @@ class _SentenceReader:
         for phrase in before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        self._subjects, moved = list(subjects), subjects
+        subjects, objects, after = self._turn_passive(clause, subjects, objects)
+        if clause.about != "company":
+            self._subjects = list(subjects)
+        moved = subjects
         if clause.verb is not None:
-            is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
-            found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
-            kinds = {one.value.kind for one in clause.verb.all("verb")}
-            if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
-                found = []  # "smoke rises from a chimney", as it does by itself
-                self._draft.show(clause.verb)
-            for index in subjects if found is None else ():  # what it does is not made up
-                self._draft.things[index]["is_lost"] = True
-            subjects, moved = ([], []) if found is None else (subjects, found or subjects)
-            told = moved
-        for one in (each for each in clause.after if each not in before):
+            subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
+            told = moved or objects
+        self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.about == "then":  # others wait until then
+            self._phases += 1
+            for index in (one for one in subjects if one >= known):
+                motions = self._draft.things[index]["motions"]
+                motions[:0] = [{"kind": "stand"} for _ in range(self._phases if motions else 0)]
+
+    def _do_verb(
+        self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]
+    ) -> tuple[list[int], list[int]]:
+        """Apply the verb of a clause; the subjects that do it, and who is moved."""
+        is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
+        found = self._act(verb, subjects, objects, has_object=is_unknown)
+        kinds = {one.value.kind for one in verb.all("verb")}
+        if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
+            self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
+            return [], []
+        for index in subjects if found is None else ():  # what it does is not made up
+            self._draft.things[index]["is_lost"] = True
+        return ([], []) if found is None else (subjects, found or subjects)
+
+    def _say_after(
+        self, after: Sequence[Phrase | Token], subjects: list[int], moved: list[int],
+        told: list[int],
+    ) -> None:  # fmt: skip
+        """Apply what follows the verb."""
+        for one in after:
             if isinstance(one, Phrase):
-                told = self._relate(one, subjects, moved) or moved
+                told = self._relate(one, self._holders(one, subjects, told), moved) or moved
             elif not self._draft.set_scene(one):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
+    def _turn_passive(
+        self, clause: Clause, subjects: list[int], objects: list[int]
+    ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
+        """Who does it, to what, and the rest: "a ball kicked by a man"."""
+        by = clause.after[0] if clause.after else None
+        is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
+        if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
+            return subjects, objects, clause.after
+        agents = [index for group in by.groups for index in self._name(group)]
+        return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
+
+    def _holders(self, phrase: Phrase, subjects: list[int], told: list[int]) -> list[int]:
+        """Objects that a preposition is said of.
+
+        The noun before it, where the subject has such a place already, as in "a cup on a plate on
+        a table", or where what it does is not known.
+        """
+        sense = phrase.preposition.first("relation")
+        kinds = [one["kind"] for each in subjects for one in self._draft.things[each]["relations"]]
+        is_place = sense is not None and sense.value in (kinds if subjects else PLACING)
+        return told if is_place else subjects
+
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
         if clause.about == "company":
+            if clause.is_of_effect or not all(
+                one.head and self._draft.shows(one.head) for one in clause.subjects
+            ):
+                return []
+            both = self._nearest, self._subjects
+            able = [[one for one in each if self._is_able(clause, one)] for each in both]
             going = [one for one in self._nearest if self._moves(one)]
-            is_known = all(one.head and self._draft.shows(one.head) for one in clause.subjects)
-            return (going or self._subjects) if is_known and not clause.is_of_effect else []
+            return next(filter(None, (*able, going)), self._subjects)
         if clause.subjects:
             return [index for group in clause.subjects for index in self._name(group)]
         return self._nearest if clause.about == "nearest" else self._subjects
+
+    def _is_able(self, clause: Clause, index: int) -> bool:
+        """Whether an object can do what not all can."""
+        verbs = clause.verb.all("verb") if clause.verb is not None else ()
+        acts = [one.value for one in verbs if one.value.who not in ("plain", "source", "camera")]
+        is_lamp = self._draft.things[index]["noun"] in LAMPS
+        return any(
+            is_lamp if one.who == "lamp" else self._fits(one, [index], [], bool(clause.objects))
+            for one in acts
+        )
 
     # Noun groups
 
@@ -106,10 +178,13 @@ class _SentenceReader:
         head = group.head
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
-            self._set_place(group, head, relation)
+            self._set_place(group, head, relation, is_weak=head.is_liquid)
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
+            for token in group.unknown if relation not in ("", "with") else ():
+                if self._is_place(token, relation):  # "in a city centre"
+                    self._set_place(Group(token), token, relation)
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
@@ -129,10 +204,12 @@ class _SentenceReader:
             self._nearest = list(vessels)
 
     def _is_place(self, head: Token, relation: str) -> bool:
-        is_thing = head.has("noun", "pose") or head.is_liquid
-        if relation in word_set("things", "outside"):  # "behind a library": where is that?
+        place, is_thing = head.first("place"), head.has("noun", "pose")
+        if place is None or (head.is_liquid and relation in ("", "with", "from", "off")):
             return False
-        return head.has("place") and (bool(relation) or not is_thing)
+        if relation in word_set("things", "outside"):  # "behind a library": where is that?
+            return not is_thing and not is_room(place.value)
+        return bool(relation) or not is_thing
 
     def _moves(self, index: int) -> bool:
         """Whether an object can go from place to place by itself."""
@@ -162,7 +239,11 @@ class _SentenceReader:
         draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
         for token in group.modifiers:
+            draft.show(*([token] if token.has("hollow") else []))
             self._say(token, [index])
+        for token in group.unknown if not self._moves(index) else ():
+            if self._is_place(token, "") and not token.has("noun"):  # "a kitchen table"
+                self._set_place(Group(token), token, "", is_weak=True)
         self._nearest = [index]
         return [index]
 
@@ -170,24 +251,35 @@ class _SentenceReader:
         self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
         self._draft.show(token)
 
-    def _set_place(self, group: Group, head: Token, relation: str) -> None:
-        """As "on a snowy road", "a red sky", "a mountain road"."""
+    def _set_place(
+        self, group: Group, head: Token, relation: str, *, is_weak: bool = False
+    ) -> None:
+        """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
         draft, place = self._draft, self._draft.parts["place"]
         name = head.all("place")[0].value
+        if draft.has_weak_place and not is_weak:
+            del place["name"]
+        draft.has_weak_place = is_weak and (draft.has_weak_place or "name" not in place)
+        is_it = name in ("sky", place.get("name", name))
         for token in group.modifiers:
             field, value = (token.first("field") or Sense("", ("", ""))).value
             if token.text == "dark":
                 draft.parts["light"].setdefault("kind", "night")
                 if name == "plain":
                     place |= {"colour": "black", "sky": "black"}
-            elif field == "colour" and not is_room(name):
+            elif field == "colour" and is_it and not is_room(name):
                 place["sky" if name == "sky" else "colour"] = value
             elif not self._draft.set_scene(token):
                 continue
             draft.show(token)
         self._draft.set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
+        if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
+            place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), name]))
+            draft.show(head)
+        elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
+            head.is_liquid and place["name"] in word_set("things", "waters")
+        ):  # fmt: skip
             draft.show(head)
 
     # What is said of things
@@ -243,7 +335,7 @@ class _SentenceReader:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
         if act.who not in ("source", "lamp"):
-            add_motion(thing, act)
+            add_motion(thing, act, goes_on=self._goes_on)
         elif thing["noun"] not in word_set("things", "flames"):
             if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ
@@ -296,12 +388,14 @@ class _SentenceReader:
             if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
                 draft.mark(token, "lost")
             return []
-        place, targets = draft.parts["place"].get("name"), list[int]()
+        targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
+        heads = [group.head for group in phrase.groups if group.head is not None]
         if not targets:
-            if draft.parts["place"].get("name") != place:
+            is_place = all(self._is_place(one, kind or token.text) for one in heads)
+            if is_place and "name" in draft.parts["place"]:
                 self._go_to_place(token, subjects or self._nearest, moved)
             elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
