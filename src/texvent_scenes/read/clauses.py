@@ -159,12 +159,12 @@ class _Parser:
         A verb after a participle is about the same: "a car turning left passes".
         """
         token, before = self._token(), clause.after[-1] if clause.after else None
-        is_phrase = isinstance(before, Phrase)
-        groups = before.groups if isinstance(before, Phrase) else clause.objects
+        phrase = before if isinstance(before, Phrase) else None
+        groups = clause.objects if phrase is None else phrase.groups
         is_here = bool(groups) and groups[-1].head is self._token(-1)
-        if token.verbs("ing") and is_here and (is_phrase or clause.verb):
+        if token.verbs("ing") and is_here and (phrase or clause.verb):
             is_thing = self._token(-1).has("noun") or clause.verb is not None
-            is_next = is_thing or (is_phrase and before.preposition.text == "with")
+            is_next = is_thing or (phrase is not None and phrase.preposition.text == "with")
             return Clause(groups, about="company") if is_next else None
         verb = clause.verb
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
