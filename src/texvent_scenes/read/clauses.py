@@ -103,6 +103,8 @@ class _Parser:
 
     _tokens: Sequence[Token]
     _at: int = 0
+    _has_things: bool = False
+    """Whether a clause had subjects: "two dogs, both brown, chase a cat" tells no camera."""
 
     def clauses(self) -> Iterator[Clause]:
         """All clauses; each is begun as the one before says."""
@@ -113,6 +115,7 @@ class _Parser:
             following = self._end(clause)
             if following is not None:
                 yield clause
+                self._has_things |= bool(clause.subjects)
                 clause = following
             elif self._token() is not NO_TOKEN:
                 done = next((one for step in steps if (one := step(clause)) is not None), None)
@@ -163,6 +166,10 @@ class _Parser:
         groups = clause.objects if phrase is None else phrase.groups
         is_here = bool(groups) and groups[-1].head is self._token(-1)
         if token.verbs("ing") and is_here and (phrase or clause.verb):
+            verbs = {one.value.kind for one in token.verbs("ing")}
+            is_support = phrase is not None and phrase.preposition.text in ("on", "in")
+            if clause.verb and not is_support and verbs & word_set("things", "in_place"):
+                return Clause(about="nearest")  # "behind a disc spinning"
             is_thing = self._token(-1).has("noun") or clause.verb is not None
             is_next = is_thing or (phrase is not None and phrase.preposition.text == "with")
             return Clause(groups, about="company") if is_next else None
@@ -170,6 +177,8 @@ class _Parser:
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
+        if is_open and token.is_unknown and token.text.endswith("s"):  # "a cat sleeping wugs"
+            return Clause(about="meanwhile", verb=self._take())
         is_next = token.verbs("ing") or (is_open and token.verbs("s", "base"))
         is_next = is_next and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
@@ -182,7 +191,8 @@ class _Parser:
         if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
             self._at += ahead + 1
             return replace(clause, about="camera")
-        is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
+        verbs = {one.value.who for one in self._token().verbs("base")}
+        is_command = "camera" in verbs and (verbs == {"camera"} or not self._has_things)
         if clause == Clause() and is_command and not self._token().has("noun"):
             return Clause(about="camera", verb=self._take())
         return None
@@ -219,12 +229,14 @@ class _Parser:
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        after = self._token()
-        is_adverb = after.has("adverb") or (
-            after.is_unknown and not after.text.endswith("s") and not self._starts_group(1)
-        )  # "outside"
-        is_object = self._starts_group() and not is_adverb
+        is_object = self._starts_group() and not self._is_adverb()
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
+
+    def _is_adverb(self) -> bool:
+        """Whether what follows a verb is no object: "fast", "outside"."""
+        token = self._token()
+        is_bare = token.is_unknown and not token.text.endswith("s") and not self._starts_group(1)
+        return token.has("adverb") or is_bare
 
     def _is_verb(self, clause: Clause) -> bool:
         """Whether the token is a verb of the clause.
@@ -266,7 +278,8 @@ class _Parser:
 
     def _read_group(self, clause: Clause) -> Clause | None:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
-        is_rest = (self._token().is_unknown and is_said) or self._is_no_noun(clause)
+        is_rest = self._token().is_unknown and (is_said or (clause.verb and self._is_adverb()))
+        is_rest = is_rest or self._is_no_noun(clause)
         if is_rest or not self._starts_group():
             return None
         if clause.verb is None:

@@ -56,7 +56,8 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     if goes_on and act.kind == "move" and motions and motions[-1]["kind"] in _MEANS:
         motions[-1].update({"direction": act.direction} if act.direction else {})
         return
-    if goes_on and motions and motions[-1]["kind"] == "stand":
+    is_posture = act.kind not in (*_MEANS, "move")
+    if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
         motions.pop()  # "stands reading"
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}

@@ -48,14 +48,14 @@ class _SentenceReader:
         self._phases = 0
         """Times that "then" was said of things."""
         self._goes_on = False
-        """Whether the clause is about the same as the one before, at the same time."""
+        """Whether what the clause says is done while all that was said before of its subjects."""
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
         if clause.about == "then" and clause.verb is None and not self._was_camera:
             clause = replace(clause, verb=self._verb)
         self._verb = clause.verb or self._verb
-        self._goes_on = clause.about in ("meanwhile", "company")
+        self._goes_on = clause.about in ("meanwhile", "company") or bool(clause.subjects)
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
@@ -219,6 +219,7 @@ class _SentenceReader:
         draft, noun = self._draft, head.first("noun")
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         is_part = noun and ((is_owned and noun.value.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
