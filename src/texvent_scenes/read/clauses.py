@@ -388,7 +388,8 @@ class _Parser:
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
         before = self._token(-1)
-        if before.is_unknown and before.text.endswith("s") and token.verbs("ing"):
+        is_doing = token.verbs("ing") or (token.is_unknown and token.text.endswith("ing"))
+        if before.is_unknown and before.text.endswith("s") and is_doing:
             return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 

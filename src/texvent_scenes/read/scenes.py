@@ -97,7 +97,8 @@ class _SentenceReader:
         self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]
     ) -> tuple[list[int], list[int]]:
         """Apply the verb of a clause; the subjects that do it, and who is moved."""
-        is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
+        heads = [one.head for one in clause.objects]
+        is_unknown = any(one is None or one.is_liquid or not self._draft.shows(one) for one in heads)
         found = self._act(verb, subjects, objects, has_object=is_unknown)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
