@@ -271,7 +271,6 @@ def _group_by_best(instances: list[int], seen: Sequence[Counter[int]]) -> dict[i
     """Number of an instant → the instances of which it shows most."""
     best: dict[int, list[int]] = {}
     for one in instances:
-        best.setdefault(max(range(len(seen)), key=lambda at, one=one: seen[at][one]), []).append(
-            one
-        )
+        counts = [at[one] for at in seen]
+        best.setdefault(counts.index(max(counts)), []).append(one)
     return best

@@ -56,7 +56,9 @@ def run(arguments: Sequence[str]) -> int:
     if options.schema:
         write_out(f"{json.dumps(json_schema(list_words(nouns)), indent=2)}\n")
         return 0
-    rows = [(family, _names(noun), noun) for family, noun in _families(nouns)]
+    rows: list[tuple[str, tuple[str, ...], Noun | None]] = [
+        (family, _names(noun), noun) for family, noun in _families(nouns)
+    ]
     rows += [(kind, names, None) for kind, names in _list_kinds()]
     titles = ["family", "word", "also called"]
     if options.word is not None:

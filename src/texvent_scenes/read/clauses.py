@@ -174,13 +174,15 @@ class _Parser:
             is_next = is_thing or (phrase is not None and phrase.preposition.text == "with")
             return Clause(groups, about="company") if is_next else None
         verb = clause.verb
+        if verb is not None and token.verbs("ed") and self._token(1).text == "by":
+            return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
         if is_open and token.is_unknown and token.text.endswith("s"):  # "a cat sleeping wugs"
             return Clause(about="meanwhile", verb=self._take())
-        is_next = token.verbs("ing") or (is_open and token.verbs("s", "base"))
-        is_next = is_next and self._is_verb(replace(clause, verb=None))
+        forms = ("ing", "s", "base") if is_open else ("ing",)
+        is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
@@ -202,15 +204,15 @@ class _Parser:
         if not self._token().has("negations"):
             return None
         self._take()
-        return replace(clause, absent=(*clause.absent, *self._absent()))
+        return replace(clause, absent=(*clause.absent, *self._listed(self._group())))
 
-    def _absent(self) -> list[Group]:
+    def _listed(self, first: Group) -> list[Group]:
         """Groups of a list that "and" or "or" ends, all with articles or none."""
-        found, known, end = [self._group()], 1, self._at
+        found, known, end = [first], 1, self._at
         while self._token().text in (",", "and", "or") and self._starts_group(1):
             is_last = self._take().text != ","
             found.append(self._group())
-            is_alike = bool(found[-1].article) == bool(found[0].article)
+            is_alike = bool(found[-1].article) == bool(first.article)
             if not is_alike or self._is_verb(Clause((found[-1],))):
                 break
             known, end = (len(found), self._at) if is_last else (known, end)
@@ -258,6 +260,7 @@ class _Parser:
         if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
             return None
         is_back = token.has("relation") and self._token(1).has("pronouns")
+        is_back = is_back and not self._starts_group(1)  # "her car"
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
             if token.has("adverb") or not token.has("relation"):
                 return None
@@ -326,6 +329,8 @@ class _Parser:
         So does one with a like preposition: "a girl with a hat and a boy with a ball".
         """
         found = [self._group()]
+        if preposition.text == "with" and self._token().text == ",":
+            found = self._listed(found[0])
         while self._token().text == "and" and self._starts_group(1) and not self._has_object(1):
             start = self._at
             self._take()

@@ -10,6 +10,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, set_field
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
@@ -40,6 +41,8 @@ class _SentenceReader:
         self._nouns = nouns
         self._subjects: list[int] = []
         """Objects that the last clause was about."""
+        self._earlier: list[int] = []
+        """Objects that the clause before that one was about: "behind her"."""
         self._nearest: list[int] = []
         """Objects of the last noun group."""
         self._was_camera = False
@@ -81,6 +84,7 @@ class _SentenceReader:
         objects = [index for group in clause.objects for index in self._name(group)]
         subjects, objects, after = self._turn_passive(clause, subjects, objects)
         if clause.about != "company":
+            self._earlier = self._subjects if clause.subjects else self._earlier
             self._subjects = list(subjects)
         moved = subjects
         if clause.verb is not None:
@@ -98,7 +102,9 @@ class _SentenceReader:
     ) -> tuple[list[int], list[int]]:
         """Apply the verb of a clause; the subjects that do it, and who is moved."""
         heads = [one.head for one in clause.objects]
-        is_unknown = any(one is None or one.is_liquid or not self._draft.shows(one) for one in heads)
+        is_unknown = any(
+            one is None or one.is_liquid or not self._draft.shows(one) for one in heads
+        )
         found = self._act(verb, subjects, objects, has_object=is_unknown)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
@@ -386,8 +392,10 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
-            others = [] if set(self._nearest) & set(subjects) or not kind else self._nearest
-            if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
+            is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
+            others, targets = (subjects, self._earlier) if is_own else (self._nearest, subjects)
+            others = others if kind and targets else []
+            if not any([self._relate_one(kind, one, targets) for one in others]):
                 draft.mark(token, "lost")
             return []
         targets = list[int]()
@@ -427,6 +435,11 @@ class _SentenceReader:
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
+        is_table = kind == "with" and thing["noun"] in word_set("things", "tables")
+        if is_table and not self._moves(targets[0]) and target["noun"] not in nouns_with("seat"):
+            return all([draft.relate(one, "on", [index]) for one in targets])
+        if kind == "with" and target["noun"] in nouns_with("towering"):
+            return True  # it stands in the distance
         if kind == "with" and not any(map(self._moves, (index, *targets))):
             return False  # "a vase with roses", "a disc with a dot"
         if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
