@@ -20,8 +20,7 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 
 def _counts(token: Token) -> list[float]:
     """Numbers of things that a word means."""
-    values = (sense.value for sense in token.all("field"))
-    return [float(value) for field, value in values if field == "count"]
+    return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
 
 
 @dataclass(frozen=True)
@@ -71,9 +70,8 @@ class Clause:
     """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before, "meanwhile" at
-    the same time, or "then", after it; "nearest", its last group; "company", either: "a boat with
-    dolphins jumping"."""
+    """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -103,8 +101,6 @@ class _Parser:
 
     _tokens: Sequence[Token]
     _at: int = 0
-    _has_things: bool = False
-    """Whether a clause had subjects: "two dogs, both brown, chase a cat" tells no camera."""
 
     def clauses(self) -> Iterator[Clause]:
         """All clauses; each is begun as the one before says."""
@@ -115,7 +111,6 @@ class _Parser:
             following = self._end(clause)
             if following is not None:
                 yield clause
-                self._has_things |= bool(clause.subjects)
                 clause = following
             elif self._token() is not NO_TOKEN:
                 done = next((one for step in steps if (one := step(clause)) is not None), None)
@@ -157,23 +152,19 @@ class _Parser:
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:
-        """Clause of a second verb: a participle's, about the noun before it if that can do so.
-
-        A verb after a participle is about the same: "a car turning left passes".
-        """
-        token, before = self._token(), clause.after[-1] if clause.after else None
+        """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
+        token, verb = self._token(), clause.verb
+        before = clause.after[-1] if clause.after else None
         phrase = before if isinstance(before, Phrase) else None
         groups = clause.objects if phrase is None else phrase.groups
         is_here = bool(groups) and groups[-1].head is self._token(-1)
-        if token.verbs("ing") and is_here and (phrase or clause.verb):
+        if token.verbs("ing") and is_here and (phrase or verb):
             verbs = {one.value.kind for one in token.verbs("ing")}
-            is_support = phrase is not None and phrase.preposition.text in ("on", "in")
-            if clause.verb and not is_support and verbs & word_set("things", "in_place"):
+            word = "" if phrase is None else phrase.preposition.text
+            if verb and word not in ("on", "in") and verbs & word_set("things", "in_place"):
                 return Clause(about="nearest")  # "behind a disc spinning"
-            is_thing = self._token(-1).has("noun") or clause.verb is not None
-            is_next = is_thing or (phrase is not None and phrase.preposition.text == "with")
+            is_next = verb or word == "with" or self._token(-1).has("noun")
             return Clause(groups, about="company") if is_next else None
-        verb = clause.verb
         if verb is not None and token.verbs("ed") and self._token(1).text == "by":
             return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
@@ -194,7 +185,7 @@ class _Parser:
             self._at += ahead + 1
             return replace(clause, about="camera")
         verbs = {one.value.who for one in self._token().verbs("base")}
-        is_command = "camera" in verbs and (verbs == {"camera"} or not self._has_things)
+        is_command = verbs == {"camera"} or ("camera" in verbs and self._at == 0)
         if clause == Clause() and is_command and not self._token().has("noun"):
             return Clause(about="camera", verb=self._take())
         return None
@@ -210,11 +201,10 @@ class _Parser:
         """Groups of a list that "and" or "or" ends, all with articles or none."""
         found, known, end = [first], 1, self._at
         while self._token().text in (",", "and", "or") and self._starts_group(1):
-            is_last = self._take().text != ","
-            found.append(self._group())
-            is_alike = bool(found[-1].article) == bool(first.article)
-            if not is_alike or self._is_verb(Clause((found[-1],))):
+            is_last, group = self._take().text != ",", self._group()
+            if bool(group.article) != bool(first.article) or self._is_verb(Clause((group,))):
                 break
+            found.append(group)
             known, end = (len(found), self._at) if is_last else (known, end)
         self._at = end
         return found[:known]
@@ -237,14 +227,11 @@ class _Parser:
     def _is_adverb(self) -> bool:
         """Whether what follows a verb is no object: "fast", "outside"."""
         token = self._token()
-        is_bare = token.is_unknown and not token.text.endswith("s") and not self._starts_group(1)
-        return token.has("adverb") or is_bare
+        is_bare = token.is_unknown and not (token.text.endswith("s") or self._starts_group(1))
+        return is_bare or token.has("adverb")
 
     def _is_verb(self, clause: Clause) -> bool:
-        """Whether the token is a verb of the clause.
-
-        A bare form needs several subjects, and a word that is a noun too needs one right before.
-        """
+        """Whether the token is its verb: a bare form needs several subjects, a noun one before."""
         token = self._token()
         forms = {one.form for one in token.all("verb")}
         if not forms or (forms == {"base"} and not clause.is_plural):
@@ -259,8 +246,8 @@ class _Parser:
         is_doing = token.text in _IS and self._token(1).text.endswith("ing")
         if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
             return None
-        is_back = token.has("relation") and self._token(1).has("pronouns")
-        is_back = is_back and not self._starts_group(1)  # "her car"
+        is_before = self._token(1).has("pronouns") and not self._starts_group(1)  # no "her car"
+        is_back = token.has("relation") and is_before
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
             if token.has("adverb") or not token.has("relation"):
                 return None
@@ -324,10 +311,7 @@ class _Parser:
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
-        """Groups with "and" between them, but for one that begins a clause.
-
-        So does one with a like preposition: "a girl with a hat and a boy with a ball".
-        """
+        """Groups with "and", up to a subject: "a girl with a hat and a boy with a ball"."""
         found = [self._group()]
         if preposition.text == "with" and self._token().text == ",":
             found = self._listed(found[0])
@@ -371,13 +355,13 @@ class _Parser:
                 head = token
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
-        tail = [self._take() for _ in range(self._tail() if head is not None else 0)]
-        known = tuple(modifiers) if head is not None else ()
-        lost = (*modifiers[len(known) :], *unknown, *tail[:-1])
+        tail = [self._take() for _ in range(self._tail() if head else 0)]
+        known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         if self._token().text == "of" and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
-        return Group(head, (*known, *tail[-1:]), lost, article, of)
+        lost = [*lost, *unknown, *tail[:-1]]
+        return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
 
     def _tail(self) -> int:
         """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""
@@ -393,8 +377,7 @@ class _Parser:
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
         before = self._token(-1)
-        is_doing = token.verbs("ing") or (token.is_unknown and token.text.endswith("ing"))
-        if before.is_unknown and before.text.endswith("s") and is_doing:
+        if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 
