@@ -163,8 +163,8 @@ class _Parser:
             word = "" if phrase is None else phrase.preposition.text
             if verb and word not in ("on", "in") and verbs & word_set("things", "in_place"):
                 return Clause(about="nearest")  # "behind a disc spinning"
-            is_next = verb or word == "with" or self._token(-1).has("noun")
-            return Clause(groups, about="company") if is_next else None
+            is_near = word == "with" or self._token(-1).has("noun")
+            return Clause(groups, about="company") if verb or is_near else None
         if verb is not None and token.verbs("ed") and self._token(1).text == "by":
             return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
