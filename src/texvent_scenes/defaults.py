@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -52,7 +53,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
-    if not _has_motion(description):
+    if not _has_motion(description, nouns):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
@@ -202,9 +203,10 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     return _move(_change(description, new), motions)
 
 
-def _has_motion(description: SceneDescription) -> bool:
+def _has_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
     moved = (
         one.blink_hz is not None
+        or _flickers(one, nouns[one.noun])
         or len(one.motions) > 1
         or one.noun in nouns_with("flows")
         or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
@@ -212,6 +214,12 @@ def _has_motion(description: SceneDescription) -> bool:
     )
     acts = any(one.kind in _ACTS for one in description.relations)
     return description.camera.is_moving or bool(description.effects) or acts or any(moved)
+
+
+def _flickers(thing: SceneObject, noun: Noun) -> bool:
+    """Whether a lamp of what stays in its place changes by itself: a flame, a traffic light."""
+    lamps = LAMPS.get(noun.name, ()) if thing.is_lit is not False and noun.motion == "stand" else ()
+    return any(one.always_on and (one.blink_hz or one.own_hz or one.turns_hz) for one in lamps)
 
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
+from texvent.errors import ConfigError, InputError, warn
 from texvent.frames import (
     MICROSECONDS,
     Frame,
@@ -326,7 +326,7 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.warnings(MOST_WORDS):
+        for fault in report.warnings():
             warn(fault)
         metadata = {
             "generator": "procedural",

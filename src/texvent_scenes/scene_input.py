@@ -13,7 +13,7 @@ from texvent.generation.subjects import Subject
 from texvent.prompt_report import PromptReport
 from texvent_scenes.spec.data import checked_scene
 from texvent_scenes.spec.limits import Vocabulary
-from texvent_scenes.spec.scene import Scene
+from texvent_scenes.spec.scene import Light, Place, Scene
 
 if TYPE_CHECKING:
     from texvent_scenes.description import SceneDescription
@@ -61,11 +61,15 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str]]:
             "texvent simulate, or the column `video` of a list)"
         )
     reading = reader.read(prompt, nouns)
-    if reading.scene == Scene(prompt=prompt):
+    if not _has_subject(reading):
+        words = few(reading.not_understood, MOST_WORDS)
+        read = few(reading.shown, MOST_WORDS)
+        what = f"only {read} was understood in the prompt, and no thing or place to show"
+        what += f"; not understood: {words}" if words else ""
         raise InputError(
-            f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
-            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
-            "models that take any text"
+            f"{what if read else f'nothing in the prompt was understood: {words}'}; texvent scenes "
+            "lists the words of the embedded generator, texvent generators lists models that take "
+            "any text"
         )
     scene, notes = _without_idle(reading.scene, nouns)
     return replace(reading, scene=scene), notes
@@ -90,6 +94,20 @@ def _list_idle(scene: Scene, nouns: Mapping[str, Noun]) -> list[Idle]:
     from texvent_scenes.staging.idle_fields import list_idle
 
     return list(list_idle(scene, complete(to_description(scene), nouns), nouns))
+
+
+def _has_subject(reading: Reading) -> bool:
+    """Whether there is a thing, a place, weather or a way to show, or a light and no other word."""
+    from texvent_scenes.models.tables import nouns_with
+
+    scene = reading.scene
+    place, lost = replace(scene.place, is_empty=False), reading.not_understood
+    backgrounds = nouns_with("only a background")
+    is_still = all(one.noun in backgrounds and not one.motions for one in scene.objects)
+    is_way = any(one.means is not None for one in scene.camera.moves)
+    is_light = scene.light != Light() and not lost
+    is_thing = bool(scene.objects) and not (is_still and lost)
+    return is_thing or bool(scene.effects) or place != Place() or is_way or is_light
 
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:

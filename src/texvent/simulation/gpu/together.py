@@ -15,7 +15,8 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.pairs.on_device import batches_on
 from texvent.runtime.devices import EXTRA, Device, Tensor, explain_device_memory
 from texvent.simulation.gpu.engine import GpuSimulator
-from texvent.simulation.packets import FrameInterval, UnsortedEvents, make_packet
+from texvent.simulation.packets import FrameInterval, UnsortedEvents
+from texvent.simulation.streaming import make_packet
 
 FRAMES_AT_ONCE = 8
 """Frames of each clip in a call, at least, unless one ends."""
