@@ -87,6 +87,9 @@ def list_verb_forms(verb: str, irregular: str = "") -> list[tuple[str, str]]:
     past = f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{stem}ed"
     present, *pasts = irregular.split() or (f"{stem}ing", past)
     forms = [(verb, "base"), (_third_person(verb), "s"), (present, "ing")]
+    if re.search(r"[^aeiou][aeiou]l$", verb):  # British: "travelling"
+        forms.append((f"{verb}ling", "ing"))
+        pasts.append(f"{verb}led")
     return [*forms, *((one, "ed") for one in pasts)]
 
 

@@ -67,7 +67,8 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     motions, pace = thing["motions"], act.pace
     if not act.kind:
         return
-    if goes_on and act.kind == "move" and motions and motions[-1]["kind"] in _MEANS:
+    is_way = bool(motions) and (motions[-1]["kind"] in _MEANS or "speed_m_s" in motions[-1])
+    if goes_on and act.kind == "move" and is_way:
         motions[-1].update({"direction": act.direction} if act.direction else {})
         return
     is_posture = act.kind not in (*_MEANS, "move")
