@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
-from texvent.api import Source
+from texvent.api.functions import Source
 from texvent.config import check_range
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
 from texvent.errors import ConfigError, InputError

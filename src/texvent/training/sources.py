@@ -13,7 +13,7 @@ from typing import Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent import api
+from texvent.api import functions as api
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.dataset.generation.recipe import SPECIFICATION_FILE, load_recipe

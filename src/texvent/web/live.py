@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from texvent.api.event_camera import EventCamera
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
-from texvent.event_camera import EventCamera
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS, Frame, FrameStream, transfer_of
 from texvent.settings.provenance import describe_run
