@@ -21,7 +21,7 @@ from texvent.frames import MICROSECONDS, Frame, FrameStream, transfer_of
 from texvent.settings.provenance import describe_run
 from texvent.simulation.model_options import contrast_threshold_of
 from texvent.transfer import Transfer
-from texvent.web.recording import Recording
+from texvent.web.recording import LiveRecording
 
 MEASURED_FRAMES = 300
 """Drawn frames over which latency is measured, the latest."""
@@ -64,7 +64,7 @@ class LiveEvents:
         self._waiting: tuple[Frame, float] | None = None
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
-        self._recording: Recording | None = None
+        self._recording: LiveRecording | None = None
         self._error: TexventError | None = None
         self._is_over = False
         self._changed = threading.Condition(threading.RLock())
@@ -127,7 +127,7 @@ class LiveEvents:
             self._refuse_recording()
             if self._state != "running" or self._shown is None:
                 raise InputError(f"no events come ({self._state}); there is nothing to record")
-            self._recording = Recording(
+            self._recording = LiveRecording(
                 path,
                 size=self._camera.size,
                 metadata=describe_run(
@@ -247,7 +247,7 @@ class LiveEvents:
                 self.stop_recording()
 
 
-def _reported(error: Exception, recording: Recording | None = None) -> TexventError:
+def _reported(error: Exception, recording: LiveRecording | None = None) -> TexventError:
     """An error in one line, with the place of the events that it could not spoil."""
     if not isinstance(error, TexventError):
         error = TexventError(f"{type(error).__name__}: {one_line(error)}")

@@ -22,7 +22,7 @@ from texvent.transform.edits import keep_time
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReadingOptions:
+class FileFactOptions:
     """Facts that a file does not state, and which of its recordings is meant."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"stream": "--topic --group"}
@@ -57,7 +57,7 @@ class ReadingOptions:
 
 
 @dataclass(frozen=True, kw_only=True)
-class EventFileOptions(ReadingOptions):
+class EventFileOptions(FileFactOptions):
     """Event file to read."""
 
     positional: ClassVar[tuple[str, ...]] = ("path",)
