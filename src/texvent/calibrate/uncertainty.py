@@ -15,8 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate, Measurement, UnidentifiedOption
+from texvent.calibrate.estimates import (
+    Estimate,
+    Float64Array,
+    Measurement,
+    UnidentifiedOption,
+    bootstrap,
+)
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.search import COORDINATES, STEPS, Search, measure_distance
 from texvent.events import EventStream
