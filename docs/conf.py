@@ -25,7 +25,6 @@ os.environ.update(TTY_COMPATIBLE="0", NO_COLOR="1", COLUMNS="90")
 
 import camera_tables  # noqa: E402 - docs/site is on the path only now
 import making  # noqa: E402
-import scene_fields  # noqa: E402
 
 project = "texvent"
 author = "The texvent authors"
@@ -145,8 +144,6 @@ def adapt_page(_: Sphinx, page: str, source: list[str]) -> None:
     text = re.sub(rf"\[([^\]]+)\]\({up}\.\./[\w/-]+\)", r"\1", text)  # folders of the repository
     if page == "index":
         text += unlisted(text)
-    if page == "scenes":
-        text = scene_fields.with_tables(text)
     if page == "simulators/cameras":
         text = camera_tables.with_tables(text)
     if CHILDREN.get(page):

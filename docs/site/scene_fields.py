@@ -1,6 +1,10 @@
-"""Tables of the fields of scene files, made from the dataclasses of `texvent_scenes.spec.scene`."""
+"""Tables of the fields of scene files, made from the dataclasses of `texvent_scenes.spec.scene`.
+
+python docs/site/scene_fields.py    # writes them into docs/scenes.md
+"""
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.options.values import option_help
@@ -8,8 +12,9 @@ from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.limits import Between
 from texvent_scenes.spec.tables import field_types, inner_type
 
-MARK = "<!-- fields: "
-"""Begins the line of the page that the tables take the place of."""
+PAGE = Path(__file__).parents[1] / "scenes.md"
+BEGIN, END = "<!-- fields: made by docs/site/scene_fields.py -->", "<!-- end of fields -->"
+"""Lines of the page that the tables stand between."""
 TABLES = {
     "Scene": spec.Scene,
     "objects": spec.SceneObject,
@@ -27,10 +32,10 @@ _NAMES = {str: "text", float: "number", int: "whole number", bool: "true or fals
 
 
 def with_tables(page: str) -> str:
-    """The page with the tables in place of its mark."""
-    lines = page.split("\n")
-    (number,) = [n for n, line in enumerate(lines) if line.startswith(MARK)]
-    return "\n".join([*lines[:number], *field_tables(), *lines[number + 1 :]])
+    """The page with the tables between its marks."""
+    before, _, rest = page.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    return f"{before}{BEGIN}\n\n{chr(10).join(field_tables())}{END}{after}"
 
 
 def field_tables() -> Iterator[str]:
@@ -63,3 +68,7 @@ def _takes(hint: Any) -> str:
 
 def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
+
+
+if __name__ == "__main__":
+    PAGE.write_text(with_tables(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -167,6 +167,8 @@ class ReadingConfig:
     """Skip this many seconds of input."""
     stop: float | None = None
     """Stop at this time of the input, in seconds."""
+    topic: str | None = None
+    """Topic of a ROS bag whose images are the frames, where several have images."""
     white_level: float | None = None
     """Value that means white: 1 for floats from 0 to 1, 4095 for 12 bits stored in 16. Without it,
     white is 255 (8-bit and float), 65535 (16-bit), 1 (.exr, .hdr), 203 cd/m² (PQ) or 0.265 of the

@@ -10,7 +10,7 @@ and optical flow run a few frames ahead in threads of their own; the events are 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -160,6 +160,34 @@ class Simulation:
         """Provenance: stored in every output, enough to make the events again."""
         facts = describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
         return facts | self.device.facts
+
+
+def simulate_together(
+    runs: Sequence[Simulation], take: Callable[[int, Frame, EventStream], bool]
+) -> list[int]:
+    """`Simulation.steps` of several runs as one batch on their device.
+
+    Args:
+        runs: of one size and pixel model, on one device.
+        take: called with the number of a run, its next dense frame, and the packet that ends
+            there; False: no more of that run is wanted.
+
+    Returns:
+        Numbers of runs that broke off; alone, `Simulation.steps` says why.
+
+    Raises:
+        TexventError: as `Simulation.steps`, of any of them.
+    """
+    from texvent.simulation.gpu.together import advance_together  # brings torch and Triton
+
+    def give(number: int, frame: Frame, packet: EventStream) -> bool:
+        return take(number, frame, select_events(packet, runs[number].settings.run))
+
+    seeds = [one.settings.run.seed for one in runs]
+    with ExitStack() as threads:
+        clips = [one.begin(threads)[1] for one in runs]
+        device = runs[0].device.resident
+        return advance_together(runs[0].settings.simulate, seeds, clips, device, give)
 
 
 def select_events(packet: EventStream, run: RunConfig) -> EventStream:

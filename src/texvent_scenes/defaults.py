@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -44,7 +45,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     """
     description = _rest(_set_far(description), nouns)
     objects = tuple(
-        replace(one, motions=(*_decide_motion(one.motion, nouns[one.noun]), *one.motions[1:]))
+        replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
     )
     description = _darken(_move_others(replace(description, objects=objects), nouns))
@@ -52,7 +53,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
-    if not _has_motion(description):
+    if not _has_motion(description, nouns):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
@@ -87,6 +88,12 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
 
 
+def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
+    """Motions as they are staged, of one object by itself."""
+    later = (_at_rate(one, noun) for one in motions[1:])
+    return (*_decide_motion(motions[0] if motions else None, noun), *later)
+
+
 def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
     """The usual motion for "move", and for what always moves."""
     if noun.is_working and _is_work(motion, noun):
@@ -100,9 +107,15 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
-    if motion.kind == "spin" and motion.rate_hz is not None:
-        motion = replace(motion, pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
-    return (motion,)
+    return (_at_rate(motion, noun),)
+
+
+def _at_rate(motion: Motion, noun: Noun) -> Motion:
+    """A spin at the pace that its turns per second are; only hands rotate, all else spins."""
+    turns = motion.kind == "spin" or (motion.kind == "rotate" and noun.name not in HAND_NOUNS)
+    if not turns or motion.rate_hz is None:
+        return motion
+    return replace(motion, kind="spin", pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
 
 
 def _is_work(motion: Motion | None, noun: Noun) -> bool:
@@ -122,8 +135,11 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
     direction = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
+    belt_m_s = trait_value("belt speed", noun.name)
     if motion.rate_hz is not None and own_hz is not None:
         pace = motion.rate_hz / own_hz
+    elif motion.speed_m_s is not None and belt_m_s is not None:
+        pace = motion.speed_m_s / belt_m_s
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
     return Motion("work", direction, pace, end_pace=motion.end_pace)
@@ -187,9 +203,10 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     return _move(_change(description, new), motions)
 
 
-def _has_motion(description: SceneDescription) -> bool:
+def _has_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
     moved = (
         one.blink_hz is not None
+        or _flickers(one, nouns[one.noun])
         or len(one.motions) > 1
         or one.noun in nouns_with("flows")
         or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
@@ -197,6 +214,12 @@ def _has_motion(description: SceneDescription) -> bool:
     )
     acts = any(one.kind in _ACTS for one in description.relations)
     return description.camera.is_moving or bool(description.effects) or acts or any(moved)
+
+
+def _flickers(thing: SceneObject, noun: Noun) -> bool:
+    """Whether a lamp of what stays in its place changes by itself: a flame, a traffic light."""
+    lamps = LAMPS.get(noun.name, ()) if thing.is_lit is not False and noun.motion == "stand" else ()
+    return any(one.always_on and (one.blink_hz or one.own_hz or one.turns_hz) for one in lamps)
 
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

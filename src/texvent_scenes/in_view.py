@@ -21,14 +21,15 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.raycast.ground_truth import visible_instances
-from texvent_scenes.raycast.render import render
+from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
+from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.relation_check import Body, Violation, body_of, find_violations
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place
-from texvent_scenes.staging.actors import Actor, assemble
+from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
@@ -39,6 +40,8 @@ MOST_POINTS = 12_000
 """Points of the grid."""
 LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
+LEAST_SEEN = 0.15
+"""Share of an object's pixels that nothing stands before; of less it is hidden."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
@@ -49,7 +52,10 @@ _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
-_TURNS = ("spin", "work", "rotate")
+_WALLS = (Texture.PLASTER, Texture.CONCRETE)
+"""Walls that many rooms have."""
+_TURNS, _RESTS = ("spin", "work", "rotate"), ("stand", "hang", "work", "sit", "lie")
+"""Motions that only a picture tells, and those that nothing needs to show."""
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
 """Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
 _SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
@@ -60,7 +66,7 @@ class Unseen(NamedTuple):
     """Words of a scene that a clip does not show."""
 
     out_of_view: tuple[str, ...]
-    """Such as "tree", or "dog (2 of 3)"."""
+    """Such as "tree", "dog (2 of 3)" or "man (hidden)"."""
     too_small: tuple[str, ...]
     """Such as "bird (2 pixels)"."""
     violations: tuple[Violation, ...] = ()
@@ -76,7 +82,8 @@ def find_unseen(
     """
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
     cameras = [scene.camera(time_s) for time_s in times]
-    pixels = count_pixels(scene, list(scene.class_names), size, times)
+    views = count_pixels(scene, list(scene.class_names), size, times)
+    pixels = {one: view.pixels for one, view in views.items()}
     related = {i for one in description.relations for i in one.targets}
     outside, small, bodies = list[str](), list[str](), list[list[Body]]()
     for index, thing in enumerate(description.objects):
@@ -89,6 +96,8 @@ def find_unseen(
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
+        elif max(views[one.instance].share for one in own) < LEAST_SEEN:
+            outside.append(f"{thing.noun} (hidden)")
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
@@ -131,19 +140,44 @@ def _find_unshown(
             yield Violation("is_lit", "", f"lights of the {one.noun}")
         if one.noun in nouns_with("part of a wall"):
             yield Violation("noun", one.noun, f"the {one.noun} in a wall")
+    yield from _find_rest(scene, description, times)
     turning = [one for one in description.objects
                if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
     if turning and not description.camera.is_moving and not _differs(scene, scene, times, _LATER_S):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
-    is_shared = place.is_room or place.surface in _FLOORS or place is not next(
+    is_common = place.surface in _FLOORS or place is not next(
         one for one in alike if one.surface is place.surface)  # fmt: skip
+    is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
-    bare = replace(scene, still=assemble([]))
-    if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
-        line = f"{said.name}, of which only the ground is in view"
+    other = replace(scene, still=assemble([]))
+    if is_said and is_shared and place.scenery and not _differs(scene, other, times, 0.0, 0.02):
+        bare = "bare walls and the floor are" if place.is_room else "the ground is"
+        line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
+
+
+def _find_rest(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Motions and activities of bodies that neither move nor take a posture."""
+    for index, one in enumerate(description.objects):
+        own = [actor for actor in scene.actors if actor.object_index == index]
+        kind = one.motion.kind if one.motion and not one.motions[1:] else _RESTS[0]
+        if own and kind not in _RESTS and not any(_is_changed(actor, times) for actor in own):
+            yield Violation("motion", kind, f"the {one.noun}'s {kind}: nothing of it moves")
+
+
+def _is_changed(actor: Actor, times: Sequence[float]) -> bool:
+    """Whether its parts are in other places at another instant, or than at rest."""
+    first, *others = (actor.place(time_s) for time_s in times)
+    rest = PlacedModel(actor.own_parts(Pose(0.0, 0.0, 0.0, "stand")), first.to_world, 0)
+    places = [assemble([one]).to_world for one in (first, *others, rest)]
+    return not all(
+        one.shape == places[0].shape and np.allclose(one, places[0], atol=1e-3)
+        for one in places[1:]
+    )
 
 
 def _list_without(
@@ -204,16 +238,39 @@ def _differs(
     return False
 
 
+class View(NamedTuple):
+    """The most that is seen of a body."""
+
+    pixels: int
+    """Its pixels at the instant that shows most of it."""
+    share: float
+    """Share of those that it would have if nothing stood before it."""
+
+
 def count_pixels(
     scene: RenderedScene, instances: list[int], size: SensorSize, times: Sequence[float]
-) -> dict[int, int]:
-    """Instance id → its pixels at the instant that shows most of it, from a grid of points."""
+) -> dict[int, View]:
+    """Instance id → what is seen of it, from a grid of points."""
     step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
     x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    most = dict.fromkeys(instances, 0)
-    for time_s in times:
-        _, owner = visible_instances(scene, time_s, size, points)
-        seen = Counter(owner.tolist())
-        most = {one: max(count, seen[one] * step * step) for one, count in most.items()}
-    return most
+    seen = [Counter(visible_instances(scene, time_s, size, points)[1].tolist()) for time_s in times]
+    views = {}
+    for number, ids in _group_by_best(instances, seen).items():
+        world, shapes = world_and_shapes(scene, times[number], size, shadows=False)
+        owner = shapes.instance.astype(np.int32)
+        alone = np.zeros(1 + max(max(ids), int(owner.max(initial=0))), dtype=np.int64)
+        count_unoccluded(world.instant, owner, points, alone)
+        for one in ids:
+            count = seen[number][one]
+            views[one] = View(count * step * step, count / max(int(alone[one]), 1))
+    return {one: views[one] for one in instances}
+
+
+def _group_by_best(instances: list[int], seen: Sequence[Counter[int]]) -> dict[int, list[int]]:
+    """Number of an instant → the instances of which it shows most."""
+    best: dict[int, list[int]] = {}
+    for one in instances:
+        counts = [at[one] for at in seen]
+        best.setdefault(counts.index(max(counts)), []).append(one)
+    return best

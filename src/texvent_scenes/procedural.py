@@ -11,16 +11,16 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
+from texvent.errors import ConfigError, InputError, warn
 from texvent.frames import (
     MICROSECONDS,
     Frame,
@@ -45,13 +45,13 @@ if TYPE_CHECKING:
     from texvent.prompt_report import PromptReport
     from texvent.runtime.progress import Progress
     from texvent_scenes.description import SceneDescription
+    from texvent_scenes.in_view import Unseen
     from texvent_scenes.models.protocol import Noun
-    from texvent_scenes.raycast.incremental import IncrementalRenderer
+    from texvent_scenes.raycast.incremental import IncrementalRenderer, RenderedFrame
+    from texvent_scenes.raycast.optics import Optics
     from texvent_scenes.rendered_scene import RenderedScene
     from texvent_scenes.staging.compose import ComposedScene
 
-Rendered: TypeAlias = tuple[NDArray[np.float32], NDArray[np.int64]]
-"""Pixels and codes, as of `SceneFrame`."""
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
 IMAGES_AHEAD = 8
@@ -73,6 +73,10 @@ class ProceduralConfig:
     enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
+    point_spread: float = 0.7
+    """Standard deviation of the lens' image of a point, in pixels; 0 = a perfect lens."""
+    vignetting: bool = True
+    """Whether the lens passes less light off its axis: cos⁴ of the angle to it."""
     assets: Path | None = None
     """Folder of models (GLB, OBJ, PLY), which prompts call by their file names; they take the place
     of embedded ones of the same name. See docs/assets.md."""
@@ -86,6 +90,7 @@ class ProceduralConfig:
     def __post_init__(self) -> None:
         check_range("duration", self.duration, 1e-6, 86_400.0)
         check_range("samples", self.samples, 1, 8)
+        check_range("point_spread", self.point_spread, 0.0, 10.0)
         check_range("fps", self.fps, *FPS_RANGE)
         if self.intervals < 1:
             raise ConfigError(
@@ -103,8 +108,7 @@ class ProceduralConfig:
 class SceneFrame(Frame):
     """A frame of a scene."""
 
-    codes: NDArray[np.int64] | None = None
-    """[H, W] what fills its pixels; see `raycast.adaptive_sampling.render_rows`."""
+    made_of: RenderedFrame | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -155,18 +159,18 @@ class ProceduralVideo(NotebookFrames):
         renderer = self._make_renderer()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels, codes = self._render(renderer, t_us)
+            made = self._render(renderer, t_us)
             motion = self._motion(index) if self.has_motion else None
-            yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
+            yield SceneFrame(made.pixels, t_us, motion=motion, transfer=self.transfer, made_of=made)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._render(self._renderer, t_us)
+        pixels = self._render(self._renderer, t_us).pixels
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
-    def _render(self, renderer: IncrementalRenderer, t_us: int) -> Rendered:
+    def _render(self, renderer: IncrementalRenderer, t_us: int) -> RenderedFrame:
         make = partial(renderer.render, t_us / MICROSECONDS)
-        return cast(Rendered, self._once("frame", t_us, make=make))
+        return cast("RenderedFrame", self._once("frame", t_us, make=make, bytes_per_pixel=48))
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -236,9 +240,11 @@ class ProceduralVideo(NotebookFrames):
         start, stop = first.motion or MotionVectors(), second.motion or MotionVectors()
         speeds = block_speeds(self.size, start.forward, stop.backward)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        before = DrawnInstant(0, first.float_luma, getattr(first, "codes", None))
-        after = DrawnInstant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
-        return self._renderer.render_between(before, after, speeds, times)
+        ends = []
+        for number, frame in ((0, first), (len(times) - 1, second)):
+            made = getattr(frame, "made_of", None) or self._render(self._renderer, frame.t_us)
+            ends.append(DrawnInstant(number, frame.float_luma, made.light, made.codes))
+        return self._renderer.render_between(ends[0], ends[1], speeds, times)
 
     def _motion(self, index: int) -> MotionVectors:
         """Motion from a frame to its neighbours."""
@@ -262,8 +268,15 @@ class ProceduralVideo(NotebookFrames):
 
         samples, shadows, code = self.config.samples, self.config.shadows, self._code
         return IncrementalRenderer(
-            self.scene, self.size, samples=samples, shadows=shadows, code=code
+            self.scene, self.size, samples=samples, shadows=shadows, code=code, optics=self.optics
         )
+
+    @property
+    def optics(self) -> Optics:
+        """The lens of the camera."""
+        from texvent_scenes.raycast.optics import Optics
+
+        return Optics(self.config.point_spread, self.config.vignetting)
 
     def gamma_coded(self) -> ProceduralVideo:
         """The same scene in gamma-coded frames, which go above white where it has highlights."""
@@ -271,7 +284,7 @@ class ProceduralVideo(NotebookFrames):
         return replace(self, transfer=Transfer.GAMMA, metadata=facts)
 
     @property
-    def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
+    def _code(self) -> Callable[[NDArray[Any]], NDArray[np.float32]]:
         """Light (1 is white) → levels of a frame."""
         return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
 
@@ -313,7 +326,7 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.warnings(MOST_WORDS):
+        for fault in report.warnings():
             warn(fault)
         metadata = {
             "generator": "procedural",
@@ -355,30 +368,27 @@ class ProceduralGenerator:
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent_scenes.assets.nouns import list_files
-        from texvent_scenes.in_view import find_unseen, without_words
-        from texvent_scenes.staging.compose import compose_scene
+        from texvent_scenes.in_view import without_words
 
         named = nouns_of(prompt, self._nouns)
         description = understand(prompt, named)
         said = self._accepted(report_of(description))  # before the scene is built
-        duration_s = self.config.duration
-        scene = compose_scene(
-            description,
-            seed=self.seed,
-            size=self.size,
-            duration_s=duration_s,
-            nouns=_shown_nouns(description, named),
+        files = list_files(description, named)
+        nouns = tuple(named[one.noun] for one in description.objects)
+        contents = tuple(tuple(one.values()) for one in files)
+        scene, unseen = _staged(
+            description, nouns, contents, self.seed, self.size, self.config.duration
         )
-        unseen = find_unseen(scene, description, self.size, duration_s)
         report = replace(
             said,
             shown=without_words(said.shown, unseen.violations),
+            notes=(*said.notes, *scene.notes),
             not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.violations))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )
         scene = replace(scene, has_highlights=self.config.hdr)
-        return scene, self._accepted(report), list_files(description, named)
+        return scene, self._accepted(report), files
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:
@@ -393,8 +403,34 @@ class ProceduralGenerator:
         return report
 
 
-def _shown_nouns(description: SceneDescription, named: Mapping[str, Noun]) -> Mapping[str, Noun]:
-    """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
-    from texvent_scenes.models.nouns import NOUNS
+@lru_cache(maxsize=4)
+def _staged(
+    description: SceneDescription,
+    named: tuple[Noun, ...],
+    contents: tuple[tuple[str, ...], ...],
+    seed: int,
+    size: SensorSize,
+    duration_s: float,
+) -> tuple[ComposedScene, Unseen]:
+    """A scene and what it does not show; kept, since one is often simulated several times.
 
-    return {**NOUNS, **{one.noun: named[one.noun] for one in description.objects}}
+    Assets are shown where the prompt names them, not as scenery.
+
+    Args:
+        description: the scene.
+        named: the noun of each of its objects.
+        contents: states of the files that it is made of: with others it is another scene.
+        seed: decides the layout.
+        size: of the image, pixels.
+        duration_s: length of the clip, s.
+    """
+    del contents
+    from texvent_scenes.in_view import find_unseen
+    from texvent_scenes.models.nouns import NOUNS
+    from texvent_scenes.staging.compose import compose_scene
+
+    shown = {one.noun: noun for one, noun in zip(description.objects, named, strict=True)}
+    scene = compose_scene(
+        description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
+    )
+    return scene, find_unseen(scene, description, size, duration_s)

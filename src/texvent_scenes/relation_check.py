@@ -6,6 +6,7 @@ image.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import PLACING
 from texvent_scenes.staging.actors import Actor
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
@@ -26,8 +28,9 @@ _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "p
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
-_LASTING = ("on", "in")
-"""Relations that hold at half of the instants at least; others hold at one."""
+_LASTING = ("on", "in", "at", "with")
+"""Relations that hold at half of the instants at least, as places do of what stays; others hold at
+one instant."""
 _LEAST_DISPLACEMENT, _MOST_COPIES = 0.1, 0.75
 """Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 
@@ -86,11 +89,10 @@ def find_violations(
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
         is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
-        rule = _RULES.get("in" if is_flat else one.kind)
-        if rule is None or one.subject in one.targets:
+        kind = "in" if is_flat else one.kind
+        if kind not in (*_RULES, "between") or one.subject in one.targets:
             continue
-        least = 0.5 if one.kind in _LASTING else 1e-9
-        held = [any(np.mean(rule(body, other)) >= least for other in others) for body in own]
+        held = [_holds(kind, body, others) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = one.kind.replace("front", "in front of")
@@ -105,6 +107,27 @@ def find_violations(
             if not any(sign * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
+
+
+def _holds(kind: str, body: Body, others: Sequence[Body]) -> bool:
+    """Whether a body is so to another one, or between two of them, for long enough."""
+    if kind == "between":
+        pairs = itertools.combinations(others, 2)
+        flags = [(_is_between(body, *pair), _stay(body, *pair)) for pair in pairs]
+    else:
+        flags = [(_RULES[kind](body, other), _stay(body, other)) for other in others]
+    is_lasting = kind in _LASTING
+    return any(
+        np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
+        for held, stay in flags
+    )
+
+
+def _stay(*bodies: Body) -> bool:
+    """Whether bodies stay in their places."""
+    return all(
+        np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max() for one in bodies
+    )
 
 
 _Flags = NDArray[np.bool_]
@@ -169,8 +192,24 @@ def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
 def _is_around(one: Body, other: Body) -> _Flags:
     """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    is_still = np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max()
-    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or is_still])
+    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or _stay(one)])
+
+
+def _is_near(one: Body, other: Body, share: float) -> _Flags:
+    """Whether the gap on the ground is at most a share of the greater one's extent."""
+    gap = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
+    extent = np.maximum(one.size.max(axis=1), other.size.max(axis=1))
+    return np.asarray(np.linalg.norm(np.maximum(gap[:, :2], 0.0), axis=1) <= share * extent)
+
+
+def _is_between(one: Body, first: Body, second: Body) -> _Flags:
+    """Whether its middle lies beside the way from one to the other, nearer than half of that."""
+    way = (second.middle - first.middle)[:, :2]
+    off = (one.middle - first.middle)[:, :2]
+    length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
+    along = (off * way).sum(axis=1) / length**2
+    aside = np.abs(off[:, 0] * way[:, 1] - off[:, 1] * way[:, 0]) / length
+    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= 0.5 * length))
 
 
 _RULES: Mapping[str, _Rule] = {
@@ -183,8 +222,10 @@ _RULES: Mapping[str, _Rule] = {
     "front": lambda one, other: _deeper(one, other, -1),
     "left of": lambda one, other: _aside(one, other) <= -0.5,
     "right of": lambda one, other: _aside(one, other) >= 0.5,
+    "at": lambda one, other: _is_near(one, other, 0.4),
+    "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
     "from": lambda one, other: _recedes(one, other, 1),
 }  # fmt: skip
-"""Kind of relation → whether a body is so to another; "between", "with" and acts have none."""
+"""Kind of relation → whether a body is so to another; acts have none."""

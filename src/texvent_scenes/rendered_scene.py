@@ -82,6 +82,11 @@ class Texture(IntEnum):
     LEATHER = 47
     SCALES = 48
     SPOTS = 49
+    LACQUER = 50
+    """Paint under a clear coat, on crowned sheet metal."""
+    PANE = 51
+    """Window glass, and what is dark behind it."""
+    MIRROR = 52
 
 
 FIRST_SURFACE = Texture.VARIATION
@@ -226,6 +231,8 @@ class Environment:
     """Material of a room's walls."""
     media: NDArray[Any] = field(default_factory=lambda: np.zeros(0, MEDIUM_RECORD))
     """[k] `MEDIUM_RECORD`: participating media."""
+    wetness: float = 0.0
+    """Share of rain water on roads and paving, 0..1: they are darker, and mirror."""
     wave_height: float = 1.0
     """Height of waves on water, 1 = those of a light breeze; above 1 their crests foam."""
     has_stars: bool = True

@@ -13,12 +13,16 @@ from texvent.generation.subjects import Subject
 from texvent.prompt_report import PromptReport
 from texvent_scenes.spec.data import checked_scene
 from texvent_scenes.spec.limits import Vocabulary
-from texvent_scenes.spec.scene import Scene
+from texvent_scenes.spec.scene import Light, Place, Scene
 
 if TYPE_CHECKING:
     from texvent_scenes.description import SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
+    from texvent_scenes.staging.idle_fields import Idle
+
+_MOST_PASSES = 3
+"""Passes that leave out fields without effect: one left out may leave another without."""
 
 
 def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
@@ -42,10 +46,11 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    return _read(prompt, list_nouns(assets))
+    return _read(prompt, list_nouns(assets))[0]
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str]]:
+    """The reading of a prompt, without fields that change nothing, and notes of these."""
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
 
@@ -56,13 +61,53 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
             "texvent simulate, or the column `video` of a list)"
         )
     reading = reader.read(prompt, nouns)
-    if reading.scene == Scene(prompt=prompt):
+    if not _has_subject(reading):
+        words = few(reading.not_understood, MOST_WORDS)
+        read = few(reading.shown, MOST_WORDS)
+        what = f"only {read} was understood in the prompt, and no thing or place to show"
+        what += f"; not understood: {words}" if words else ""
         raise InputError(
-            f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
-            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
-            "models that take any text"
+            f"{what if read else f'nothing in the prompt was understood: {words}'}; texvent scenes "
+            "lists the words of the embedded generator, texvent generators lists models that take "
+            "any text"
         )
-    return reading
+    scene, notes = _without_idle(reading.scene, nouns)
+    return replace(reading, scene=scene), notes
+
+
+def _without_idle(scene: Scene, nouns: Mapping[str, Noun]) -> tuple[Scene, list[str]]:
+    from texvent_scenes.staging.idle_fields import leave_out
+
+    notes: list[str] = []
+    for _ in range(_MOST_PASSES):
+        idle = _list_idle(scene, nouns)
+        if not idle:
+            break
+        scene = leave_out(scene, idle)
+        notes += [f"{one.path} would change nothing and is left out: {one.why}" for one in idle]
+    return scene, notes
+
+
+def _list_idle(scene: Scene, nouns: Mapping[str, Noun]) -> list[Idle]:
+    from texvent_scenes.defaults import complete
+    from texvent_scenes.description import to_description
+    from texvent_scenes.staging.idle_fields import list_idle
+
+    return list(list_idle(scene, complete(to_description(scene), nouns), nouns))
+
+
+def _has_subject(reading: Reading) -> bool:
+    """Whether there is a thing, a place, weather or a way to show, or a light and no other word."""
+    from texvent_scenes.models.tables import nouns_with
+
+    scene = reading.scene
+    place, lost = replace(scene.place, is_empty=False), reading.not_understood
+    backgrounds = nouns_with("only a background")
+    is_still = all(one.noun in backgrounds and not one.motions for one in scene.objects)
+    is_way = any(one.means is not None for one in scene.camera.moves)
+    is_light = scene.light != Light() and not lost
+    is_thing = bool(scene.objects) and not (is_still and lost)
+    return is_thing or bool(scene.effects) or place != Place() or is_way or is_light
 
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
@@ -125,14 +170,14 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading = _read(str(subject), nouns)
+    reading, notes = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
     words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
     )
-    return replace(description, words=words)
+    return replace(description, words=words, notes=(*description.notes, *notes))
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -147,6 +192,8 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
+    for idle in _list_idle(scene, nouns):
+        raise ConfigError(f"{idle.path} has no effect: {idle.why}")
     return complete(to_description(scene), nouns)
 
 

@@ -6,10 +6,13 @@ import html
 import re
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 from tests.dataset.conftest import CARS
 
 from texvent.cli.app import main
+from texvent.dataset import SampleSource, Specification, make
 from texvent.dataset.preview import choose_samples
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError
@@ -29,6 +32,19 @@ def test_the_page_shows_every_sample_with_its_caption(
         assert html.escape(prompt) in page
     assert main(["dataset", "sample", str(cars), "-o", str(out)]) == 3
     assert [path.name for path in tmp_path.iterdir()] == ["look.html"]
+
+
+def test_videos_without_a_caption_have_their_names(tmp_path: Path) -> None:
+    (tmp_path / "left" / "a<b>").mkdir(parents=True)
+    for number, image in enumerate(np.random.default_rng(0).integers(0, 255, (4, 12, 16))):
+        cv2.imwrite(str(tmp_path / "left" / "a<b>" / f"{number}.png"), image)
+    sources = (SampleSource(videos=(str(tmp_path / "left"),)),)
+    options = {"fps": 24, "interpolate": "none"}
+    own = Specification(name="own", sources=sources, options=options)
+    make(own, tmp_path / "own", progress=False)
+    assert main(["dataset", "sample", str(tmp_path / "own")]) == 0
+    page = (tmp_path / "own" / "samples.html").read_text("utf-8")
+    assert "<strong>left/a&lt;b&gt;</strong>" in page
 
 
 def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:

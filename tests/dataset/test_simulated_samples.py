@@ -81,6 +81,22 @@ def test_videos_give_the_last_frame_of_each_slice():
     np.testing.assert_array_equal(sample["frame"], CLIP[[1, 3, 4]].astype(np.float32))
 
 
+def test_a_folder_stands_for_the_videos_in_it(tmp_path):
+    clips = [CLIP, CLIP[::-1]]
+    for name, clip in zip(("left", "right"), clips, strict=True):
+        (tmp_path / name).mkdir()
+        np.save(tmp_path / name / "0.npy", clip)
+    options = {"fps": 50, "interpolate": "none"}
+    samples, given = (
+        SimulatedSamples(videos=videos, simulation=options)
+        for videos in ([tmp_path / "left", str(tmp_path / "right")], clips)
+    )
+    assert samples.count == SimulatedSamples(videos=[tmp_path]).count == 2
+    for number in range(2):
+        wanted = given.make(number)["representation"]
+        np.testing.assert_array_equal(samples.make(number)["representation"], wanted)
+
+
 def test_a_clip_shorter_than_a_slice_and_a_negative_number_are_refused():
     samples = SimulatedSamples(videos=[CLIP], slice_us=10**6, simulation={"fps": 50})
     with pytest.raises(InputError, match="lasts 100000 µs, less than one slice of 1000000 µs"):

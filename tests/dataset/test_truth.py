@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from texvent.dataset.generation.shard_files import read_record, write_record
 from texvent.dataset.simulated_samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.stored.folder import StoredDataset
+from texvent.dataset.stored.stored_samples import StoredSamples
 from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, InputError
 from texvent.view.drawing.panels import BOX_COLOUR
@@ -106,10 +108,53 @@ def test_targets_are_those_of_the_slice(labelled: Path, cars: Path) -> None:
     sliced = samples.represented("voxel-e2vid", slice_us=41_667).make(0)
     assert sliced["representation"].shape == (1, 5, 24, 32)
     assert [one["times"].tolist() for one in sliced["boxes"]] == [[41_667]]
-    np.testing.assert_array_equal(sliced["depth"][0], truth.depth()[1:2])
-    np.testing.assert_array_equal(sliced["flow"][0], made["flow"][:1])
+    np.testing.assert_array_equal(sliced["depth"], truth.depth()[1:2])
+    np.testing.assert_array_equal(sliced["flow"], made["flow"][:1])
     with pytest.raises(InputError, match="9 of 9 samples store no boxes; name boxes in `truth`"):
         texvent.dataset.open(cars).with_targets("boxes")
+
+
+@pytest.fixture(scope="module")
+def twins(tmp_path_factory: pytest.TempPathFactory) -> tuple[StoredSamples, SimulatedSamples]:
+    """The same clips through both doors: stored, and simulated when they are asked for."""
+    folder = tmp_path_factory.mktemp("twins")
+    prompts = ["a red car drives left, the camera pans right", "a ball bounces"]
+    options = {"sensor": "32x24", "duration": 0.25, "fps": 25, "interpolate": "none"}
+    simulated = SimulatedSamples(prompts=prompts, simulation=options)
+    rows = [{"prompt": one, "seed": simulated.seed_of(n)} for n, one in enumerate(prompts)]
+    (folder / "list.jsonl").write_text("".join(f"{json.dumps(row)}\n" for row in rows))
+    tables = {"name": "twins", "sources": [{"file": "list.jsonl"}], "options": options,
+              "truth": ["flow", "depth"], "filters": {"min_events": 0}}  # fmt: skip
+    specification = specification_from(tables, folder=folder)
+    assert not make(Recipe.of(specification), folder / "twins").failures
+    return texvent.dataset.open(folder / "twins"), simulated
+
+
+@pytest.mark.parametrize("slice_us", [40_000, 120_000, 50_000])
+def test_targets_of_slices_are_those_of_the_same_clip_simulated(
+    twins: tuple[StoredSamples, SimulatedSamples], slice_us: int
+) -> None:
+    stored, simulated = (
+        one.represented("voxel-e2vid", slice_us=slice_us).with_targets("flow", "depth")
+        for one in twins
+    )
+    assert stored.count == simulated.count == 2
+    for number in range(2):
+        mine = stored.make(number)
+        wanted = simulated.make([simulated.seed_of(n) for n in range(2)].index(mine["seed"]))
+        np.testing.assert_array_equal(mine["representation"], wanted["representation"])
+        flow, exact = mine["flow"], wanted["flow"]
+        assert flow.shape == exact.shape == (len(mine["stop_us"]), 2, 24, 32)
+        assert mine["depth"].shape == wanted["depth"].shape
+        if slice_us == 40_000:  # from frame to frame, as it is stored, in float16
+            np.testing.assert_allclose(flow, exact, rtol=5e-4, atol=1e-6)
+            np.testing.assert_allclose(mine["depth"], wanted["depth"], rtol=5e-4)
+            continue
+        is_known = np.isfinite(flow).all(axis=1) & np.isfinite(exact).all(axis=1)
+        assert is_known.mean() > 0.5
+        off = np.hypot(*np.moveaxis(flow - exact, 1, 0))[is_known]
+        assert np.quantile(off, 0.9) < 0.05
+        assert np.quantile(off, 0.98) < 0.3
 
 
 def test_simulated_samples_have_boxes_too() -> None:
@@ -136,7 +181,7 @@ def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
     sliced = SampleDataset(samples.represented("voxel-e2vid", slice_us=41_667))
     batch = collate([sliced[0], sliced[1]])
     assert batch["boxes"][1][0]["times"].tolist() == [41_667]
-    assert batch["flow"][0][0].shape == (1, 2, 24, 32)
+    assert batch["flow"].flatten(0, 1).shape == (2, 2, 24, 32)
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ import numpy as np
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.generation.videos.stored_video import open_stored, reopen, write_video
+from texvent.io.ros.bag_writer import open_sensor_bag
 
 from ..capture.dsec_sequence import write_sequence
 from ..capture.test_aedat4_frames import grey, write_file
@@ -47,6 +48,7 @@ def frame_readers() -> list[Reader]:
         *images,
         Reader("frames .npy", _make_npy, partial(_read, with_rate)),
         Reader("frames aedat4", _make_aedat4, partial(_read, CaptureConfig())),
+        Reader("frames bag", _make_bag, partial(_read, CaptureConfig())),
         Reader("frames dsec", _make_dsec, partial(_read, CaptureConfig())),
         Reader("frames evreal", write_folder, partial(_read, CaptureConfig())),
         Reader("stored video", _make_stored, _read_stored),
@@ -93,6 +95,12 @@ def _make_npy(folder: Path) -> Path:
 def _make_aedat4(folder: Path) -> Path:
     frames = [grey(40 * one, start=1000 * one + 1, end=1000 * one + 500) for one in range(4)]
     return write_file(folder / "e.aedat4", frames)
+
+
+def _make_bag(folder: Path) -> Path:
+    with open_sensor_bag(folder / "images.bag", "rosbag1") as bag:
+        bag.add_images("/camera", "camera", [(40_000 * n, one) for n, one in enumerate(_images())])
+    return folder / "images.bag"
 
 
 def _make_dsec(folder: Path) -> Path:

@@ -36,7 +36,7 @@ TORCHRUN = """
     launch.add_argument("--standalone", action="store_true")
     launch.add_argument("script", type=pathlib.Path)
     launch.add_argument("config", type=pathlib.Path)
-    for name in ("--save-dir", "--dataset.data-path", "--seed", "--fps_save", "--offload",
+    for name in ("--save-dir", "--dataset.data-path", "--seed", "--fps_save",
                  "--sampling_option.seed", "--sampling_option.num_frames",
                  "--sampling_option.num_steps", "--sampling_option.guidance",
                  "--sampling_option.aspect_ratio"):
@@ -55,6 +55,7 @@ TORCHRUN = """
         sys.exit("an unseeded run")
     folder = pathlib.Path(words["save_dir"]) / ("video_" + words["config"].stem)
     folder.mkdir(parents=True)
+    seed += words["config"].stem.startswith("t2i2v")
     ground = np.random.default_rng(seed).integers(0, 255, (48, 80, 3), dtype=np.uint8)
     ground = np.repeat(np.repeat(ground, 2, axis=0), 2, axis=1)
     with av.open(str(folder / (prompt[:8].replace('"', "") + ".mp4")), "w") as container:
@@ -79,7 +80,7 @@ def root(tmp_path, monkeypatch):
     """A checkout as `git clone` and the weights' download leave it, with a small torchrun."""
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     folder = tmp_path / "Open-Sora"
-    for path in (SCRIPT, CONFIGS / "256px.py", WEIGHTS):
+    for path in (SCRIPT, CONFIGS / "256px.py", CONFIGS / "t2i2v_256px.py", WEIGHTS):
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text("")
     program(folder / ".venv/bin/torchrun", TORCHRUN)
@@ -109,6 +110,12 @@ def test_a_prompt_becomes_the_frames_of_its_mp4_and_is_kept(root):
 def test_seeds_differ_and_seed_zero_is_a_seed(root):
     first, second = (build(seed=seed).generate(PROMPT) for seed in (0, 1))
     assert (next(iter(first)).pixels != next(iter(second)).pixels).any()
+
+
+def test_the_video_starts_from_an_image_of_its_own_unless_told_not_to(root):
+    first, direct = (build(image_first=way).generate(PROMPT) for way in (True, False))
+    assert (next(iter(first)).pixels != next(iter(direct)).pixels).any()
+    assert first.path != direct.path
 
 
 def test_its_failure_is_told_in_its_own_words(root):

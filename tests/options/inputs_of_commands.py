@@ -15,6 +15,7 @@ from tests.scenes.assets.glb_bar import write_bar
 import texvent
 from texvent.cli.app import main
 from texvent.frames import Video
+from texvent.io.ros.bag_writer import open_sensor_bag
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.simulator import PhysicalSimulator
 from texvent.simulation.physical.threshold_map import ThresholdMap, write_threshold_map
@@ -110,6 +111,10 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
             for t, x, y, p in zip(events.t.tolist(), events.x, events.y, events.p, strict=True)
         )
     )
+    with open_sensor_bag(folder / "images.bag", "rosbag1") as bag:
+        for name in ("left", "right"):
+            images = np.zeros((2, 8, 9), np.uint8), np.full((2, 8, 9), 200, np.uint8)
+            bag.add_images(f"/{name}", name, [(n * 10**6, one[0]) for n, one in enumerate(images)])
     with h5py.File(folder / "several.h5", "w") as file:
         for name in ("left", "right"):
             for column in "xytp":

@@ -36,6 +36,7 @@ class Command(NamedTuple):
 
 
 READING = ("sensor", "time-unit", "columns", "stream", "repair", "format")
+LENS = ("point-spread", "vignetting")
 SIMULATION = ("run", "interpolate", "simulate")
 CLIP = "simulate ../clip.npy --fps 5 --previews none -o o.npz"
 FRAMES = "simulate ../frames --previews none -o o.npz"
@@ -68,8 +69,8 @@ COMMANDS_TRIED: dict[str, Command] = {
         for one in SIMULATORS.builtin
     },
     "generate": Command(f"{SCENE} -o o.npz", shared=("keep-partial", *SIMULATION)),
-    "batch": Command(BATCH, shared=("shadows", "hdr", "samples", *SIMULATION)),
-    "rig": Command(RIG, "files", shared=("shadows", "hdr", "samples", *SIMULATION)),
+    "batch": Command(BATCH, shared=("shadows", "hdr", "samples", *LENS, *SIMULATION)),
+    "rig": Command(RIG, "files", shared=("shadows", "hdr", "samples", *LENS, *SIMULATION)),
     "check": Command("check ../clip.npy --fps 5 --json", "printed", shared=("quiet",)),
     "calibrate": Command(REST, "said", shared=("capture", "interpolate")),
     "convert": Command(CONVERT),
@@ -117,6 +118,7 @@ ELSEWHERE: dict[tuple[str, str], str] = {
     ("simulate", "interpolator-weights"): "tests/interpolate/rife",
     ("simulate", "rife-flow"): "tests/interpolate/rife",
     ("simulate", "device"): "tests/simulation/gpu",
+    ("dataset make", "device"): "tests/dataset/generation/test_batches.py",
     ("convert", "frames"): "tests/capture/test_aedat4_frames.py",
     ("convert", "triggers"): "tests/io/test_side_data.py",
     ("convert", "imu"): "tests/io/test_side_data.py",

@@ -44,13 +44,21 @@ def test_what_is_hardly_inside_the_image_is_cut_off(aim_m, found):
     )
 
 
+@pytest.mark.parametrize(("size", "found"), [(4.0, ("ball (hidden)",)), (8.0, ())])
+def test_a_body_of_which_a_rim_is_seen_is_hidden(size, found):
+    wall = SceneObject("wall", position_m=(0.0, 0.0))
+    ball = SceneObject("ball", size=size, position_m=(0.0, 2.0))
+    view = {"position": (0.0, -9.0, 1.0), "target": (0.0, 0.0, 1.0)}
+    assert unseen_from(wall, ball, **view).out_of_view == found
+
+
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
     truth = ground_truth(scene, 0.0, 0.05, SIZE).instance
-    for instance, count in count_pixels(scene, list(scene.class_names), SIZE, [0.0, 1.0]).items():
-        assert count >= LEAST_PIXELS
-        assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
+    for instance, view in count_pixels(scene, list(scene.class_names), SIZE, [0.0, 1.0]).items():
+        assert view.pixels >= LEAST_PIXELS
+        assert view.pixels == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
 
 
 BALL = SceneObject("sphere", size=0.5)
@@ -66,11 +74,14 @@ HELD = {
     "through": (thing("train", ("drive",)), SceneObject("tunnel")),
     "towards": (thing("dog", ("walk",)), SceneObject("man")),
     "around": (thing("dog", ("run",)), SceneObject("tree")),
+    "between": (SceneObject("ball"), SceneObject("cube", count=2)),
+    "at": (SceneObject("man"), SceneObject("table")),
+    "with": (thing("man", ("walk",)), SceneObject("dog")),
 }
 OTHER = {
     "on": "under", "under": "above", "above": "on", "left of": "right of", "right of": "left of",
     "behind": "front", "front": "behind", "past": "around", "through": "above",
-    "towards": "away from", "around": "through",
+    "towards": "away from", "around": "through", "between": "on", "at": "above", "with": "through",
 }  # fmt: skip
 
 
@@ -105,7 +116,7 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a ball under a chair", "under", "the ball under the chair"),
         ("a bar on a white disc", "on", "the bar on the disc"),
         ("a cyclist overtakes a car on the right", "on the right", "passing on the right"),
-        ("a cup in a coffee shop", "coffee shop", "only the ground is in view"),
+        ("a cup in a coffee shop", "coffee shop", "only bare walls and the floor are in view"),
         ("a dog in a coffee shop", "coffee shop", None),
         ("a house burns", "burns", None),
         ("a dog in the rain", "rain", None),

@@ -13,6 +13,7 @@ OTHER_MEANINGS = {
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
     *("table", "shirt", "hat", "clock"),  # a trait, parts of every outfit, the clock of a rig
+    "square",  # a waveform
     *("person", "hand"),  # whose bodies are code
 }
 LEFT_OUT = ("words.py", "raycast")

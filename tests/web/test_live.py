@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import queue
 import signal
@@ -11,6 +12,7 @@ import urllib.error
 from pathlib import Path
 from threading import Event
 
+import cv2
 import numpy as np
 import pytest
 from tests.cli.running import refused, run
@@ -18,12 +20,14 @@ from tests.web.opened import open_entry
 
 import texvent
 from texvent.api.event_camera import EventCamera
+from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError, TexventError
 from texvent.frames import Frame
 from texvent.io.block_writer import BlockWriter
 from texvent.sensor import SensorSize
+from texvent.view.drawing.palettes import PALETTES
 from texvent.web.live import LiveEvents
 from texvent.web.live_page import LiveServer
 
@@ -89,7 +93,9 @@ def drop(live, source, numbers):
 
 
 @pytest.mark.parametrize(("before", "during"), [(0, 0), (3, 0), (0, 2), (4, 1)])
-def test_a_recording_counts_the_frames_dropped_while_it_ran(source, tmp_path, before, during):
+def test_a_recording_counts_the_frames_dropped_while_it_ran(
+    source, tmp_path, before, during, capsys
+):
     live = LiveEvents(source, {"simulator": "esim"})
     for number in range(4):
         step(live, source, number)
@@ -102,6 +108,9 @@ def test_a_recording_counts_the_frames_dropped_while_it_ran(source, tmp_path, be
             number += 2 + count
         live.stop_recording()
         assert texvent.load(tmp_path / name).metadata.get("frames_dropped", 0) == during
+        code, said = run("validate", tmp_path / name), capsys.readouterr().out
+        assert ("frames of its source are missing" in said) == bool(during)
+        assert not during or (code == 1 and f"  {during} frames of its source" in said)
     assert live.describe()["dropped"] == before + 2 * during
     source.end()
     live._threads[0].join()
@@ -113,10 +122,33 @@ def test_a_recording_plays_at_its_own_rate_and_again_with_times_that_run_on():
     begun, times = time.perf_counter(), [-1]
     live = LiveEvents(open_frames(FRAMES[:3], CaptureConfig(fps=20)), {})
     while times[-1] < 200_000:
-        times.append(live.wait(times[-1], 60.0).frame.t_us)
+        shown = live.wait(times[-1], 60.0)
+        times.append(shown.frame.t_us)
+        assert shown.source_us == times[-1] % 150_000  # of the clip, whose passes take 150 ms
         assert time.perf_counter() - begun >= times[-1] / 1e6
     live.close()
     assert {*times[1:]} <= {*range(0, 60_000_000, 50_000)}
+
+
+@pytest.mark.parametrize("query", ["", "&dark=1"])
+def test_both_pictures_show_what_the_sensor_sees(source, tmp_path, query):
+    live = LiveEvents(source, {"simulator": "esim", "sensor": "8x8"})
+    with LiveServer(live, "camera", tmp_path) as page:
+        source.feed(0)
+        live.wait(-1, 60.0)
+        source.feed(1)
+        live.wait(0, 60.0)
+        state = json.load(open_entry(page.entry)(f"next?drawn_us=0{query}"))
+        seen, events = (
+            cv2.imdecode(np.frombuffer(base64.b64decode(state[name]), np.uint8), flags)
+            for name, flags in (("camera_jpeg", 0), ("events_png", 1))
+        )
+        assert seen.shape == events.shape[:2] == (8, 8)
+        fitted = fit_pixels(FRAMES[1], SensorSize(8, 8), "cover")
+        assert np.abs(seen.astype(float) - fitted).mean() < 12  # JPEG
+        palette = PALETTES["paper"].dark if query else PALETTES["paper"]
+        assert (events[..., ::-1] == palette.background).all(axis=2).any()
+        source.end()
 
 
 def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source, tmp_path):

@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import zipfile
 
 import numpy as np
 import pytest
@@ -114,6 +115,19 @@ def test_damaged_files_are_refused_in_one_line(content, tmp_path):
         read("firenet", path)
     assert str(path) in str(told.value)
     assert "\n" not in str(told.value)
+
+
+def test_a_weight_that_changed_on_its_way_is_refused(tmp_path):
+    path = tmp_path / "model.pth"
+    torch.save({"state_dict": random_state(torch, "firenet")}, path)
+    with zipfile.ZipFile(path) as archive:
+        largest = max(archive.infolist(), key=lambda one: one.file_size)
+        last_bytes = archive.read(largest)[-64:]
+    content = bytearray(path.read_bytes())
+    content[content.index(last_bytes)] ^= 0x40
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match="fails its checksum"):
+        read("firenet", path)
 
 
 def count_parameters(shapes):

@@ -21,10 +21,11 @@ from texvent.capture.prepare import PreparedFrames
 from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
 from texvent.capture.scale_check import check_frames
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, FileFormatError, InputError, is_address
+from texvent.errors import ConfigError, FileFormatError, InputError, is_address, shown
 from texvent.frames import FrameStream, NotebookFrames, RenderableStream, Video
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
+from texvent.io.ros.bag_kind import is_bag
 from texvent.options.arrays import is_array_like
 from texvent.runtime.file_names import usable_path
 from texvent.runtime.image_files import HEAD_BYTES, is_animation
@@ -44,9 +45,9 @@ def open_frames(
 
     Args:
         source: a path of a video file, an image folder, an EVREAL folder, a DSEC sequence, a .npy
-            file or an AEDAT4 recording with frames; a device such as /dev/video0, an address such
-            as rtsp://..., a named pipe, or "-" for standard input; an array [N, H, W] or
-            [N, H, W, 3] (RGB) or an iterable of such images; or a FrameStream.
+            file, an AEDAT4 recording with frames or a ROS bag with images; a device such as
+            /dev/video0, an address such as rtsp://..., a named pipe, or "-" for standard input; an
+            array [N, H, W] or [N, H, W, 3] (RGB) or an iterable of such images; or a FrameStream.
         config: frame rate, times, start, stop, fit, transfer and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
@@ -65,7 +66,10 @@ def open_frames(
     """
     check_camera_options(config, {"t_us": t_us, **(motion or {})})
     asked = _Asked(source, config, _given_times(config, t_us), size, seed)
-    stream = next(one for one in SOURCES if one.matches(asked)).open(asked)
+    kind = next(one for one in SOURCES if one.matches(asked))
+    if config.topic is not None and kind.name != BAG:
+        raise ConfigError(f"topic chooses images of a ROS bag, and {shown(source)} is none")
+    stream = kind.open(asked)
     if config.camera is not None:  # in its light, and fitted
         return stream
     if not isinstance(source, FrameStream):  # which says itself what light it is
@@ -179,6 +183,12 @@ def _open_live(asked: _Asked) -> FrameStream:
     return LiveFrames(str(asked.source), asked.times)
 
 
+def _open_bag(asked: _Asked) -> FrameStream:
+    from texvent.capture.bag_frames import BagFrames  # brings the readers of compressed bags
+
+    return BagFrames(asked.path, asked.times, topic=asked.config.topic)
+
+
 def _open_images(asked: _Asked) -> FrameStream:
     config = asked.config
     return ImageFolder(
@@ -229,6 +239,7 @@ def _open_video(asked: _Asked) -> FrameStream:
         raise FileFormatError(f"{error}; frames are read from: {names}") from error
 
 
+BAG = "ROS bag"
 SOURCES = (
     _Source(
         "",
@@ -249,6 +260,7 @@ SOURCES = (
         lambda a: is_dsec(a.path) and a.has_own_times,
         lambda a: DsecFrames(a.path),
     ),
+    _Source(BAG, lambda a: is_bag(a.path), _open_bag),
     _Source("image folder", lambda a: a.path.is_dir(), _open_images),
     _Source(
         ".npy",

@@ -17,8 +17,9 @@ from texvent.cli.standard_streams import (
     refusal_of_output,
 )
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
-from texvent.io.atomic import protected_inputs, remove_own_parts
-from texvent.runtime.interrupts import has_threads, raise_interrupted
+from texvent.io.atomic import protected_inputs
+from texvent.runtime.interrupts import clean_up, has_threads, raise_interrupted
+from texvent.runtime.side_work import finish_side_work
 
 COMMANDS = {
     "generate": (
@@ -122,7 +123,9 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:
         with raise_interrupted(until_exit=is_process), protected_inputs(), one_line_warnings():
-            return _dispatch(words)
+            code = _dispatch(words)
+            finish_side_work()
+            return code
     except TexventError as error:
         say(f"error: {with_flags(str(error))}")
         return error.exit_code
@@ -130,7 +133,7 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         # Help was shown.
         return int(stop.code or 0)
     except KeyboardInterrupt as interrupt:
-        remove_own_parts()
+        clean_up()
         if not has_threads():  # OpenBLAS then interrupts the process itself
             say("error: the system gives no more threads or processes (ulimit -u); end some")
             return TexventError.exit_code

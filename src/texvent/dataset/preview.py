@@ -96,7 +96,9 @@ def _card(sample: ChosenSample) -> str:
         f"{seconds:.3g} s",
         f"{record.width}×{record.height}",
     ]
-    caption = record.prompt or "(no caption)"
+    source = events.metadata.get("source") or {}
+    video = Path(str(source.get("source", "a scene without a sentence")))
+    caption = record.prompt or "/".join(video.parts[-2:])
     doubts = "".join(f"<br>⚠ {html.escape(one)}" for one in record.warnings)
     settings = json.dumps(dict(events.metadata), indent=1, ensure_ascii=False)
     return (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
+from pathlib import Path
 from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from texvent.api.functions import Source
 from texvent.config import check_range
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
+from texvent.dataset.specification.entries import entries_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.frames import Frame, FrameStream, RenderableStream
@@ -157,7 +159,8 @@ class SimulatedSamples(SampleTable):
     prompts: Sequence[str] = ()
     """Prompts; see `texvent.generate`."""
     videos: Sequence[Source] = ()
-    """Videos instead of prompts; see `texvent.simulate`."""
+    """Videos instead of prompts; see `texvent.simulate`. A folder of videos stands for these, and
+    for those of the folders in it."""
     representation: str | None = "voxel-e2vid"
     simulation: Mapping[str, Any] = field(default_factory=dict)
     """Options of `texvent.generate` or `texvent.simulate`, such as `{"sensor": "davis240c",
@@ -185,7 +188,20 @@ class SimulatedSamples(SampleTable):
     @property
     def count(self) -> int:
         """Number of prompts or videos."""
-        return len(self.prompts or self.videos)
+        return len(self.prompts or self._videos)
+
+    @cached_property
+    def _videos(self) -> Sequence[Source]:
+        return [video for one in self.videos for video in self._videos_of(one)]
+
+    def _videos_of(self, source: Source) -> Sequence[Source]:
+        if not (isinstance(source, str | Path) and Path(source).is_dir()):
+            return [source]
+        try:
+            entries = [*entries_of(str(source), of_stills="camera" in self.simulation)]
+        except InputError:  # a folder of another kind, which its reader knows or refuses
+            return [source]
+        return [entry.video for entry in entries if entry.video is not None]
 
     def seed_of(self, number: int) -> int:
         """Seed of the simulation of sample `number`."""
@@ -222,4 +238,4 @@ class SimulatedSamples(SampleTable):
         settings, source = self._resolve(number), number % self.count
         if self.prompts:
             return prepare_prompt(self.prompts[source], settings)
-        return prepare_source(self.videos[source], settings)
+        return prepare_source(self._videos[source], settings)

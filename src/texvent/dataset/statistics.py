@@ -24,6 +24,7 @@ from texvent.truth.boxes import SIZE_CLASSES
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
+MOST_CLASSES = 12
 MICROSECONDS = 1_000_000
 COUNTS = ("variant", "split", "samples", "left out", "failed", "events", "median events",
           "median s", "median events/s", "MB")  # fmt: skip
@@ -207,6 +208,14 @@ class DatasetStatistics:
         return cls(total, parts)
 
     @property
+    def class_counts(self) -> dict[str, Counter[str]]:
+        """Split → number of samples of each class, over all variants."""
+        counts: dict[str, Counter[str]] = {}
+        for (_, split), part in self.parts.items():
+            counts.setdefault(split, Counter()).update(part.classes)
+        return counts
+
+    @property
     def tables(self) -> dict[str, Any]:
         """Plain values, ready for JSON."""
         variants: dict[str, Any] = {}
@@ -234,6 +243,29 @@ def counts_rows(statistics: DatasetStatistics) -> list[list[str]]:
             ]
         )
     return rows
+
+
+def class_lines(counts: Mapping[str, Counter[str]]) -> list[str]:
+    """A table of classes and splits, the most frequent classes first; nothing without classes.
+
+    Example:
+        >>> counts = {"train": Counter(left=12, right=8), "val": Counter(left=3)}
+        >>> print(*class_lines(counts), sep=chr(10))
+        class  train  val
+        left      12    3
+        right      8    0
+    """
+    total = sum(counts.values(), Counter[str]())
+    names = [name for name, _ in ranked(total)]
+    if not names:
+        return []
+    rows = [["class", *counts]]
+    rows += [[one, *(f"{of[one]:,}" for of in counts.values())] for one in names[:MOST_CLASSES]]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])])
+             for row in rows]  # fmt: skip
+    more = len(names) - MOST_CLASSES
+    return [*lines, f"... {more:,} more"] if more > 0 else lines
 
 
 def quantiles(values: Sequence[float]) -> dict[str, float]:

@@ -26,7 +26,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked
-from texvent.generation.videos.stored_video import StoredVideo, open_stored
+from texvent.generation.videos.stored_video import FinishedVideo, StoredVideo, open_stored
 from texvent.generation.videos.video_cache import VideoCache, content_key
 from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
@@ -62,6 +62,13 @@ class OpenSoraConfig(GeneratedVideoConfig):
     """Denoising steps."""
     guidance: float = 7.5
     """Strength with which the prompt is followed."""
+    image_first: bool = True
+    """Make an image and the video from it, as its README recommends, instead of the video alone."""
+
+    @property
+    def program(self) -> Path:
+        """Open-Sora's own configuration file for these options."""
+        return CONFIGS / f"{'t2i2v_' if self.image_first else ''}{self.height}px.py"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -113,7 +120,7 @@ class OpenSoraGenerator:
             )
         return None
 
-    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> FinishedVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Raises:
@@ -141,7 +148,7 @@ class OpenSoraGenerator:
         )
 
     def _key(self, prompt: str, seed: int) -> str:
-        names = ("fps", "height", "frames", "steps", "guidance")
+        names = ("fps", "height", "frames", "steps", "guidance", "image_first")
         facts = {name: getattr(self.config, name) for name in names}
         return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
 
@@ -196,7 +203,6 @@ class OpenSoraGenerator:
             "--dataset.data-path": prompts,
             "--seed": its_seed,
             "--fps_save": config.fps,
-            "--offload": True,  # parts that are not in use wait in main memory
             "--sampling_option.seed": its_seed,
             "--sampling_option.num_frames": config.frames,
             "--sampling_option.num_steps": config.steps,
@@ -207,7 +213,7 @@ class OpenSoraGenerator:
         return [
             str(_launcher()),
             *("--nproc_per_node", "1", "--standalone"),
-            *(str(SCRIPT), str(CONFIGS / f"{config.height}px.py")),
+            *(str(SCRIPT), str(config.program)),
             *words,
         ]
 

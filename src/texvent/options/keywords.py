@@ -97,6 +97,7 @@ class ReadingOptions(TypedDict, total=False):
     timestamps_unit: Literal["s", "ms", "us", "ns"] | None
     start: float | None
     stop: float | None
+    topic: str | None
     white_level: float | None
     transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] | None
 
@@ -125,6 +126,8 @@ class GeneratorOptions(TypedDict, total=False):
     duration: float | None
     samples: int | None
     shadows: bool | None
+    point_spread: float | None
+    vignetting: bool | None
     assets: str | Path | None
     hdr: bool | None
     strict: bool | None

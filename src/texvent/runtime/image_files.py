@@ -40,9 +40,13 @@ def decode_image(path: Path, flags: int) -> NDArray[Any]:
     Raises:
         FileFormatError: it cannot be decoded, is an animation, or would fill the memory.
     """
+    return decode_bytes(path.read_bytes(), str(path), flags)
+
+
+def decode_bytes(data: bytes, path: str, flags: int) -> NDArray[Any]:
+    """As `decode_image`, of the content of a file; `path` names it in messages."""
     import cv2  # only images need it
 
-    data = path.read_bytes()
     if is_animation(data[:HEAD_BYTES]):
         raise FileFormatError(
             f"{path} is an animation, not one image; give it as the source by itself"
@@ -50,7 +54,7 @@ def decode_image(path: Path, flags: int) -> NDArray[Any]:
     claimed = 0
     with contextlib.suppress(*DAMAGE):  # then the decoder says what is wrong
         claimed = stated_bytes(data)
-    check_claim(claimed, path, copies=COPIES)
+    check_claim(claimed, path, copies=COPIES, size=len(data))
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), flags) if data else None
     except cv2.error as error:

@@ -46,18 +46,21 @@ def usable_bytes() -> int:
     return int(SHARE * min(sizes))
 
 
-def check_claim(claimed: int, path: Path, *, copies: int = 1) -> None:
+def check_claim(
+    claimed: int, path: Path | str, *, copies: int = 1, size: int | None = None
+) -> None:
     """Refuse a file that would take more memory than there is, or out of proportion to its size.
 
     Args:
         claimed: bytes that it unpacks to, as its head says.
-        path: the file.
+        path: the file, or the name of a part of one.
         copies: how often all of it is in memory at once.
+        size: bytes of the part; None: those of the file.
 
     Raises:
         FileFormatError: see above.
     """
-    check_proportion(claimed, path)
+    check_proportion(claimed, path, size)
     if copies * claimed > usable_bytes():
         raise FileFormatError(
             f"{path} takes {copies * claimed / 1e9:.1f} GB of memory, and a run may use "
@@ -81,15 +84,16 @@ def explain_memory(what: str) -> Iterator[None]:
         raise InputError(what) from error
 
 
-def check_proportion(claimed: int, path: Path) -> None:
-    """Refuse a file that claims to unpack to bytes out of proportion to its size.
+def check_proportion(claimed: int, path: Path | str, size: int | None = None) -> None:
+    """Refuse a file, or a part of one, that claims to unpack to more than its size allows.
 
     Raises:
         FileFormatError: see above.
     """
-    if claimed > most_unpacked(path):
+    size = Path(path).stat().st_size if size is None else size
+    if claimed > max(SMALL_BYTES, MOST_EXPANSION * size):
         raise FileFormatError(
-            f"{path} has {path.stat().st_size} bytes and claims to unpack to {claimed}; it is "
+            f"{path} has {size} bytes and claims to unpack to {claimed}; it is "
             "damaged, or made to fill the memory"
         )
 

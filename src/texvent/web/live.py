@@ -15,9 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from texvent.api.event_camera import EventCamera
+from texvent.capture.fit_to_sensor import fit_pixels
+from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
 from texvent.events import EventStream
-from texvent.frames import MICROSECONDS, Frame, FrameStream, transfer_of
+from texvent.frames import MICROSECONDS, Frame, FrameStream, PixelArray, transfer_of
 from texvent.settings.provenance import describe_run
 from texvent.simulation.model_options import contrast_threshold_of
 from texvent.transfer import Transfer
@@ -39,6 +41,8 @@ class Shown(NamedTuple):
     events: EventStream
     arrived_s: float
     """When the frame arrived, s of `time.perf_counter`."""
+    source_us: int
+    """Time of the frame since the first of the source, µs; of a recording, in this pass."""
 
 
 class LiveEvents:
@@ -61,7 +65,7 @@ class LiveEvents:
         self._source, self._options = source, options
         self._camera = EventCamera(source.size, **options)
         self._steps = self._arrived = self._dropped = self._lost = 0
-        self._waiting: tuple[Frame, float] | None = None
+        self._waiting: tuple[Frame, int, float] | None = None
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
         self._recording: LiveRecording | None = None
@@ -87,6 +91,11 @@ class LiveEvents:
         self._threads[1].join(LEAVE_S)
         if self._error is not None:
             raise self._error
+
+    def picture(self, shown: Shown) -> PixelArray:
+        """Pixels of a frame as the sensor sees them: of its size, point by point."""
+        fit = getattr(self._camera.settings.source, "fit", CaptureConfig.fit)
+        return fit_pixels(shown.frame.pixels, shown.events.size, fit)
 
     def wait(self, after_us: float, timeout_s: float) -> Shown | None:
         """The latest frame, once there is one of a later time; None if none comes in time."""
@@ -181,12 +190,12 @@ class LiveEvents:
 
     def _read(self) -> None:
         try:
-            for frame in self._source if self._source.is_live else self._play():
+            for frame, source_us in self._arriving() if self._source.is_live else self._play():
                 with self._changed:
                     self._arrived += 1
                     self._dropped += self._waiting is not None
                     self._lost += self._waiting is not None
-                    self._waiting = frame, time.perf_counter()
+                    self._waiting = frame, source_us, time.perf_counter()
                     self._changed.notify_all()
                 if self._stop.is_set():
                     break
@@ -194,7 +203,14 @@ class LiveEvents:
             self._error = _reported(error)
         self._end()
 
-    def _play(self) -> Iterator[Frame]:
+    def _arriving(self) -> Iterator[tuple[Frame, int]]:
+        """Frames of a camera, each with its time since the first."""
+        first_us = None
+        for frame in self._source:
+            first_us = frame.t_us if first_us is None else first_us
+            yield frame, frame.t_us - first_us
+
+    def _play(self) -> Iterator[tuple[Frame, int]]:
         """Frames when they are due; the first at 0, each pass one interval after the one before."""
         begun_s, t_us, last_us, start_us = time.perf_counter(), 0, 0, 0
         while not self._stop.is_set():
@@ -203,7 +219,7 @@ class LiveEvents:
                 shift_us = start_us - frame.t_us if shift_us is None else shift_us
                 last_us, t_us = t_us, frame.t_us + shift_us
                 self._stop.wait(max(0.0, begun_s + t_us / MICROSECONDS - time.perf_counter()))
-                yield replace(frame, t_us=t_us)
+                yield replace(frame, t_us=t_us), t_us - start_us
             start_us = 2 * t_us - last_us
 
     def _end(self) -> None:
@@ -211,8 +227,8 @@ class LiveEvents:
             self._is_over = True
             self._changed.notify_all()
 
-    def _take(self) -> tuple[Frame, float] | None:
-        """The newest frame and when it arrived; None at the end."""
+    def _take(self) -> tuple[Frame, int, float] | None:
+        """The newest frame, its time in the source, and when it arrived; None at the end."""
         with self._changed:
             self._changed.wait_for(lambda: self._waiting is not None or self._is_over)
             waiting, self._waiting = self._waiting, None
@@ -221,11 +237,11 @@ class LiveEvents:
     def _run(self) -> None:
         try:
             while (waiting := self._take()) is not None:
-                camera, (frame, arrived_s) = self._camera, waiting
+                camera, (frame, source_us, arrived_s) = self._camera, waiting
                 events = camera.step(frame.pixels, frame.t_us)
                 with self._changed:
                     if camera is self._camera:
-                        self._show(Shown(frame, events, arrived_s))
+                        self._show(Shown(frame, events, arrived_s, source_us))
         except Exception as error:  # noqa: BLE001  # as above
             self._error = _reported(error)
         self._stop.set()

@@ -7,6 +7,7 @@ import contextlib
 import json
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from texvent.represent.event_frame import event_frame
 from texvent.runtime.file_names import inside
 from texvent.view.drawing.canvas import jpeg_bytes, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events, frame_image
-from texvent.view.drawing.palettes import PALETTES
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, PALETTES
 from texvent.web.live import LiveEvents, Shown
 from texvent.web.server import Answer, PageServer, page_text
 
@@ -82,22 +83,25 @@ class LiveServer(PageServer):
         if arrived_s:
             self._live.note_drawn(arrived_s)
         frame = self._live.wait(_number(query, "drawn_us", -1.0), WAIT_S)
-        return Answer(json.dumps({**self._live.describe(), **(_pictures(frame) if frame else {})}))
+        pictures = {} if frame is None else self._pictures(frame, is_dark="dark" in query)
+        return Answer(json.dumps({**self._live.describe(), **pictures}))
+
+    def _pictures(self, one: Shown, *, is_dark: bool) -> dict[str, Any]:
+        seen = frame_image(replace(one.frame, pixels=self._live.picture(one)))
+        camera = jpeg_bytes(shrink(seen, PICTURE_WIDTH), quality=85)
+        palette = PALETTES[DEFAULT_PALETTE]
+        events = draw_events(event_frame(one.events, "count"), palette.dark if is_dark else palette)
+        return {
+            "t_us": one.frame.t_us,
+            "source_us": one.source_us,
+            "arrived_s": one.arrived_s,
+            "events": len(one.events),
+            "camera_jpeg": base64.b64encode(camera).decode(),
+            "events_png": base64.b64encode(png_bytes(events, level=1)).decode(),
+        }
 
 
 def _number(query: Mapping[str, str], name: str, default: float) -> float:
     with contextlib.suppress(ValueError):
         return float(query.get(name, ""))
     return default
-
-
-def _pictures(one: Shown) -> dict[str, Any]:
-    camera = jpeg_bytes(shrink(frame_image(one.frame), PICTURE_WIDTH), quality=85)
-    events = draw_events(event_frame(one.events, "count"), PALETTES["paper"])
-    return {
-        "t_us": one.frame.t_us,
-        "arrived_s": one.arrived_s,
-        "events": len(one.events),
-        "camera_jpeg": base64.b64encode(camera).decode(),
-        "events_png": base64.b64encode(png_bytes(events, level=1)).decode(),
-    }

@@ -1,4 +1,4 @@
-"""`texvent scenes`: the nouns that embedded scenes can show, and the schema of scene files."""
+"""`texvent scenes`: the words of embedded scenes, and the schema of scene files."""
 
 from __future__ import annotations
 
@@ -15,27 +15,31 @@ from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import InputError, shown
+from texvent_scenes.meanings import meanings_of
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.read.lexicon import lexicon_of
 from texvent_scenes.scene_input import list_nouns, list_words
 from texvent_scenes.spec.files import json_schema
 
 DESCRIPTION = """List what prompts of the embedded generator can name: nouns by family, with their
-other names; models of a folder of your own come first. With a word, the nouns that have it in a
-name, and their sizes; `texvent generate "a car" --preview car.png` draws one.
+other names, models of a folder of your own first; then motions, activities, places, lights,
+weather, effects, colours, materials and camera moves. With a word, those that have it in a name,
+and the sizes of nouns; `texvent generate "a car" --preview car.png` draws one.
 
   texvent scenes
   texvent scenes car
+  texvent scenes walk
   texvent scenes --schema > scene.schema.json"""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ScenesOptions:
-    """Nouns to list."""
+    """Words to list."""
 
     positional: ClassVar[tuple[str, ...]] = ("word",)
 
     word: str | None = None
-    """A noun, one of its other names, or a word of one."""
+    """A noun, an activity or another entry, one of its other names, or a word of one."""
     assets: Path | None = None
     """Folder of models of your own (GLB, OBJ, PLY); see docs/assets.md."""
     schema: bool = False
@@ -52,27 +56,58 @@ def run(arguments: Sequence[str]) -> int:
     if options.schema:
         write_out(f"{json.dumps(json_schema(list_words(nouns)), indent=2)}\n")
         return 0
-    rows = list(_families(nouns))
-    titles = ["family", "noun", "also called"]
+    rows: list[tuple[str, tuple[str, ...], Noun | None]] = [
+        (family, _names(noun), noun) for family, noun in _families(nouns)
+    ]
+    rows += [(kind, names, None) for kind, names in _list_kinds()]
+    titles = ["family", "word", "also called"]
     if options.word is not None:
         titles.append("size")
         wanted = options.word.lower().strip()
         word = re.compile(rf"\b{re.escape(wanted)}\b")
-        rows = [row for row in rows if any(map(word.search, _names(row[1])))]
+        known = tuple(name for _, names, _ in rows for name in names)
+        rows = [row for row in rows if any(map(word.search, row[1]))]
         if not rows:
-            known = tuple(name for noun in nouns.values() for name in _names(noun))
-            raise InputError(f"{shown(wanted)} is no noun; {suggest(wanted, known)}")
+            raise InputError(f"{shown(wanted)} is in no list; {suggest(wanted, known)}")
     table = Table(*titles, box=None, pad_edge=False)
-    for family, noun in rows:
-        cells = [family, noun.name, ", ".join(_names(noun)[1:])]
-        table.add_row(*cells, *([_size(noun)] if options.word is not None else []))
+    for family, names, noun in rows:
+        size = ["" if noun is None else _size(noun)] if options.word is not None else []
+        table.add_row(family, names[0], ", ".join(names[1:]), *size)
     with result_console() as console:
         console.print(table)
     return 0
 
 
+_KINDS = {
+    "motion": "motion", "place": "place", "light": "light", "weather": "weather",
+    "effect": "effect", "colour": "colour", "material": "material", "move": "camera move",
+    "view": "camera view", "framing": "camera framing", "relation": "relation",
+    "direction": "direction",
+}  # fmt: skip
+"""Kinds of `meanings_of`, and the families that they are listed under."""
+_READ_ONLY = ("route", "off")
+"""Relations that sentences have and scene files have not."""
+
+
 def _names(noun: Noun) -> tuple[str, ...]:
     return (noun.name, *noun.synonyms, *noun.plurals)
+
+
+def _list_kinds() -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Kind and words of all that a sentence says beside nouns, the name in scene files first."""
+    found: dict[tuple[str, str], dict[str, None]] = {}
+    for phrase, senses in lexicon_of(None).items():
+        for sense in senses:
+            if sense.form not in ("", "base"):
+                continue
+            for kind, value in meanings_of((sense,)):
+                name = phrase[-1] if kind == "colour" else str(value)  # "dark red" with red
+                if kind in _KINDS and name not in _READ_ONLY:
+                    found.setdefault((_KINDS[kind], name), {})[" ".join(phrase)] = None
+    for family in dict.fromkeys(_KINDS.values()):
+        for (kind, name), words in found.items():
+            if kind == family and name:
+                yield family, (name, *(one for one in words if one != name))
 
 
 def _size(noun: Noun) -> str:

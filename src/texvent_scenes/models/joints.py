@@ -16,7 +16,7 @@ import numpy as np
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.materials import shade
 from texvent_scenes.models.protocol import ModelPart, Pose, between, fraction
-from texvent_scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
+from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved, shift, turn_about
 
 RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTIVITIES})
 """Activities of a body that stays where it is."""
@@ -282,7 +282,7 @@ _STRETCHING = ("pulse", "grow", "vary")
 def _stretch_along(axes: str, factor: float, pivot: Point) -> Affine:
     """A stretching along axes such as "yz" that leaves a point where it is."""
     factors = np.array([factor if axis in axes else 1.0 for axis in "xyz"])
-    return np.column_stack([np.diag(factors), (1.0 - factors) * np.array(pivot)])
+    return affine(np.diag(factors), (1.0 - factors) * np.array(pivot))
 
 
 def read_joint(text: str) -> Joint:

@@ -20,7 +20,7 @@ MOTIONS = frozenset(
     {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide",
      "float",
      "hover", "blow", "turn", "reverse",
-     "spin", "rotate", "orbit", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
+     "spin", "rotate", "orbit", "sway", "tilt", "bounce", "jump", "fall", "rise", "sink", "throw",
      "topple", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip
 """Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a

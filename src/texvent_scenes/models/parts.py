@@ -18,7 +18,7 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
@@ -85,13 +85,14 @@ class PartsBuilder:
             FileFormatError: its table cannot be read.
         """
         try:
-            return self._build(colour, scale, seed)
+            return _build(self, colour, seed).scaled(scale * self._filled.get("size", 1.0))
         except InputError:
             raise
         except (KeyError, TypeError, ValueError) as error:
             raise FileFormatError(f"{self.where}: {error}") from None
 
-    def _build(self, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    def build(self, colour: Colour | None, seed: int) -> ArticulatedModel:
+        """Build it at its usual size."""
         table = self._filled
         painted = paint_model(table, colour=colour, seed=seed)
         placed, groups = self._drawing
@@ -122,7 +123,6 @@ class PartsBuilder:
         )
         return ArticulatedModel(
             [] if body.moves_all else rigid,
-            scale=scale * table.get("size", 1.0),
             articulate=body.articulate if body.moves_all or drawn or extras else None,
             is_centred=_is_centred(table),
             anchor=body.locate if self._anchors else None,
@@ -174,6 +174,12 @@ class PartsBuilder:
         """Parts of which the seed chooses one list, by the label of the choice."""
         said = self._filled.get("variants", {})
         return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
+
+
+@lru_cache(maxsize=256)
+def _build(builder: PartsBuilder, colour: Colour | None, seed: int) -> ArticulatedModel:
+    """The body at its usual size: most of a scene's time is measuring those of its scenery."""
+    return builder.build(colour, seed)
 
 
 def _check_channels(joints: Sequence[Joint], acts: str) -> None:

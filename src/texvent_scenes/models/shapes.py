@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
@@ -128,7 +129,14 @@ def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Affine:
 def turn_about(axis: str, angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     """A turn about an axis along "x", "y" or "z", from y to z, from z to x or from x to y."""
     turn, centre = rotation(axis, angle), np.array(pivot)
-    return np.column_stack([turn, centre - turn @ centre])
+    return affine(turn, centre - turn @ centre)
+
+
+def affine(linear: Affine, offset: Affine) -> Affine:
+    """[3, 4] map of a linear part and an offset; a fifth of the time of `np.column_stack`."""
+    result = np.empty((3, 4))
+    result[:, :3], result[:, 3] = linear, offset
+    return result
 
 
 def rotation(axis: str, angle: float) -> Affine:
@@ -254,7 +262,6 @@ class ArticulatedModel:
         self,
         rigid: Sequence[ModelPart],
         *,
-        scale: float,
         articulate: Articulation | None = None,
         is_centred: bool = False,
         anchor: Anchorage | None = None,
@@ -265,24 +272,34 @@ class ArticulatedModel:
 
         Args:
             rigid: parts that never move in the body.
-            scale: size relative to the usual one.
             articulate: gives the parts that move; None = there are none.
             is_centred: whether the origin is its middle rather than the ground below it.
             anchor: places at which other things are held; None = those of its box.
             poses: what its size is measured over.
             is_wheeled: whether it rolls on wheels; what does not rolls as a whole.
         """
-        self.scale = float(scale)
-        self._rigid = [_scaled(each, self.scale) for each in rigid]
         self._articulate = articulate
         self._anchor = anchor
         self.is_centred = is_centred
         self.is_wheeled = is_wheeled
-        low, high = (self.scale * corner for corner in _measure(rigid, articulate, poses))
+        self._usual_rigid, self._usual_box = list(rigid), _measure(rigid, articulate, poses)
+        self._take_scale(1.0)
+
+    def scaled(self, scale: float, articulate: Articulation | None = None) -> ArticulatedModel:
+        """The body that many times its usual size, perhaps in other colours; not measured again."""
+        other = copy(self)
+        other._articulate = articulate or self._articulate
+        other._take_scale(float(scale))
+        return other
+
+    def _take_scale(self, scale: float) -> None:
+        self.scale = scale
+        self._rigid = [_scaled(each, scale) for each in self._usual_rigid]
+        low, high = (scale * corner for corner in self._usual_box)
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
         self.width = float(2.0 * reach[1])
-        self.height = float(2.0 * reach[2]) if is_centred else float(high[2])
+        self.height = float(2.0 * reach[2]) if self.is_centred else float(high[2])
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, rigid ones first."""
@@ -298,7 +315,7 @@ class ArticulatedModel:
         axes = self._anchor(name, self._at_usual_size(pose))
         if axes is None:
             return None
-        return np.column_stack([axes[:, :3], self.scale * axes[:, 3]])
+        return affine(axes[:, :3], self.scale * axes[:, 3])
 
     def _at_usual_size(self, pose: Pose) -> Pose:
         """The same instant of a body of the usual size."""

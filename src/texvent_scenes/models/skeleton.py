@@ -24,7 +24,7 @@ from texvent_scenes.models.joints import (
 from texvent_scenes.models.limbs import DrawLegs, Steps, Walk
 from texvent_scenes.models.part_lines import Placed
 from texvent_scenes.models.protocol import ModelPart, Pose
-from texvent_scenes.models.shapes import Affine, Point, compose, moved, point
+from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved, point
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Anchor:
         if motion is None:
             motion = np.eye(3, 4)
         turn = np.eye(3) if self.is_level else motion[:, :3]
-        return np.column_stack([turn, motion @ np.array([*self.at, 1.0])])
+        return affine(turn, motion @ np.array([*self.at, 1.0]))
 
 
 def read_anchor(text: str, groups: Sequence[Group]) -> Anchor:

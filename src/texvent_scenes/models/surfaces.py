@@ -111,6 +111,10 @@ class Painted:
     def material(self, name: str) -> Material:
         """The surface of that name, or that these words mean."""
         if name not in self.made:
+            base, *factors = name.split("*")
+            if factors and base in self.surfaces and self.surfaces[base] != base:
+                self.made[name] = toned(self.material(base), math.prod(map(float, factors)))
+                return self.made[name]
             words = self.surfaces.get(name, name)
             is_other = words != name and words in self.surfaces
             self.made[name] = self.material(words) if is_other else read_surface(words, self.hues)

@@ -18,6 +18,7 @@ from texvent.lens import Lens, lens_reach
 from texvent.runtime.jit import jit
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.meshes.tree import describe_surfaces, tree_of
+from texvent_scenes.raycast.mirrored import list_mirrored
 from texvent_scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
@@ -229,7 +230,7 @@ def build_world(
     shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
-    casts = exists & (np.asarray(primitives.emission) <= 0.0)
+    casts = exists & (np.asarray(primitives.emission) <= 0.0) & (instant["shadows"] != 0)
     sun_cells = _describe_sun_cells(instant[0], shapes, primitives, casts, wanted)
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
@@ -241,6 +242,7 @@ def build_world(
         lamps=np.zeros(0, dtype=LAMP_RECORD),
         media=np.zeros(0, dtype=SEEN_MEDIUM_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
+        mirrored=list_mirrored(primitives, inverse, environment),
     ).addressed()
 
 

@@ -19,6 +19,7 @@ from texvent.runtime.jit import intrinsic
 from texvent_scenes.raycast.records import (
     GLOW_RECORD,
     IMAGE_RECORD,
+    MIRRORED_RECORD,
     NODE_RECORD,
     SEEN_MEDIUM_RECORD,
     SHAPE_RECORD,
@@ -56,6 +57,7 @@ shape_at: Any = _reader(SHAPE_RECORD)
 lamp_at: Any = _reader(LAMP_RECORD)
 medium_at: Any = _reader(SEEN_MEDIUM_RECORD)
 glow_at: Any = _reader(GLOW_RECORD)
+mirrored_at: Any = _reader(MIRRORED_RECORD)
 node_at: Any = _reader(NODE_RECORD)
 triangle_at: Any = _reader(TRIANGLE_RECORD)
 image_at: Any = _reader(IMAGE_RECORD)

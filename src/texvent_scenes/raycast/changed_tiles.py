@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from texvent.camera import Rays
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bounds
+from texvent_scenes.raycast.mirrored import REACH
 from texvent_scenes.raycast.records import INSTANT_RECORD, World
 from texvent_scenes.raycast.render import Drawn
 from texvent_scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent_scenes.raycast.vectors import NO_DISTORTION
-from texvent_scenes.rendered_scene import Float64Array, Ground, Primitives
+from texvent_scenes.rendered_scene import FIRST_SURFACE, Float64Array, Ground, Primitives
 
 Mask = NDArray[np.bool_]
 BIAS_M = 2.0 * SHADOW_BIAS_M
@@ -29,7 +30,7 @@ _FLOWING = (Ground.SEA, Ground.UNDERWATER, Ground.RIVER, Ground.LAKE)
 """Grounds that change with time."""
 _ELSEWHERE = {
     "lamp_cells", "medium_tiles", "shapes", "lists", "nodes", "triangles", "images", "texels",
-    "lamps", "media", "glows", "sun_grid", "sun_cells", "time", "crossings",
+    "lamps", "media", "glows", "mirrored", "sun_grid", "sun_cells", "time", "crossings",
 }  # fmt: skip
 """Fields of the instant that are addresses, or that are compared on their own."""
 _FIELDS = [name for name in INSTANT_RECORD.names or () if name not in _ELSEWHERE]
@@ -53,7 +54,11 @@ def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:
     shadows = _shadow_windows(before, after, chosen)
     if shadows is None:
         return None
+    mirroring = _mirroring(before, after)
+    if mirroring is None:
+        return None
     windows = [one.world.shapes["window"][chosen] for one in (before, after)]
+    windows.append(after.world.shapes["window"][mirroring])
     tiles = touched_tiles(np.concatenate([*windows, *shadows]), instant)
     if before.world.instant[0]["time"] != instant["time"] and instant["clouds"] > 0.0:
         tiles |= _sky_tiles(instant)
@@ -78,11 +83,7 @@ def _is_comparable(before: World, after: World) -> bool:
 
 def _changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
     """Numbers of the shapes that differ in any bit, or whose mesh or image does."""
-    first, second = (
-        np.ascontiguousarray(one.world.shapes).view(np.uint8).reshape(len(one.world.shapes), -1)
-        for one in (before, after)
-    )
-    changed = (first != second).any(axis=1)
+    changed = _differing(before.world.shapes, after.world.shapes)
     for name in ("mesh", "image"):
         one, other = getattr(before.primitives, name), getattr(after.primitives, name)
         if one is None and other is None:
@@ -92,6 +93,36 @@ def _changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
         else:
             changed |= np.array([a is not b for a, b in zip(one, other, strict=True)], bool)
     return np.flatnonzero(changed)
+
+
+def _mirroring(before: Drawn, after: Drawn) -> NDArray[np.int64] | None:
+    """Numbers of glossy shapes that may mirror a shape that differs; None: the ground may too."""
+    first, second = before.world.mirrored, after.world.mirrored
+    if len(first) != len(second):
+        return None
+    differs = _differing(first, second)
+    if not differs.any():
+        return np.zeros(0, np.int64)
+    moved = np.concatenate([first[differs], second[differs]])
+    if after.world.instant[0]["wetness"] > 0.0:
+        return None
+    shapes, to_world = after.world.shapes, after.primitives.to_world
+    texture = np.maximum(shapes["texture"] - FIRST_SURFACE, 0)
+    glossy = np.flatnonzero(after.world.instant[0]["gloss"][texture, 0] > 0.0)
+    radius = np.linalg.norm(to_world[glossy, :, :3], axis=(1, 2))
+    away = np.linalg.norm(to_world[glossy, None, :, 3] - moved["middle"], axis=2)
+    return np.asarray(glossy[(away - radius[:, None] < REACH * moved["radius"]).any(axis=1)])
+
+
+def _differing(first: NDArray[Any], second: NDArray[Any]) -> Mask:
+    """[n] records that differ in any bit."""
+    if not len(first):
+        return np.zeros(0, np.bool_)
+    one, other = (
+        np.ascontiguousarray(records).view(np.uint8).reshape(len(records), -1)
+        for records in (first, second)
+    )
+    return np.asarray((one != other).any(axis=1))
 
 
 def touched_tiles(windows: Float64Array, instant: Any) -> Mask:

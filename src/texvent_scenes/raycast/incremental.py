@@ -17,8 +17,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.brightness import luma_bt601
 from texvent.runtime.jit import jit
@@ -27,14 +29,15 @@ from texvent.transfer import encode_srgb
 from texvent_scenes.raycast.acceleration import TILE
 from texvent_scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent_scenes.raycast.changed_tiles import Mask, changed_tiles
+from texvent_scenes.raycast.optics import PERFECT, Optics, widened
 from texvent_scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
-from texvent_scenes.rendered_scene import Float32Array, Float64Array, RenderedScene
+from texvent_scenes.rendered_scene import Float32Array, RenderedScene
 
 MOST_CHANGED = 0.9
 """Above this share of tiles all are drawn."""
 BLOCK = 4
 """Side of the blocks of pixels that share their instants; divides `TILE`."""
-EVEN, EVEN_S = 0.03, 1.5e-4
+EVEN, EVEN_S = 0.03, 0.7e-4
 """Error of a predicted level, as a share of it, up to which the level changes evenly; in long
 intervals, where the same error shifts events further, `EVEN_S` over the interval."""
 DARK = 30.0
@@ -53,8 +56,21 @@ class DrawnInstant:
     """0 is the frame before, then the instants between, then the frame after."""
     luma: Float32Array
     """[H, W] levels."""
+    light: Float32Array
+    """[H, W, 3] light that they come from, without a lens."""
     codes: Codes | None
     """[H, W] surfaces that fill whole pixels, as for `render_rows`, where they were drawn."""
+
+
+class RenderedFrame(NamedTuple):
+    """A frame, and what it is made of."""
+
+    pixels: Float32Array
+    """[H, W, 3] coded."""
+    codes: Codes
+    """[H, W] surfaces that fill whole pixels, as for `render_rows`."""
+    light: Float32Array
+    """[H, W, 3] linear, without a lens."""
 
 
 class IncrementalRenderer:
@@ -68,35 +84,37 @@ class IncrementalRenderer:
         samples: as for `render`.
         shadows: as for `render`.
         code: makes levels of light (1 is white).
+        optics: the camera's lens.
     """
 
     def __init__(
         self, scene: RenderedScene, size: SensorSize, *, samples: int, shadows: bool,
-        code: Callable[[Float64Array], Float32Array] = encode_srgb,
+        code: Callable[[NDArray[Any]], Float32Array] = encode_srgb, optics: Optics = PERFECT,
     ) -> None:  # fmt: skip
-        self._size, self._code = size, code
+        self._size, self._code, self._optics = size, code, optics
         self._draw = partial(world_and_shapes, scene, size=size, shadows=shadows, samples=samples)
-        self._light = partial(light_of_rows, rows=(0, size.height), size=size, samples=samples)
-        self._last: tuple[Drawn, Float32Array, Codes] | None = None
+        self._cast = partial(light_of_rows, rows=(0, size.height), size=size, samples=samples)
+        self._last: tuple[Drawn, RenderedFrame] | None = None
         self._kept: Mapping[float, Drawn] = {}
 
-    def render(self, time_s: float) -> tuple[Float32Array, Codes]:
-        """The frame at an instant, [H, W, 3], coded; and its codes, as of `render_rows`.
-
-        It is that of `render.render`, to the last bit.
-        """
+    def render(self, time_s: float) -> RenderedFrame:
+        """The frame at an instant: that of `render.render`, to the last bit."""
         size, drawn, last = self._size, self._drawn(time_s), self._last
         tiles = None if last is None else changed_tiles(last[0], drawn)
         wanted: Mask = np.ones(size.shape, dtype=np.bool_)
-        codes, pixels = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
+        codes, light = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
+        pixels = np.empty_like(light)
         if last is not None and tiles is not None and tiles.mean() <= MOST_CHANGED:
             wanted = _refined(tiles, TILE, size.shape)
-            codes, pixels = np.where(wanted, UNKNOWN, last[2]), last[1].copy()
-        pixels[wanted] = self._levels(drawn, wanted, codes)
+            codes, pixels = np.where(wanted, UNKNOWN, last[1].codes), last[1].pixels.copy()
+            light = last[1].light.copy()
+        light[wanted] = self._cast(drawn.world, wanted=wanted, codes=codes)[wanted]
+        touched = self._optics.touched(wanted)
+        pixels[touched] = self._code(self._optics.passed(light, drawn.world, touched))
         kept = pixels.copy()
-        kept.flags.writeable = False
-        self._last = drawn, kept, codes
-        return pixels, codes
+        kept.flags.writeable = light.flags.writeable = False
+        self._last = drawn, RenderedFrame(kept, codes, light)
+        return RenderedFrame(pixels, codes, light)
 
     def render_between(
         self, first: DrawnInstant, last: DrawnInstant, speeds: Float32Array,
@@ -130,20 +148,22 @@ class IncrementalRenderer:
         number = (before.number + after.number) // 2
         start, stop = times_s[before.number], times_s[after.number]
         share = np.float32((times_s[number] - start) / (stop - start))
-        luma = before.luma + share * (after.luma - before.luma)
+        luma, light = (_mixed(before, after, share, name) for name in ("luma", "light"))
         codes = np.full(self._size.shape, UNKNOWN)
         if blocks.any():
             moved = speeds * np.float32(steps)
             wanted = _refined(blocks, BLOCK, self._size.shape)
             if before.codes is not None and after.codes is not None:
                 predict_surface_ids(before.codes, after.codes, wanted, moved, codes)
-            exact = self._luma(times_s[number], wanted, codes)
+            touched = self._optics.touched(wanted)
+            exact = self._luma(times_s[number], (wanted, touched), codes, light)
             uneven = np.zeros(self._size.shape, np.bool_)
             limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
-            uneven[wanted] = np.abs(exact - luma[wanted]) > limit * (exact + np.float32(DARK))
-            luma[wanted] = exact
+            uneven[touched] = np.abs(exact - luma[touched]) > limit * (exact + np.float32(DARK))
+            luma[touched] = exact
+            uneven = widened(uneven, round(self._optics.point_spread_px))
             blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
-        middle = DrawnInstant(number, luma, codes)
+        middle = DrawnInstant(number, luma, light, codes)
         yield from self._divide(before, middle, blocks, speeds, times_s)
         yield middle
         yield from self._divide(middle, after, blocks, speeds, times_s)
@@ -151,14 +171,22 @@ class IncrementalRenderer:
     def _drawn(self, time_s: float) -> Drawn:
         return self._kept.get(time_s) or self._draw(time_s=time_s)
 
-    def _luma(self, time_s: float, wanted: Mask, codes: Codes) -> Float32Array:
-        """Luma [k] of the wanted pixels at an instant."""
-        levels = self._levels(self._drawn(time_s), wanted, codes)
+    def _luma(
+        self, time_s: float, pixels: tuple[Mask, Mask], codes: Codes, light: Float32Array
+    ) -> Float32Array:
+        """Luma [k] at an instant, of the second of two sets of pixels; the first is drawn.
+
+        `codes` are known ones, and those found; `light` is written where it is drawn.
+        """
+        drawn, (wanted, touched) = self._drawn(time_s), pixels
+        light[wanted] = self._cast(drawn.world, wanted=wanted, codes=codes)[wanted]
+        levels = self._code(self._optics.passed(light, drawn.world, touched))
         return np.asarray(luma_bt601(levels[None])[0], dtype=np.float32)
 
-    def _levels(self, drawn: Drawn, wanted: Mask, codes: Codes) -> Float32Array:
-        """Levels [k, 3] of the wanted pixels; `codes` are known ones, and those found."""
-        return self._code(self._light(drawn.world, wanted=wanted, codes=codes)[wanted])
+
+def _mixed(before: DrawnInstant, after: DrawnInstant, share: np.float32, name: str) -> Float32Array:
+    first, last = getattr(before, name), getattr(after, name)
+    return np.asarray(first + share * (last - first))
 
 
 def _refined(cells: Mask, side: int, shape: tuple[int, ...]) -> Mask:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.camera import Rays
 from texvent.lens import Lens, lens_limits
 from texvent_scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
-from texvent_scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
+from texvent_scenes.raycast.surfaces.catalogue import SURFACE_COUNT, gloss_rows, surface_rows
 from texvent_scenes.rendered_scene import Environment, Ground, Primitives, Texture
 
 NIGHT_SKY = 0.06
@@ -23,6 +23,8 @@ NIGHT_SKY = 0.06
 SUN_RADIUS = 0.022
 """Angular radius of the sun or moon, radians: about five times the real one, as in photographs."""
 
+MOST_WINDOWS = 12
+"""Windows that light a room at most."""
 MAX_CROSSINGS = 4
 """Roads that may cross the main one."""
 
@@ -64,6 +66,8 @@ INSTANT_RECORD = np.dtype(
         ("medium_count", "i8"),
         ("glows", "i8"),
         ("glow_count", "i8"),
+        ("mirrored", "i8"),
+        ("mirrored_count", "i8"),
         ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
@@ -78,7 +82,12 @@ INSTANT_RECORD = np.dtype(
         # large patches' tile; tiles per metre, strength of the large patches, and theirs.
         ("surface_tiles", "i8", (SURFACE_COUNT, 2)),
         ("surface_sizes", "f8", (SURFACE_COUNT, 3)),
+        ("gloss", "f8", (SURFACE_COUNT, 3)),  # of `surfaces.catalogue.gloss_rows`
         ("wall_colour", "f8", 3),
+        # Middles of a room's windows, metres, and how many there are: see `shading.indoors`.
+        ("windows", "f8", (MOST_WINDOWS, 3)),
+        ("window_count", "i8"),
+        ("wetness", "f8"),
         ("crossing_count", "i8"),
         ("crossings", "f8", (MAX_CROSSINGS, 4)),  # point (x, y), cosine and sine
         ("road", "f8", 5),  # cosine and sine of its direction, half width, x and y on it
@@ -118,6 +127,7 @@ SHAPE_RECORD = np.dtype(
         # the sun, and highest place towards the sun, metres.
         ("sun_window", "f8", 5),
         ("kind", "i8"),
+        ("instance", "i8"),
         ("is_thin", "i8"),
         ("texture", "i8"),
         ("texture_scale", "f8"),
@@ -203,6 +213,20 @@ GLOW_RECORD = np.dtype(
 """One lamp as the camera sees it: a bright spot with a halo."""
 
 
+MIRRORED_RECORD = np.dtype(
+    [
+        ("inverse", "f8", (3, 4)),  # world → unit-shape coordinates
+        ("middle", "f8", 3),
+        ("radius", "f8"),  # of the sphere around it, metres
+        ("light", "f8", 3),  # that it sends to all sides
+        ("instance", "i8"),
+        ("is_round", "i8"),  # 1 = an ellipsoid, 0 = a box
+    ],
+    align=True,
+)
+"""One shape as glossy surfaces mirror it: see `raycast.mirrored`."""
+
+
 class PackedSurfaces(NamedTuple):
     """All meshes and images of an instant."""
 
@@ -237,16 +261,18 @@ class World(NamedTuple):
     """[k] `SEEN_MEDIUM_RECORD`."""
     glows: NDArray[Any]
     """[g] `GLOW_RECORD`."""
+    mirrored: NDArray[Any]
+    """[r] `MIRRORED_RECORD`."""
 
     def addressed(self) -> World:
         """The same world, whose instant has the addresses of its arrays."""
         instant, surfaces = self.instant[0], self.surfaces
-        for name in ("shapes", "lists", "lamps", "media", "glows"):
+        for name in ("shapes", "lists", "lamps", "media", "glows", "mirrored"):
             instant[name] = getattr(self, name).ctypes.data
         for name in ("nodes", "triangles", "images", "texels"):
             instant[name] = getattr(surfaces, name).ctypes.data
         instant["medium_count"], instant["glow_count"] = len(self.media), len(self.glows)
-        instant["lamp_count"] = len(self.lamps)
+        instant["lamp_count"], instant["mirrored_count"] = len(self.lamps), len(self.mirrored)
         return self
 
 
@@ -324,6 +350,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
         "sky_horizon",
         "clouds",
         "wave_height",
+        "wetness",
         "sun_colour",
         "ambient",
         "fog_colour",
@@ -341,7 +368,7 @@ def describe_materials(
 
     `Texture.MOTTLED` follows the size of its shape: it is a material at another fineness.
     """
-    for name in ("texture", "texture_scale", "emission", "colour", "second_colour"):
+    for name in ("texture", "texture_scale", "emission", "colour", "second_colour", "instance"):
         shapes[name] = getattr(primitives, name)
     shapes["extent"] = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
     mottled = primitives.texture == Texture.MOTTLED
@@ -352,3 +379,4 @@ def describe_materials(
     if environment.ground is Ground.FLOOR:
         used.add(Texture.PLASTER)  # the ceiling
     instant["surface_tiles"], instant["surface_sizes"] = surface_rows(frozenset(used))
+    instant["gloss"] = gloss_rows()

@@ -20,7 +20,9 @@ from texvent_scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent_scenes.raycast.lamps.glow import see_glows
 from texvent_scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent_scenes.raycast.media import describe_media
+from texvent_scenes.raycast.optics import PERFECT, Optics
 from texvent_scenes.raycast.records import World
+from texvent_scenes.raycast.shading.ambient import list_windows
 from texvent_scenes.rendered_scene import (
     Environment,
     Float32Array,
@@ -47,6 +49,7 @@ def light_up(
         rays: the camera's rays.
         shadows: False turns the shadows of lamps off.
     """
+    list_windows(world.instant)
     if not len(environment.lamps) and not len(environment.media):
         return world
     instant = world.instant
@@ -105,6 +108,7 @@ def render(
     *,
     samples: int = 2,
     shadows: bool = True,
+    optics: Optics = PERFECT,
 ) -> Float32Array:
     """Draw a scene as a camera would see it at one instant.
 
@@ -115,12 +119,17 @@ def render(
         samples: probes per pixel side that look for edges, which bisection then places; a pixel
             with something thinner than the probes is the mean of (4 · samples)² rays.
         shadows: False leaves out all shadows.
+        optics: the camera's lens.
 
     Returns:
         [H, W, 3] RGB, float32, 0..255, gamma-coded with the sRGB curve (IEC 61966-2-1), not
         rounded to whole levels.
     """
-    return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
+    world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
+    light = light_of_rows(world, (0, size.height), size, samples=samples)
+    everywhere = np.ones(size.shape, dtype=np.bool_)
+    passed = optics.passed(light.astype(np.float32), world, everywhere)
+    return encode_srgb(passed.reshape(light.shape))
 
 
 def render_light(
@@ -131,7 +140,7 @@ def render_light(
     samples: int = 2,
     shadows: bool = True,
 ) -> Float64Array:
-    """The light that `render` gamma-codes.
+    """The light that a perfect lens passes, which `render` gamma-codes.
 
     Args:
         scene: what to draw.

@@ -18,6 +18,11 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 
 
+def _counts(token: Token) -> list[float]:
+    """Numbers of things that a word means."""
+    return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
+
+
 @dataclass(frozen=True)
 class Group:
     """Noun group: a head with its determiner, number and adjectives."""
@@ -34,8 +39,7 @@ class Group:
     @property
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
-        fields = [sense.value for one in self.modifiers for sense in one.all("field")]
-        counts = [value for field, value in fields if field == "count"]
+        counts = [count for one in self.modifiers for count in _counts(one)]
         if counts or self.head is None:
             return any(count > 1 for count in counts)
         if self.head.has("effect") and not self.head.has("noun"):
@@ -66,8 +70,8 @@ class Clause:
     """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before, or "then",
-    after it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+    """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -132,10 +136,8 @@ class _Parser:
         if token.has("conjunctions"):
             self._take()
             return Clause(about="then") if word == "then" else Clause()
-        phrase = clause.after[-1] if clause.after else None
-        if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
-            is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
-            return Clause(phrase.groups, about="company") if is_next else None
+        if (second := self._begin_with_verb(clause)) is not None:
+            return second
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
             return Clause(about="nearest")
@@ -149,6 +151,31 @@ class _Parser:
         starts = self._starts_group() or self._token().has("camera")
         return Clause() if starts and (clause.verb or clause.after) else None
 
+    def _begin_with_verb(self, clause: Clause) -> Clause | None:
+        """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
+        token, verb = self._token(), clause.verb
+        before = clause.after[-1] if clause.after else None
+        phrase = before if isinstance(before, Phrase) else None
+        groups = clause.objects if phrase is None else phrase.groups
+        is_here = bool(groups) and groups[-1].head is self._token(-1)
+        if token.verbs("ing") and is_here and (phrase or verb):
+            verbs = {one.value.kind for one in token.verbs("ing")}
+            word = "" if phrase is None else phrase.preposition.text
+            if verb and word not in ("on", "in") and verbs & word_set("things", "in_place"):
+                return Clause(about="nearest")  # "behind a disc spinning"
+            is_near = word == "with" or self._token(-1).has("noun")
+            return Clause(groups, about="company") if verb or is_near else None
+        if verb is not None and token.verbs("ed") and self._token(1).text == "by":
+            return Clause(about="nearest")  # "drives a tractor followed by birds"
+        if verb is None or (verb.is_unknown and verb is self._token(-1)):
+            return None
+        is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
+        if is_open and token.is_unknown and token.text.endswith("s"):  # "a cat sleeping wugs"
+            return Clause(about="meanwhile", verb=self._take())
+        forms = ("ing", "s", "base") if is_open else ("ing",)
+        is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
+        return Clause(about="meanwhile") if is_next else None
+
     # Parts of a clause: each step gives the clause with what it has read, or None
 
     def _read_camera(self, clause: Clause) -> Clause | None:
@@ -157,7 +184,8 @@ class _Parser:
         if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
             self._at += ahead + 1
             return replace(clause, about="camera")
-        is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
+        verbs = {one.value.who for one in self._token().verbs("base")}
+        is_command = verbs == {"camera"} or ("camera" in verbs and self._at == 0)
         if clause == Clause() and is_command and not self._token().has("noun"):
             return Clause(about="camera", verb=self._take())
         return None
@@ -167,7 +195,19 @@ class _Parser:
         if not self._token().has("negations"):
             return None
         self._take()
-        return replace(clause, absent=(*clause.absent, self._group()))
+        return replace(clause, absent=(*clause.absent, *self._listed(self._group())))
+
+    def _listed(self, first: Group) -> list[Group]:
+        """Groups of a list that "and" or "or" ends, all with articles or none."""
+        found, known, end = [first], 1, self._at
+        while self._token().text in (",", "and", "or") and self._starts_group(1):
+            is_last, group = self._take().text != ",", self._group()
+            if bool(group.article) != bool(first.article) or self._is_verb(Clause((group,))):
+                break
+            found.append(group)
+            known, end = (len(found), self._at) if is_last else (known, end)
+        self._at = end
+        return found[:known]
 
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
@@ -181,14 +221,17 @@ class _Parser:
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        is_object = self._starts_group() and not self._token().has("adverb")
+        is_object = self._starts_group() and not self._is_adverb()
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
-    def _is_verb(self, clause: Clause) -> bool:
-        """Whether the token is a verb of the clause.
+    def _is_adverb(self) -> bool:
+        """Whether what follows a verb is no object: "fast", "outside"."""
+        token = self._token()
+        is_bare = token.is_unknown and not (token.text.endswith("s") or self._starts_group(1))
+        return is_bare or token.has("adverb")
 
-        A bare form needs several subjects, and a word that is a noun too needs one right before.
-        """
+    def _is_verb(self, clause: Clause) -> bool:
+        """Whether the token is its verb: a bare form needs several subjects, a noun one before."""
         token = self._token()
         forms = {one.form for one in token.all("verb")}
         if not forms or (forms == {"base"} and not clause.is_plural):
@@ -203,7 +246,8 @@ class _Parser:
         is_doing = token.text in _IS and self._token(1).text.endswith("ing")
         if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
             return None
-        is_back = token.has("relation") and self._token(1).has("pronouns")
+        is_before = self._token(1).has("pronouns") and not self._starts_group(1)  # no "her car"
+        is_back = token.has("relation") and is_before
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
             if token.has("adverb") or not token.has("relation"):
                 return None
@@ -224,7 +268,8 @@ class _Parser:
 
     def _read_group(self, clause: Clause) -> Clause | None:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
-        is_rest = (self._token().is_unknown and is_said) or self._is_no_noun(clause)
+        is_rest = self._token().is_unknown and (is_said or (clause.verb and self._is_adverb()))
+        is_rest = is_rest or self._is_no_noun(clause)
         if is_rest or not self._starts_group():
             return None
         if clause.verb is None:
@@ -266,16 +311,16 @@ class _Parser:
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
-        """Groups with "and" between them, but for one that begins a clause.
-
-        So does one with a like preposition: "a girl with a hat and a boy with a ball".
-        """
+        """Groups with "and", up to a subject: "a girl with a hat and a boy with a ball"."""
         found = [self._group()]
+        if preposition.text == "with" and self._token().text == ",":
+            found = self._listed(found[0])
         while self._token().text == "and" and self._starts_group(1) and not self._has_object(1):
             start = self._at
             self._take()
             group = self._group()
-            if self._is_verb(Clause((group,))) or self._is_like(preposition):
+            is_subject = group.article or group.is_plural
+            if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
                 break
             found.append(group)
@@ -298,8 +343,10 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown:  # the words before it qualify it
-                unknown, modifiers = [*unknown, *modifiers, token], []
+            if token.is_unknown:
+                unknown.append(token)
+                if article in ("a", "an"):  # "a six axis arm" is one
+                    modifiers = [one for one in modifiers if not _counts(one)]
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
             elif self._is_compound(article, first):
@@ -308,10 +355,20 @@ class _Parser:
                 head = token
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
+        tail = [self._take() for _ in range(self._tail() if head else 0)]
+        known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         if self._token().text == "of" and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
-        return Group(head, tuple(modifiers), tuple(unknown), article, of)
+        lost = [*lost, *unknown, *tail[:-1]]
+        return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
+
+    def _tail(self) -> int:
+        """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""
+        ahead = 0
+        while self._token(ahead).is_unknown:
+            ahead += 1
+        return ahead + 1 if self._token(ahead).has("hollow") else 0
 
     def _ends_group(self, first: int) -> bool:
         token = self._token()
@@ -319,6 +376,9 @@ class _Parser:
             return True
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
+        before = self._token(-1)
+        if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
+            return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 
     def _stands_before(self, token: Token) -> bool:
@@ -334,7 +394,7 @@ class _Parser:
         is_head = is_head and self._agrees(article, first) and not self._has_object()
         is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
         is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
-        is_word = after.is_unknown and after.text.isalpha() and not is_verb
+        is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
         return (is_head or is_word) and not is_many
 
     def _agrees(self, article: str, first: int) -> bool:
@@ -342,8 +402,7 @@ class _Parser:
         senses = [one.value for one in self._token().all("noun")]
         words, is_one = self._tokens[first : self._at], article in ("a", "an")
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
-        said = [sense.value for one in words for sense in one.all("field") if not is_other]
-        counts = [float(value) for field, value in said if field == "count"]
+        counts = [count for one in words for count in _counts(one) if not is_other]
         if not senses or not (counts or is_one):
             return True
         return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent.prompt_report import Substitution
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.places import is_room
+from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.clauses import Clause
-from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.read.clauses import Clause, Group
+from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
 
@@ -32,6 +36,16 @@ def split_move(phrase: str) -> dict[str, Any]:
     return {"kind": kind, **({"direction": direction} if is_turned else {})}
 
 
+def names_place(head: Token, relation: str) -> bool:
+    """Whether a noun is a place: "in a park", and not "a park bench"."""
+    place, is_thing = head.first("place"), head.has("noun", "pose")
+    if place is None or (head.is_liquid and relation in ("", "with", "from", "off")):
+        return False
+    if relation in word_set("things", "outside"):  # "behind a library": where is that?
+        return not is_thing and not is_room(place.value)
+    return bool(relation) or not is_thing
+
+
 def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     """Set a field of an object, or an adverb of its last motion."""
     if field == "rate_hz" and "blink_hz" in thing:
@@ -45,11 +59,20 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
 
 
-def add_motion(thing: dict[str, Any], act: VerbSense) -> None:
-    """Add a motion; it takes the place of one of which only the pace is said."""
+def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:
+    """Add a motion; it takes the place of one of which only the pace is said.
+
+    What goes on moves as before: "a truck driving at 20 m/s passes".
+    """
     motions, pace = thing["motions"], act.pace
     if not act.kind:
         return
+    if goes_on and act.kind == "move" and motions and motions[-1]["kind"] in _MEANS:
+        motions[-1].update({"direction": act.direction} if act.direction else {})
+        return
+    is_posture = act.kind not in (*_MEANS, "move")
+    if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
+        motions.pop()  # "stands reading"
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
@@ -75,6 +98,7 @@ class SceneDraft:
     """Scene that is being read; clauses are applied one after the other."""
 
     tokens: Sequence[Token]
+    nouns: Mapping[str, Noun]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
     not known."""
@@ -136,6 +160,72 @@ class SceneDraft:
         self.moves.append({**move, **({"phase": self.phase} if self.phase else {})})
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
+
+    def can_go(self, index: int) -> bool:
+        """Whether an object can go from place to place by itself."""
+        return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
+
+    def fits(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool:
+        """Whether the subjects can do it, with an object or without one."""
+        things = [self.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
+        match verb.who:
+            case "person":
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self.things[one]["noun"] in used for one in objects)
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "animal":
+                return all(verb.kind in self.nouns[one].acts for one in names)
+            case "machine":
+                return not has_object and all(self.nouns[one].is_working for one in names)
+            case "source" | "lamp":
+                return not has_object and not is_acting
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
+            return False
+        if has_object:
+            needs_hands = verb.relation in word_set("things", "of_people")
+            return bool(verb.relation) and (is_acting or not needs_hands)
+        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
+        needs_object = verb.object or verb.relation in word_set("things", "doing")
+        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
+        """Add an effect, which comes from the first of the owners."""
+        self.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        self.show(token)
+
+    def set_place(self, group: Group, head: Token, relation: str) -> None:
+        """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
+        place = self.parts["place"]
+        name = head.all("place")[0].value
+        is_it = name in ("sky", place.get("name", name))
+        for token in group.modifiers:
+            field, value = (token.first("field") or Sense("", ("", ""))).value
+            if token.text == "dark":
+                self.parts["light"].setdefault("kind", "night")
+                if name == "plain":
+                    place |= {"colour": "black", "sky": "black"}
+            elif field == "colour" and is_it and not is_room(name):
+                place["sky" if name == "sky" else "colour"] = value
+            elif not self.set_scene(token):
+                continue
+            self.show(token)
+        self.set_scene(head)
+        is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+        if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
+            place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), name]))
+            self.show(head)
+        elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
+            head.is_liquid and place["name"] in word_set("things", "waters")
+        ):  # fmt: skip
+            self.show(head)
 
     def find_move(self, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
         """The move of a clause with its direction and pace; these words are counted as shown.

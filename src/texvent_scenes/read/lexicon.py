@@ -326,7 +326,10 @@ def _without_chance(
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
-    is_verb = words[end].endswith("ing") and after in articles
+    goes_on = articles | word_set("things", "routes")
+    is_verb = words[end].endswith("ing") and (
+        after in goes_on or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+    )
     is_single = any(one.text in ("a", "an") for one in before[-2:])
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(

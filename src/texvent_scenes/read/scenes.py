@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent_scenes.models.people.outfit import list_props
-from texvent_scenes.models.places import PLACES, is_room
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
-from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, set_field
-from texvent_scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
+from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place, set_field
+from texvent_scenes.read.lexicon import Token, VerbSense, lexicon_of, split_prompt, word_set
+from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
@@ -22,7 +25,7 @@ BLINK_HZ = 2.0
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
     tokens = split_prompt(prompt, lexicon_of(nouns))
-    draft = SceneDraft(tokens)
+    draft = SceneDraft(tokens, nouns)
     reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
@@ -37,18 +40,29 @@ class _SentenceReader:
         self._nouns = nouns
         self._subjects: list[int] = []
         """Objects that the last clause was about."""
+        self._earlier: list[int] = []
+        """Objects that the clause before that one was about: "behind her"."""
         self._nearest: list[int] = []
         """Objects of the last noun group."""
         self._was_camera = False
+        self._verb: Token | None = None
+        """The last verb: "then right", "then a truck" say no other."""
+        self._phases = 0  # times that "then" was said of things
+        self._goes_on = False
+        """Whether it happens while all that was said of its subjects before."""
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
+        if clause.about == "then" and clause.verb is None and not self._was_camera:
+            clause = replace(clause, verb=self._verb)
+        self._verb = clause.verb or self._verb
+        self._goes_on = clause.about in ("meanwhile", "company") or bool(clause.subjects)
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        goes_on = self._was_camera and clause.about in ("same", "then")
+        goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_camera = goes_on or clause.about == "camera"
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
@@ -58,6 +72,7 @@ class _SentenceReader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
+        known = len(self._draft.things)
         told = subjects = self._find_subjects(clause)
         first = clause.verb.at if clause.verb is not None else 0
         before = [one for one in clause.after
@@ -65,55 +80,103 @@ class _SentenceReader:
         for phrase in before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        self._subjects, moved = list(subjects), subjects
+        subjects, objects, after = self._turn_passive(clause, subjects, objects)
+        if clause.about != "company":
+            self._earlier = self._subjects if clause.subjects else self._earlier
+            self._subjects = list(subjects)
+        moved = subjects
         if clause.verb is not None:
-            is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
-            found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
-            kinds = {one.value.kind for one in clause.verb.all("verb")}
-            if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
-                found = []  # "smoke rises from a chimney", as it does by itself
-                self._draft.show(clause.verb)
-            for index in subjects if found is None else ():  # what it does is not made up
-                self._draft.things[index]["is_lost"] = True
-            subjects, moved = ([], []) if found is None else (subjects, found or subjects)
-            told = moved
-        for one in (each for each in clause.after if each not in before):
+            subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
+            told = moved or objects
+        self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.about == "then":  # others wait until then
+            self._phases += 1
+            for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
+                motions[:0] = [{"kind": "stand"} for _ in range(self._phases if motions else 0)]
+
+    def _do_verb(
+        self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]
+    ) -> tuple[list[int], list[int]]:
+        """Apply the verb of a clause; the subjects that do it, and who is moved."""
+        heads = [one.head for one in clause.objects]
+        is_known = all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
+        found = self._act(verb, subjects, objects, has_object=not is_known)
+        kinds = {one.value.kind for one in verb.all("verb")}
+        if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
+            self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
+            return [], []
+        for index in subjects if found is None else ():  # what it does is not made up
+            self._draft.things[index]["is_lost"] = True
+        return ([], []) if found is None else (subjects, found or subjects)
+
+    def _say_after(
+        self, after: Sequence[Phrase | Token], subjects: list[int], moved: list[int],
+        told: list[int],
+    ) -> None:  # fmt: skip
+        """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
+        for one in after:
             if isinstance(one, Phrase):
-                told = self._relate(one, subjects, moved) or moved
+                sense, things = one.preposition.first("relation"), self._draft.things
+                kinds = {each["kind"] for index in subjects for each in things[index]["relations"]}
+                is_next = sense is not None and sense.value in (kinds if subjects else PLACING)
+                told = self._relate(one, told if is_next else subjects, moved) or moved
             elif not self._draft.set_scene(one):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
+    def _turn_passive(
+        self, clause: Clause, subjects: list[int], objects: list[int]
+    ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
+        """Who does it, to what, and the rest: "a ball kicked by a man"."""
+        by = clause.after[0] if clause.after else None
+        is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
+        if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
+            return subjects, objects, clause.after
+        agents = [index for group in by.groups for index in self._name(group)]
+        return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
+
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
+        heads = [one.head for one in clause.subjects]
         if clause.about == "company":
-            going = [one for one in self._nearest if self._moves(one)]
-            is_known = all(one.head and self._draft.shows(one.head) for one in clause.subjects)
-            return (going or self._subjects) if is_known and not clause.is_of_effect else []
+            if clause.is_of_effect or not all(one and self._draft.shows(one) for one in heads):
+                return []
+            both = self._nearest, self._subjects
+            able = [[one for one in each if self._is_able(clause, one)] for each in both]
+            going = [one for one in self._nearest if self._draft.can_go(one)]
+            return next(filter(None, (*able, going)), self._subjects)
         if clause.subjects:
             return [index for group in clause.subjects for index in self._name(group)]
         return self._nearest if clause.about == "nearest" else self._subjects
 
+    def _is_able(self, clause: Clause, index: int) -> bool:
+        """Whether an object can do what not all can."""
+        verbs = clause.verb.all("verb") if clause.verb is not None else ()
+        acts = [one.value for one in verbs if one.value.who not in ("plain", "source", "camera")]
+        is_lamp, has_object = self._draft.things[index]["noun"] in LAMPS, bool(clause.objects)
+        fitting = (one for one in acts if self._draft.fits(one, [index], [], has_object))
+        return any(is_lamp or one.who != "lamp" for one in fitting)
+
     # Noun groups
 
     def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
-        """Add what a group names; the indices of its objects, at most one.
-
-        An effect comes from the first of the owners.
-        """
+        """Add what a group names; the indices of its objects, at most one."""
         head = group.head
         found: list[int] = []
-        if head is not None and self._is_place(head, relation):
-            self._set_place(group, head, relation)
+        if head is not None and names_place(head, relation):
+            self._draft.set_place(group, head, relation)
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
+            for token in group.unknown if relation not in ("", "with") else ():
+                if names_place(token, relation):  # "in a city centre"
+                    self._draft.set_place(Group(token), token, relation)
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
-                    self._add_effect(token, effect.value, owners)
+                    self._draft.add_effect(token, effect.value, owners)
         if group.of is not None:
             self._fill(found, group.of.groups[0])
         return found
@@ -121,27 +184,18 @@ class _SentenceReader:
     def _fill(self, vessels: Sequence[int], content: Group) -> None:
         """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
         head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
-        if head is not None and self._is_place(head, ""):
+        if head is not None and names_place(head, ""):
             self._name(content, "in")
         elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
             for index in self._name(content):
                 self._draft.relate(index, "in", vessels)
             self._nearest = list(vessels)
 
-    def _is_place(self, head: Token, relation: str) -> bool:
-        is_thing = head.has("noun", "pose") or head.is_liquid
-        if relation in word_set("things", "outside"):  # "behind a library": where is that?
-            return False
-        return head.has("place") and (bool(relation) or not is_thing)
-
-    def _moves(self, index: int) -> bool:
-        """Whether an object can go from place to place by itself."""
-        return self._nouns[self._draft.things[index]["noun"]].speed_m_s > 0.0
-
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         is_part = noun and ((is_owned and noun.value.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
@@ -162,33 +216,13 @@ class _SentenceReader:
         draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
         for token in group.modifiers:
+            draft.show(*([token] if token.has("hollow") else []))
             self._say(token, [index])
+        for token in group.unknown if not self._draft.can_go(index) else ():
+            if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
+                self._draft.set_place(Group(token), token, "")
         self._nearest = [index]
         return [index]
-
-    def _add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
-        self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
-        self._draft.show(token)
-
-    def _set_place(self, group: Group, head: Token, relation: str) -> None:
-        """As "on a snowy road", "a red sky", "a mountain road"."""
-        draft, place = self._draft, self._draft.parts["place"]
-        name = head.all("place")[0].value
-        for token in group.modifiers:
-            field, value = (token.first("field") or Sense("", ("", ""))).value
-            if token.text == "dark":
-                draft.parts["light"].setdefault("kind", "night")
-                if name == "plain":
-                    place |= {"colour": "black", "sky": "black"}
-            elif field == "colour" and not is_room(name):
-                place["sky" if name == "sky" else "colour"] = value
-            elif not self._draft.set_scene(token):
-                continue
-            draft.show(token)
-        self._draft.set_scene(head)
-        is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
-            draft.show(head)
 
     # What is said of things
 
@@ -223,7 +257,9 @@ class _SentenceReader:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
         acts = (one.value for one in verb.all("verb") if subjects)
-        act = next((one for one in acts if self._fits(one, subjects, objects, has_object)), None)
+        act = next(
+            (one for one in acts if self._draft.fits(one, subjects, objects, has_object)), None
+        )
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -243,43 +279,12 @@ class _SentenceReader:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
         if act.who not in ("source", "lamp"):
-            add_motion(thing, act)
+            add_motion(thing, act, goes_on=self._goes_on)
         elif thing["noun"] not in word_set("things", "flames"):
             if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ
             else:
-                self._add_effect(verb, act.kind, [index])
-
-    def _fits(
-        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
-    ) -> bool:
-        """Whether the subjects can do it, with an object or without one."""
-        things = [self._draft.things[one] for one in subjects]
-        names = {one["noun"] for one in things}
-        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
-        acts = word_set("things", "acts") if has_object else ()
-        match verb.who:
-            case "person":
-                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
-                is_used = all(self._draft.things[one]["noun"] in used for one in objects)
-                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
-            case "hand":
-                return names <= HAND_NOUNS and not has_object
-            case "animal":
-                return all(verb.kind in self._nouns[one].acts for one in names)
-            case "machine":
-                return not has_object and all(self._nouns[one].is_working for one in names)
-            case "source" | "lamp":
-                return not has_object and not is_acting
-        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
-        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
-            return False
-        if has_object:
-            needs_hands = verb.relation in word_set("things", "of_people")
-            return bool(verb.relation) and (is_acting or not needs_hands)
-        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
-        needs_object = verb.object or verb.relation in word_set("things", "doing")
-        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+                self._draft.add_effect(verb, act.kind, [index])
 
     # Prepositions
 
@@ -292,16 +297,20 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
-            others = [] if set(self._nearest) & set(subjects) or not kind else self._nearest
-            if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
+            is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
+            others, targets = (subjects, self._earlier) if is_own else (self._nearest, subjects)
+            others = others if kind and targets else []
+            if not any([self._relate_one(kind, one, targets) for one in others]):
                 draft.mark(token, "lost")
             return []
-        place, targets = draft.parts["place"].get("name"), list[int]()
+        targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
+        heads = [group.head for group in phrase.groups if group.head is not None]
         if not targets:
-            if draft.parts["place"].get("name") != place:
+            is_place = all(names_place(one, kind or token.text) for one in heads)
+            if is_place and "name" in draft.parts["place"]:
                 self._go_to_place(token, subjects or self._nearest, moved)
             elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
@@ -331,7 +340,16 @@ class _SentenceReader:
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
-        if kind == "with" and not any(map(self._moves, (index, *targets))):
+        is_table = kind == "with" and thing["noun"] in word_set("things", "tables")
+        if (
+            is_table
+            and not self._draft.can_go(targets[0])
+            and target["noun"] not in nouns_with("seat")
+        ):
+            return all([draft.relate(one, "on", [index]) for one in targets])
+        if kind == "with" and target["noun"] in nouns_with("towering"):
+            return True  # it stands in the distance
+        if kind == "with" and not any(map(self._draft.can_go, (index, *targets))):
             return False  # "a vase with roses", "a disc with a dot"
         if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
             if thing["noun"] not in PERSON_NOUNS:
@@ -341,9 +359,9 @@ class _SentenceReader:
             kind = "beside"
         elif kind == "above" and target["noun"] in word_set("things", "ways"):
             kind = "on"
-        seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
-            return all([draft.relate(one, "on", seats[0]) for one in targets])
+        sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if sat_at and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", sat_at[0]) for one in targets])
         return draft.relate(index, kind, targets)
 
     # The camera
@@ -352,7 +370,7 @@ class _SentenceReader:
         """Whether a camera goes that is not named: "driving through a city"."""
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
-        is_place = all(one.head and self._is_place(one.head, "") for one in clause.subjects)
+        is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
         is_new = not self._draft.things and clause.about not in ("nearest", "company")
         return travels and is_place and is_new
 

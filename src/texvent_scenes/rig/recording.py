@@ -136,6 +136,7 @@ class Recording:
             times,
             samples=options.samples,
             shadows=options.shadows,
+            optics=self.video.optics,
         )
         for number, frame in enumerate(made, 1):
             yield frame

@@ -14,6 +14,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,9 @@ from texvent.sensor import SensorSize
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.config import RigConfig
 from texvent_scenes.rig.description import Float64Array
+
+if TYPE_CHECKING:
+    from texvent_scenes.raycast.optics import Optics
 
 MOST_INSTANTS = 64
 """Largest number of instants of an exposure."""
@@ -105,15 +109,21 @@ def expose_frames(
     *,
     samples: int,
     shadows: bool,
+    optics: Optics,
 ) -> Iterator[ExposedFrame]:
     """The frames at some times."""
     # Imported here: the kernels load Numba.
     from texvent.transfer import encode_srgb
+    from texvent_scenes.raycast.render import world_at
 
     for t_us in times_us:
-        light = expose(scene, size, shutter, t_us / MICROSECONDS, samples=samples, shadows=shadows)
-        pixels = np.clip(np.round(encode_srgb(light)), 0, 255).astype(np.uint8)
-        first_s = t_us / MICROSECONDS - shutter.half_s
+        time_s = t_us / MICROSECONDS
+        light = expose(scene, size, shutter, time_s, samples=samples, shadows=shadows)
+        world = world_at(scene, time_s, size, shadows=False)
+        everywhere = np.ones(size.shape, dtype=np.bool_)
+        passed = optics.passed(light.astype(np.float32), world, everywhere).reshape(light.shape)
+        pixels = np.clip(np.round(encode_srgb(passed)), 0, 255).astype(np.uint8)
+        first_s = time_s - shutter.half_s
         yield ExposedFrame(pixels, t_us, first_s, shutter.row_s, shutter.exposure_s)
 
 
@@ -126,7 +136,7 @@ def expose(
     samples: int = 2,
     shadows: bool = True,
 ) -> Float64Array:
-    """Linear light [H, W, 3], 0..1, of the frame at that time; arguments as `expose_frames`."""
+    """Linear light [H, W, 3], 0..1, that a perfect lens passes; arguments as `expose_frames`."""
     from texvent_scenes.raycast.render import light_of_rows, world_at
 
     speed = fastest_px_s(scene, size, time_s)

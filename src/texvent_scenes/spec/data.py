@@ -159,7 +159,7 @@ def get_field(scene: Scene, path: str) -> Any:
     """
     value: Any = scene
     done = ""
-    for step in _steps(path):
+    for step in steps_of(path):
         if isinstance(step, int):
             count = len(value) if isinstance(value, tuple) else 0
             if step >= count:
@@ -185,7 +185,7 @@ def with_fields(scene: Scene, values: Mapping[str, Any]) -> Scene:
     data = scene_to_data(scene)
     for path, value in values.items():
         get_field(scene, path)
-        *way, last = _steps(path)
+        *way, last = steps_of(path)
         place: Any = data
         for step in way:
             # A table at its defaults is left out of the data.
@@ -194,7 +194,8 @@ def with_fields(scene: Scene, values: Mapping[str, Any]) -> Scene:
     return scene_from_data(data)
 
 
-def _steps(path: str) -> list[int | str]:
+def steps_of(path: str) -> list[int | str]:
+    """Names and numbers on the way to a field."""
     if not _PATH.fullmatch(path):
         raise ConfigError(f"{shown(path)} is no path of a field, such as 'objects[0].colour'")
     return [int(number) if number else name for number, name in _STEP.findall(path)]

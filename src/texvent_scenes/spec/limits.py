@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from texvent._registry import suggest
+from texvent._registry import nearest, suggest
 from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 
@@ -47,9 +47,14 @@ class Word:
         known = words.get(self.kind)
         if known is None or value in known:
             return
-        nouns = known.items() if isinstance(known, Mapping) else ()
-        named = (name for name, one in nouns if value in getattr(one, "synonyms", ()))
-        meant = next(named, None)
+        others = {
+            other: name
+            for name, one in (known.items() if isinstance(known, Mapping) else ())
+            for key in ("synonyms", "names")
+            for other in getattr(one, key, ())
+        }
+        meant = others.get(value) or nearest(value, tuple(known))
+        meant = meant or others.get(nearest(value, tuple(others)) or "")
         hint = f"did you mean {shown(meant)}?" if meant else suggest(value, tuple(known))
         raise ConfigError(f"{where} is {shown(value)}; {hint}")
 

@@ -12,13 +12,13 @@ the text under it is its description.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, Self, TypeAlias, cast
 
 from texvent.errors import ConfigError, shown
 from texvent_scenes.spec.limits import Between, Colour, Word
-from texvent_scenes.spec.tables import build_table, plain_values
+from texvent_scenes.spec.tables import build_table, explain_fields, plain_values
 
 MAX_BODIES = 60
 """Most bodies in a scene: objects with all their copies."""
@@ -77,7 +77,7 @@ class Motion:
     speed_m_s: MetresPerSecond | None = None
     """Speed, m/s; it takes the place of `pace`."""
     rate_hz: Hertz | None = None
-    """Repetitions per second of an oscillation: a swing, a shake."""
+    """Repetitions per second: of an oscillation ("sway", "tilt", to and fro), turns of a spin."""
     start_s: Seconds | None = None
     """Start time, s; left out: time 0, or the end of the motion before."""
 
@@ -147,7 +147,8 @@ class SceneObject:
     """Position of the (first) copy on the ground at time 0, m: x to the right, y away from the
     default camera."""
     height_m: Metres | None = None
-    """Height of its lowest point above the ground, m."""
+    """Height of its lowest point above the ground at time 0, m; what falls or bounces starts there
+    and comes down to the ground."""
     heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
     """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y); it takes the
     place of a motion's direction."""
@@ -189,7 +190,10 @@ class CameraMove:
     means: Literal["drive", "cycle", "walk", "run", "fly", "sail", "swim"] | None = None
     """Vehicle or gait of travel."""
     speed_m_s: MetresPerSecond | None = None
-    """Speed of travel, m/s."""
+    """Speed of "travel", "dolly", "truck" and "pedestal", m/s; it takes the place of `pace`."""
+    rate_deg_s: Annotated[float, Between(0.0, 10_000.0)] | None = None
+    """Degrees per second: of turning, of "pan", "tilt", "roll" and "orbit"; by which the field of
+    view changes, of "zoom"; it takes the place of `pace`."""
 
 
 @dataclass(frozen=True)
@@ -225,7 +229,8 @@ class Lamp:
     """Position x, y, z, m."""
     strength: Annotated[float, Between(0.0, 10_000.0)] = 1.0
     """Light on a white surface that faces it at 1 m, as a multiple of that surface in full
-    daylight; it falls with the square of the distance."""
+    daylight; it falls with the square of the distance. Usual at night: 0.02
+    (a candle), 1 (a lamp at the ceiling), 5 (a street lamp 5 m up); in a room 5 bleaches."""
     colour: Annotated[str, Colour("light")] | None = None
     """Colour: "warm", "cold", a name or an sRGB code; left out: white."""
     frequency_hz: Hertz | None = None
@@ -271,6 +276,9 @@ class Place:
     """Scenery on the horizon."""
     road: Literal["crossing"] | None = None
     """Another road that crosses the straight one."""
+    crossing_m: tuple[Coordinate, Coordinate] | None = None
+    """Point on the other road, m, which crosses at right angles; left out: 7 m along the road from
+    its first vehicle. The report says where the roads cross."""
     is_empty: bool = False
     """Whether scenery and furniture are left out."""
     has_snow: bool = False
@@ -326,6 +334,26 @@ class Scene:
         return cast(Self, build_table(Scene, data, "", {}))
 
 
+_TURNS, _SHIFTS = (
+    frozenset({"direction", "pace", "rate_deg_s"}),
+    frozenset({"direction", "pace", "speed_m_s"}),
+)
+READ_BY_MOVES: Mapping[MoveKind, frozenset[str]] = {
+    "static": frozenset(), "follow": frozenset(), "handheld": frozenset({"direction", "pace"}),
+    **dict.fromkeys(("pan", "tilt", "roll", "orbit", "zoom"), _TURNS),
+    **dict.fromkeys(("dolly", "truck", "pedestal"), _SHIFTS),
+    "travel": _SHIFTS | {"means"},
+}  # fmt: skip
+"""Kind of camera move → its fields, beside those of time, that it reads."""
+DIRECTIONS_OF_MOVES: Mapping[MoveKind, tuple[MoveDirection, ...]] = {
+    "pan": ("left", "right"), "truck": ("left", "right"),
+    "orbit": ("left", "right", "clockwise", "counter-clockwise"),
+    "roll": ("left", "right", "clockwise", "counter-clockwise"),
+    "tilt": ("up", "down"), "pedestal": ("up", "down"),
+    "zoom": ("in", "out"), "dolly": ("in", "out", "forward", "backward"),
+    "travel": ("forward", "backward"), "handheld": ("all axes",),
+}  # fmt: skip
+"""Kind of camera move → directions that it goes."""
 _PLACES: dict[type, tuple[Any, ...]] = {
     SceneObject: ("objects", True),
     Effect: ("effects", True),
@@ -335,6 +363,10 @@ _PLACES: dict[type, tuple[Any, ...]] = {
     Place: ("place", False),
 }
 """Part of a scene → path of its field, and whether that is a list."""
+
+
+for _owner in (*_PLACES, Motion, Relation, Picture, CameraMove, Scene):
+    explain_fields(_owner)
 
 
 def object_ids(scene: Scene) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ import dataclasses
 import types
 import typing
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, wraps
 from typing import Annotated, Any, get_args, get_origin
 
 from texvent._registry import suggest
@@ -41,6 +41,30 @@ def required_fields(owner: type) -> list[str]:
         for one in dataclasses.fields(owner)
         if one.default is dataclasses.MISSING and one.default_factory is dataclasses.MISSING
     ]
+
+
+def explain_fields(owner: Any) -> None:
+    """Let a wrong call of a dataclass be an error of one line, as a wrong table of a file is."""
+    build, names = owner.__init__, tuple(one.name for one in dataclasses.fields(owner))
+    needed = tuple(required_fields(owner))
+
+    @wraps(build)
+    def init(self: Any, *values: Any, **fields: Any) -> None:
+        for name in fields:
+            if name not in names:
+                known = suggest(name, names)
+                raise ConfigError(f"{owner.__name__} has no field {shown(name)}; {known}")
+        if len(values) > len(names):
+            raise ConfigError(f"{owner.__name__} has {len(names)} fields; {len(values)} are given")
+        for name in names[: len(values)]:
+            if name in fields:
+                raise ConfigError(f"{owner.__name__}.{name} is given twice; leave one of them out")
+        for name in needed:
+            if name not in (*names[: len(values)], *fields):
+                raise ConfigError(f"{owner.__name__} has no {name}, which it must have")
+        build(self, *values, **fields)
+
+    owner.__init__ = init
 
 
 def plain_values(value: Any) -> Any:

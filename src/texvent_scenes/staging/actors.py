@@ -79,10 +79,10 @@ class Actor:
     """Props of a person's activity, such as a guitar."""
     goes_across: bool = False
     """Whether it crosses the road."""
-    _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
+    _corners: dict[float, Float64Array] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
-    """Boxes at instants that were asked for: framing asks for the same ones six times."""
+    """Corners at instants that were asked for: framing asks for the same ones six times."""
 
     @property
     def size_m(self) -> float:
@@ -164,12 +164,14 @@ class Actor:
     def corners(self, time_s: float) -> Float64Array:
         """[8, 3] corners of its box in the world, m."""
         time_s = float(time_s)
-        if time_s not in self._boxes:
-            self._boxes[time_s] = self._box(time_s)
-        low, high = self._boxes[time_s]
-        middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        to_world = self.track.at(time_s).to_world()
-        return np.asarray((middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3])
+        if time_s not in self._corners:
+            low, high = self._box(time_s)
+            middle, half = 0.5 * (low + high), 0.5 * (high - low)
+            to_world = self.track.at(time_s).to_world()
+            corners = (middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3]
+            corners.setflags(write=False)
+            self._corners[time_s] = corners
+        return self._corners[time_s]
 
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Least and greatest body coordinates: of a body with limbs, at that instant."""

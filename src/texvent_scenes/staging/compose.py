@@ -25,6 +25,7 @@ from texvent_scenes.staging.particles.choose import (
 )
 from texvent_scenes.staging.particles.effect import Setting
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.staging.placement.zones import keep_to_zones, zone_of
 from texvent_scenes.staging.surroundings.environment import (
     AnimatedEnvironment,
     build_environment,
@@ -65,6 +66,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    notes: tuple[str, ...] = ()
+    """Decisions that the scene leaves open, as sentences, such as where the roads cross."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
@@ -120,6 +123,8 @@ def compose_scene(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
     actors = placer.place_all()
+    if travel is None:
+        actors = keep_to_zones(description, PLACES[place], actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
@@ -145,7 +150,9 @@ def compose_scene(
     still = assemble([item.place() for item in items])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
-        tuple(dict.fromkeys(_list_late(description, duration_s))),
+        tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
+        tuple(f"the roads cross at ({x:.3g}, {y:.3g}) m" for x, y, _ in view.road.crossings)
+        if ground.has_road else (),
     )  # fmt: skip
 
 
@@ -203,6 +210,10 @@ def _scatter_all(
     rules = [
         rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
     ]
+    if any(zone_of(one.noun) == "rails" for one in actors) and place != "railway":
+        is_outside = not (PLACES[place].is_room or PLACES[place].is_backdrop)
+        rails = (rule for rule in PLACES["railway"].scenery if rule.is_structure)
+        rules.extend(rails if is_outside and PLACES[place].ground is not Ground.NONE else ())
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
     return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))

@@ -73,6 +73,12 @@ def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):
     assert "paper (2 seeds), esim" in said
     assert "classes  2, 2 prompts each" in said
     assert "no license" in said
+    classes = {line.split()[0]: line.split()[1:] for line in said.splitlines() if line.split()}
+    assert classes["class"] == ["train", "test"]
+    counts = {name: [*map(int, classes[name])] for name in ("bus", "car")}
+    assert [sum(column) for column in zip(*counts.values(), strict=True)] == [3, 1]
+    (lacking,) = (name for name, (_, test) in counts.items() if test == 0)
+    assert f"warning  test has no {lacking}" in said
     assert "prompts  4 of 4 prompts understood word for word" in said
     assert [path.name for path in folder.iterdir()] == ["cars.toml"]
 
@@ -120,6 +126,27 @@ def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     said = capsys.readouterr().err
     assert "2 of 3 prompts are refused, such as 'a wug and a dog run': strict: " in said
     assert not (folder / "wugs").exists()
+
+
+def test_a_class_that_is_not_shown_is_planned_as_refused_and_made_if_allowed(folder, capsys):
+    (folder / "wugs.toml").write_text(WUGS.replace("qwerty zxcv", "a wug rolls") + 'label = "wug"')
+    assert run("plan", "wugs.toml", "--trial", 0) == 0
+    assert "make refuses" not in capsys.readouterr().out  # one of its prompts goes without the word
+    head, _, _ = WUGS.partition("prompts =")
+    text = f'{head}template = "a {{class}} runs"\nclasses = ["dog", "wug dog"]\n'
+    (folder / "wugs.toml").write_text(text)
+    assert run("plan", "wugs.toml", "--trial", 0) == 0
+    assert "make refuses class 'wug dog': not understood: wug" in capsys.readouterr().out
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
+    assert "1 of 2 classes would not be shown" in capsys.readouterr().err
+    assert not (folder / "wugs").exists()
+    (folder / "wugs.toml").write_text('allow_classes = ["wug dig"]\n' + text)
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
+    assert "did you mean 'wug dog'" in capsys.readouterr().err
+    (folder / "wugs.toml").write_text('allow_classes = ["wug dog"]\n' + text)
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 0
+    (folder / "wugs.toml").write_text(text)  # what was begun goes on
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 0
 
 
 def test_going_on_needs_the_folder_alone(folder, whole):

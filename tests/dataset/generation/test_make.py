@@ -17,7 +17,7 @@ from tests.dataset.generation.small_sets import clips_recipe, digests, make
 import texvent
 from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
-from texvent.dataset.generation.make_sample import simulate_sample
+from texvent.dataset.generation.make_sample import SampleRun, simulate_sample
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shard_files import FAILED, FILTERED, MADE, read_members, read_record
 from texvent.dataset.specification.reading import specification_from
@@ -130,9 +130,9 @@ def test_as_many_events_as_are_allowed_are_kept() -> None:
     settings = resolve("generate", {**SMALL, "simulator": "esim"})
     simulation = text_to_events("a red car drives left", settings)
     count = len(simulation.packets.collect())
-    assert len(simulate_sample(simulation, Filters(max_events=count)).events) == count
-    assert simulate_sample(simulation, Filters(max_events=count)).left_out is None
-    over = simulate_sample(simulation, Filters(max_events=count - 1))
+    within = simulate_sample(SampleRun(simulation, Filters(max_events=count)))
+    assert (len(within.events), within.left_out) == (count, None)
+    over = simulate_sample(SampleRun(simulation, Filters(max_events=count - 1)))
     assert over.left_out == f"more than {count - 1:,} events"
 
 

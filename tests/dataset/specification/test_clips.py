@@ -21,28 +21,38 @@ def clips_of(prompts: list[str], **changes: object) -> Clips:
     return Clips(specification, read_items(specification))
 
 
+SHARES = [{"train": 1.0}, {"train": 0.8, "test": 0.2}, {"a": 0.7, "b": 0.15, "c": 0.15},
+          {"a": 0.5, "none": 0.0, "b": 0.5}]  # fmt: skip
+
+
 @given(
-    count=st.integers(4, 60),
-    repeats=st.integers(1, 4),
-    share=st.sampled_from([0.5, 0.75, 0.8]),
+    sizes=st.lists(st.integers(1, 20), min_size=1, max_size=6).filter(lambda one: sum(one) > 9),
+    repeats=st.integers(1, 3),
+    splits=st.sampled_from(SHARES),
     seed=st.integers(0, 5),
 )
-def test_splits_part_the_prompts_and_every_clip_is_there_once(
-    count: int, repeats: int, share: float, seed: int
+def test_splits_have_their_share_of_every_class_and_every_clip_is_there_once(
+    sizes: list[int], repeats: int, splits: dict[str, float], seed: int
 ) -> None:
-    prompts = [f"car {number}" for number in range(count)]
-    splits = {"train": share, "test": 1 - share}
-    clips = clips_of(prompts, repeats=repeats, splits=splits, seed=seed)
-    counts = clips.counts
-    assert sum(counts.values()) == count * repeats
-    assert abs(counts["train"] / repeats - share * count) <= 0.5 + 1e-9
+    sources = [
+        {"prompts": [f"car {label} {number}" for number in range(size)], "label": str(label)}
+        for label, size in enumerate(sizes)
+    ]
+    clips = clips_of([], sources=sources, repeats=repeats, splits=splits, seed=seed)
+    counts, of_classes = clips.counts, clips.class_counts
+    assert {split: of.total() for split, of in of_classes.items()} == counts
+    for split, share in splits.items():
+        assert abs(counts[split] / repeats - share * sum(sizes)) < len(splits)
+        for label, size in enumerate(sizes):
+            assert abs(of_classes[split][str(label)] / repeats - share * size) < 1
+    labels = {str(label) for label in range(len(sizes))}
+    lacking = {split: sorted(labels - of.keys()) for split, of in of_classes.items()}
+    assert clips.lacking() == {split: lacks for split, lacks in lacking.items() if lacks}
     all_clips = [clips.clip(split, n) for split in counts for n in range(counts[split])]
-    assert len({clip.key for clip in all_clips}) == len({clip.seed for clip in all_clips})
-    assert len({clip.key for clip in all_clips}) == count * repeats
-    of_split = {
-        split: {clip.item.prompt for clip in all_clips if clip.split == split} for split in counts
-    }
-    assert not of_split["train"] & of_split["test"]
+    of_item = {clip.item.key: clip.split for clip in all_clips}
+    assert all(of_item[clip.item.key] == clip.split for clip in all_clips)
+    for unique in (len({clip.key for clip in all_clips}), len({clip.seed for clip in all_clips})):
+        assert unique == sum(sizes) * repeats == len(all_clips)
 
 
 def test_a_prompt_that_is_added_changes_no_clip_of_the_others() -> None:

@@ -67,7 +67,7 @@ def test_a_seed_and_a_name_in_the_list_count(tmp_path: Path) -> None:
 def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
     clips = tmp_path / "clips"
     clips.mkdir()
-    for name in ("b.mp4", "a.AVI", "notes.md", ".hidden.mp4"):
+    for name in ("b.mp4", "a.AVI"):
         (clips / name).touch()
     found = read_samples([clips], seed=0)
     assert [sample.video for sample in found] == [clips / "a.AVI", clips / "b.mp4"]
@@ -81,32 +81,33 @@ def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
     assert not are_videos([listed(tmp_path, "a dog")])
 
 
-def test_image_folders_are_videos(tmp_path: Path) -> None:
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "0001.png").touch()
-    names = [sample.video for sample in read_samples([tmp_path], seed=0)]
-    assert names == [tmp_path / "one", tmp_path / "two"]
-    (single,) = read_samples([tmp_path / "one"], seed=0)
-    assert single.video == tmp_path / "one"
+VIDEOS, STILLS = ["a.mp4", "b.NPY"], ["a.JPG", "b.png"]
 
 
-def test_under_a_camera_every_image_is_a_sample(tmp_path: Path) -> None:
-    for name in ("b.png", "a.JPG", "notes.md", "clip.mp4", ".hidden.png"):
-        (tmp_path / name).touch()
-    samples = read_samples([tmp_path], seed=0, of_stills=True)
-    assert [sample.video for sample in samples] == [tmp_path / "a.JPG", tmp_path / "b.png"]
-    assert len({sample.seed for sample in samples}) == 2
+@pytest.mark.parametrize("of_stills", [False, True])
+@pytest.mark.parametrize("places", [[""], ["left", "right"]], ids=["together", "by class"])
+def test_a_folder_gives_what_it_or_the_folders_in_it_hold(
+    tmp_path: Path, of_stills: bool, places: list[str]
+) -> None:
+    samples, others = (STILLS, VIDEOS) if of_stills else (VIDEOS, [])
+    for place in places:
+        (tmp_path / place).mkdir(exist_ok=True)
+        for name in (*samples, *others, "notes.md", f".hidden{samples[0][1:]}"):
+            (tmp_path / place / name).touch()
+    found = read_samples([tmp_path], seed=0, of_stills=of_stills)
+    wanted = [tmp_path / place / name for place in places for name in samples]
+    assert [sample.video for sample in found] == wanted
+    assert len({sample.key for sample in found}) == len({one.seed for one in found}) == len(found)
     (tmp_path / "none").mkdir()
-    with pytest.raises(InputError, match="none holds no image, and `camera` moves"):
-        read_samples([tmp_path / "none"], seed=0, of_stills=True)
+    refusal = "none holds no image, and `camera` moves" if of_stills else "none holds no video"
+    with pytest.raises(InputError, match=refusal):
+        read_samples([tmp_path / "none"], seed=0, of_stills=of_stills)
 
 
 @pytest.mark.parametrize(
     ("sources", "why"),
     [
         ((), "there is nothing to do"),
-        (("empty",), "empty holds no video"),
         (("address.csv",), r"video is the address http://host/a.mp4\.\.\.; a list"),
         (("twice.csv",), r"twice\.csv line 3 and twice\.csv line 2 have one name, 'X'"),
     ],
@@ -115,7 +116,6 @@ def test_mistakes_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sources: tuple[str, ...], why: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("empty").mkdir()
     Path("address.csv").write_text("video\nhttp://me:secret@host/a.mp4?key=secret\n")
     Path("twice.csv").write_text("prompt,name\na car,x\na dog,X\n")
     with pytest.raises(InputError, match=why) as caught:

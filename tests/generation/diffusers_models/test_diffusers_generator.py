@@ -7,7 +7,11 @@ decoded by the code that runs the published models. Offline.
 import json
 import shutil
 import sys
+import threading
+from dataclasses import replace
+from types import SimpleNamespace
 
+import av
 import numpy as np
 import pytest
 
@@ -27,6 +31,7 @@ from texvent.errors import (  # noqa: E402
     InputError,
     MissingDependencyError,
     TexventError,
+    warnings_to,
 )
 from texvent.generation.diffusers_models import generator as diffusers_generator  # noqa: E402
 from texvent.generation.diffusers_models import guardrail, pipeline_loading  # noqa: E402
@@ -39,7 +44,9 @@ from texvent.generation.diffusers_models.pipeline_loading import (  # noqa: E402
 from texvent.generation.video_models.config import DiffusersConfig  # noqa: E402
 from texvent.generation.video_models.known_models import MODELS  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
+from texvent.runtime.side_work import finish_side_work  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
+from texvent.simulation.gpu.support import RunDevice  # noqa: E402
 
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 from ..watcher import Watcher  # noqa: E402
@@ -71,6 +78,61 @@ def test_prompt_to_events_and_a_second_run_does_not_call_the_pipeline(name, mode
     for other in ({"seed": 4}, {"steps": 3}):
         with pytest.raises(AssertionError, match="called again"):
             text_to_events(PROMPT, resolve("generate", {**options, **other}))
+
+
+@pytest.fixture
+def disk(monkeypatch):
+    """Files of videos are opened when they may be, and read if that is allowed."""
+    state, real = SimpleNamespace(go=threading.Event(), reads=False, error=None), av.open
+
+    def open_file(file, mode="r", **options):
+        assert mode == "w" or state.reads, "a video was read back"
+        assert state.go.wait(300)
+        if state.error is not None:
+            raise state.error
+        return real(file, mode, **options)
+
+    monkeypatch.setattr(av, "open", open_file)
+    yield state
+    state.go.set()
+
+
+def run_of(path, **options):
+    given = {"generator": str(path), "interpolate": "blend", "contrast_threshold": 0.01}
+    return text_to_events(PROMPT, resolve("generate", {**OPTIONS, **given, **options}))
+
+
+def test_events_do_not_wait_for_the_file_and_are_those_of_the_file(models, model_cache, disk):
+    run = run_of(models("wan"), device="cpu", noise="none", max_intermediate=1)
+    there = replace(run, device=RunDevice(torch.device("cpu")))
+    made = [one.packets.collect() for one in (run, there)]
+    assert list(model_cache.glob("videos/[!.]*.avi")) == []
+    disk.go.set()
+    disk.reads = True
+    read = run_of(models("wan"), noise="none", max_intermediate=1).packets.collect()
+    assert len(list(model_cache.glob("videos/[!.]*.avi"))) == 1
+    assert len(read) > 0
+    for events in made:
+        assert events == read
+        assert events.metadata["source"] == read.metadata["source"]
+
+
+def test_without_reuse_no_file_is_written(models, model_cache, disk):
+    run_of(models("wan"), reuse_video=False).packets.collect()
+    finish_side_work()
+    assert list(model_cache.glob("**/*.*")) == []
+
+
+def test_a_file_that_cannot_be_written_costs_no_event(models, model_cache, disk):
+    disk.error = OSError(28, "No space left on device")
+    disk.go.set()
+    said = []
+    with warnings_to(said.append):
+        events = run_of(models("wan")).packets.collect()
+        finish_side_work()
+    assert len(events) > 0
+    assert "the disk is full" in said[0]
+    assert list(model_cache.glob("**/*.*")) == []
 
 
 def test_another_negative_prompt_is_another_video(models):
@@ -267,6 +329,7 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     part = GENERATORS.load("cosmos-7b")
     absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
+    assert "GPU memory 74 GB, 24.4 GB with --offload model, torch finds" in absent
 
 
 def test_damaged_weights_are_one_line(models, tmp_path):
@@ -277,6 +340,33 @@ def test_damaged_weights_are_one_line(models, tmp_path):
     with pytest.raises(FileFormatError, match="damaged cannot be loaded as WanPipeline") as caught:
         build(path).generate(PROMPT)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("part", ["transformer", "text_encoder", "vae"])
+def test_weights_that_a_file_lacks_are_named_instead_of_drawn(part, models, model_cache, tmp_path):
+    files = pytest.importorskip("safetensors.torch")
+    path = tmp_path / "incomplete"
+    shutil.copytree(models("wan"), path)
+    file = next((path / part).glob("*.safetensors"))
+    tensors = files.load_file(file)
+    lost = max(tensors, key=lambda name: (name.endswith("weight"), "norm" in name, name))
+    del tensors[lost]
+    files.save_file(tensors, file, metadata={"format": "pt"})
+    with pytest.raises(FileFormatError, match=rf"lacks weights of WanPipeline, {lost}, which"):
+        build(path).generate(PROMPT)
+    assert not [one for one in model_cache.rglob("*") if one.is_file()]
+
+
+def test_a_text_encoder_that_knows_no_word_is_refused(models, tmp_path):
+    files = pytest.importorskip("safetensors.torch")
+    path = tmp_path / "wordless"
+    shutil.copytree(models("wan"), path)
+    file = next((path / "text_encoder").glob("*.safetensors"))
+    tensors = files.load_file(file)
+    tensors["shared.weight"].zero_()
+    files.save_file(tensors, file, metadata={"format": "pt"})
+    with pytest.raises(FileFormatError, match="embedding of text_encoder is all 0"):
+        build(path).generate(PROMPT)
 
 
 def test_options_are_compared_with_what_a_pipeline_takes():

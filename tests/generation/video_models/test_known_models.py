@@ -28,6 +28,14 @@ def test_a_row_gives_its_own_defaults_to_the_options():
     assert settings.interpolate.interpolate == "flow"
 
 
+def test_a_model_avoids_what_its_publishers_program_avoids_unless_told_otherwise():
+    for name, row in known_models.MODELS.items():
+        assert bool(row.negative_prompt) == (name.startswith("wan") or name == "ltx"), name
+    assert "过曝" in resolve("generate", {"generator": "wan-14b"}).source.negative_prompt
+    told = resolve("generate", {"generator": "wan-14b", "negative_prompt": ""})
+    assert told.source.negative_prompt == ""
+
+
 def test_events_of_a_learned_model_have_the_size_of_its_video_unless_a_sensor_is_named():
     assert resolve("generate", {"generator": "wan-1.3b"}).size is None
     assert resolve("generate", {}).size == (346, 260)

@@ -1,5 +1,6 @@
 """Generated videos on disk: lossless, whole or not there, found by what made them."""
 
+import threading
 from fractions import Fraction
 
 import numpy as np
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.errors import FileFormatError, InputError, TexventWarning, warnings_to
 from texvent.frames import Video, frame_time_us, transfer_of
 from texvent.generation.videos.stored_video import (
     reopen,
@@ -18,6 +19,9 @@ from texvent.generation.videos.stored_video import (
     write_video,
 )
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
+from texvent.io.atomic import is_hidden_part
+from texvent.runtime import side_work
+from texvent.runtime.interrupts import clean_up
 from texvent.transfer import Transfer
 
 FPS = Fraction(30_000, 1001)
@@ -107,6 +111,41 @@ def test_without_reuse_nothing_is_kept_in_the_made_folder():
     assert len(list(video)) == 5
     assert passing.find("abc", FPS) is None
     assert list(kept_folder().iterdir()) == []
+
+
+def paused_frames(go):
+    """Frames of which the second comes when it may."""
+    frames = noise()
+    yield frames[0]
+    assert go.wait(300)
+    yield from frames[1:]
+
+
+def test_a_video_that_is_written_beside_is_waited_for(cache):
+    go = threading.Event()
+    cache.store_beside("abc", paused_frames(go), FPS, {})
+    assert not cache.path("abc").exists()
+    go.set()
+    assert len(list(cache.find("abc", FPS))) == 5
+
+
+def test_a_process_that_is_stopped_leaves_a_whole_video_or_none(cache, monkeypatch):
+    monkeypatch.setattr(side_work, "PATIENCE_S", 0.0)
+    go = threading.Event()
+    with warnings_to(lambda text: None):
+        cache.store_beside("abc", paused_frames(go), FPS, {})
+        clean_up()  # does not wait for what goes on for long
+        go.set()
+        found = cache.find("abc", FPS)
+    assert not [path for path in kept_folder().iterdir() if is_hidden_part(path)]
+    assert found is None or len(list(found)) == 5
+
+
+def test_a_process_that_is_stopped_finishes_what_is_nearly_done(cache):
+    cache.store_beside("abc", noise(), FPS, {})
+    clean_up()
+    assert not side_work._running
+    assert len(list(cache.find("abc", FPS))) == 5
 
 
 def test_the_key_follows_every_fact_and_not_their_order():

@@ -58,9 +58,9 @@ def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, 
     drawn = []
     draw = IncrementalRenderer._luma
 
-    def count(self, time_s, wanted, codes):
-        drawn.append(wanted.mean())
-        return draw(self, time_s, wanted, codes)
+    def count(self, time_s, pixels, codes, light):
+        drawn.append(pixels[0].mean())
+        return draw(self, time_s, pixels, codes, light)
 
     monkeypatch.setattr(IncrementalRenderer, "_luma", count)
     streams, scene = {}, video(prompt)

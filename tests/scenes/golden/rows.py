@@ -21,6 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.sensor import SensorSize
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -31,7 +33,6 @@ from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
-from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_to_data
 from texvent_scenes.spec.scene import (
@@ -106,7 +107,7 @@ def mark_noun(noun: Noun) -> Marks:
 
 
 def stage(scene: Scene, size: SensorSize = SIZE) -> ComposedScene:
-    description = describe_scene(scene, NOUNS)
+    description = complete(to_description(scene), NOUNS)  # also what files may not say
     return compose_scene(description, seed=SEED, size=size, duration_s=DURATION_S)
 
 

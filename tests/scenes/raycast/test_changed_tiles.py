@@ -10,8 +10,9 @@ from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast import changed_tiles as changed
 from texvent_scenes.raycast.changed_tiles import Drawn, changed_tiles
 from texvent_scenes.raycast.incremental import IncrementalRenderer
+from texvent_scenes.raycast.optics import Optics
 from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.rendered_scene import Shape
+from texvent_scenes.rendered_scene import Shape, Texture
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, still
 
@@ -24,9 +25,10 @@ def drawn(scene, time_s: float) -> Drawn:
 
 def share_changed(scene, *times: float) -> float:
     """Share of tiles drawn at the last of two instants; all of them are as when all are drawn."""
-    renderer = IncrementalRenderer(scene, SIZE, samples=2, shadows=True)
+    optics = Optics(0.7, vignetting=True)
+    renderer = IncrementalRenderer(scene, SIZE, samples=2, shadows=True, optics=optics)
     for time_s in times:
-        whole = render(scene, time_s, SIZE)
+        whole = render(scene, time_s, SIZE, optics=optics)
         np.testing.assert_array_equal(renderer.render(time_s)[0], whole)
     tiles = changed_tiles(drawn(scene, times[-2]), drawn(scene, times[-1]))
     return 1.0 if tiles is None else float(tiles.mean())
@@ -38,18 +40,22 @@ def high_camera(time: float):
 
 BOX = MovingShape(Shape.BOX, (0.4, 0.4, 0.8), still(-1.0, 0.0, 0.8))
 BLOCKER = MovingShape(Shape.BOX, (0.5, 0.5, 0.5), moving((1.0, 0.0, 3.0), (0.6, 0.0, 0.0)))
+PANE = MovingShape(Shape.BOX, (1.2, 0.1, 1.5), still(-1.0, 1.0, 1.5), texture=Texture.PANE)
+BALL = MovingShape(Shape.ELLIPSOID, (0.8,) * 3, moving((-1.5, -3.3, 1.2), (0.3, 0.0, 0.0)))
 DULL = replace(day(), shadows=False)
 NO_TILES = np.zeros((6, 8), dtype=np.bool_)
 SCENES = {
     "clouds": HandScene((BOX,), environment_base=replace(day(), clouds=0.6)),
     "shapes": HandScene((BLOCKER,), high_camera, environment_base=DULL),
     "shadows": HandScene((BOX, BLOCKER), high_camera),
+    "mirrored": HandScene((PANE, BALL), high_camera, environment_base=DULL),
 }
 """A scene for each kind of change."""
 MISSES = {
     "clouds": ("_sky_tiles", lambda instant: NO_TILES),
     "shapes": ("_changed_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
     "shadows": ("_shadow_windows", lambda *drawn: []),
+    "mirrored": ("_mirroring", lambda *drawn: np.zeros(0, dtype=np.int64)),
 }
 """Function that finds a kind of change, and one that finds none."""
 
@@ -76,5 +82,7 @@ def test_embedded_scenes_are_drawn_as_if_whole(prompt):
     video = ProceduralGenerator(ProceduralConfig(), seed=0, size=size).generate(prompt)
     for t_us in (0, 2_000, 300_000, 304_000):
         np.testing.assert_array_equal(
-            video.at(t_us).pixels, render(video.scene, t_us / 1e6, size), strict=True
+            video.at(t_us).pixels,
+            render(video.scene, t_us / 1e6, size, optics=video.optics),
+            strict=True,
         )

@@ -59,10 +59,13 @@ def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
 def test_a_prompt_is_read_in_less_than_a_millisecond():
     prompts = [prompt["text"] for prompt in PROMPTS]
     reader.read(prompts[0], NOUNS)  # the lexicon is made once
-    started = time.process_time()
-    for prompt in prompts:
-        reader.read(prompt, NOUNS)
-    assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
+    times = []
+    for _ in range(3):  # the least: other work on the machine slows it
+        started = time.process_time()
+        for prompt in prompts:
+            reader.read(prompt, NOUNS)
+        times.append(time.process_time() - started)
+    assert min(times) / len(prompts) < MOST_SECONDS
 
 
 @pytest.mark.parametrize("text", ["a dog, ", "a dog behind a cat ", "a bowl of ", "x y, and "])

@@ -12,6 +12,7 @@ from tests.scenes.hand_scenes import HandScene, MovingShape, day, moving, still
 from texvent.camera import PosedCamera
 from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.optics import Optics
 from texvent_scenes.raycast.render import render_light
 from texvent_scenes.rendered_scene import Ground, Shape
 from texvent_scenes.rig.config import RigConfig
@@ -106,7 +107,7 @@ def test_frames_say_when_their_rows_saw_light() -> None:
     shutter = Shutter(0.004, 1e-4, SIZE.height)
     frame, = expose_frames(
         HandScene((MovingShape(Shape.BOX, (1, 1, 1), still(0, 0, 1)),)),
-        SIZE, shutter, [20_000], samples=1, shadows=False,
+        SIZE, shutter, [20_000], samples=1, shadows=False, optics=Optics(0.7),
     )  # fmt: skip
     assert frame.t_us == 20_000
     assert frame.pixels.dtype == np.uint8

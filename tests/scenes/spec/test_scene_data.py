@@ -22,6 +22,7 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene, list_nouns, list_words
+from texvent_scenes.spec import scene as scene_module
 from texvent_scenes.spec.data import scene_from_data, scene_to_data
 from texvent_scenes.spec.files import json_schema, load_scene, save_scene, scene_text
 from texvent_scenes.spec.limits import Between, Colour, Word
@@ -35,7 +36,7 @@ from texvent_scenes.spec.scene import (
     Scene,
     SceneObject,
 )
-from texvent_scenes.spec.tables import field_types, inner_type
+from texvent_scenes.spec.tables import field_types, inner_type, required_fields
 from texvent_scenes.staging.compose import compose_scene
 
 WORDS = list_words(list_nouns())
@@ -77,7 +78,17 @@ def strategy(hint: Any) -> st.SearchStrategy[Any]:
             return st.sampled_from(sorted(PALETTES[palette])) | st.just("#0a80ff")
 
 
-IDS = ("id", "model", "to", "source", "target", "distance_m", "position_m", "look_at_m")
+IDS = (
+    "id",
+    "model",
+    "to",
+    "source",
+    "target",
+    "distance_m",
+    "position_m",
+    "look_at_m",
+    "crossing_m",
+)
 
 
 @st.composite
@@ -154,6 +165,25 @@ def test_a_wrong_part_is_refused_as_in_a_file(part, path, table):
         Scene() + "car"
 
 
+OWNERS = [one for one in vars(scene_module).values() if dataclasses.is_dataclass(one)
+          and isinstance(one, type) and one.__module__ == scene_module.__name__]  # fmt: skip
+
+
+@pytest.mark.parametrize("owner", OWNERS, ids=lambda owner: owner.__name__)
+def test_a_wrong_keyword_is_one_line_with_the_nearest_field(owner):
+    for name in field_types(owner):
+        with pytest.raises(
+            ConfigError, match=rf"^{owner.__name__} has no field '{name}x'; .*{name}"
+        ):
+            owner(**{f"{name}x": 1})
+    needed = required_fields(owner)
+    for name in needed:
+        with pytest.raises(ConfigError, match=rf"^{owner.__name__} has no {name}, which it must"):
+            owner(**dict.fromkeys({*needed} - {name}))
+    with pytest.raises(ConfigError, match="fields; 99 are given"):
+        owner(*range(99))
+
+
 def values(part: Any) -> Iterator[Any]:
     """All dataclasses inside a scene, and itself."""
     yield part
@@ -169,7 +199,9 @@ def test_a_file_by_hand_gives_every_field():
     given = {(type(part), name) for part in values(scene) for name in vars(part)
              if getattr(part, name) != default(part, name)}  # fmt: skip
     fields = {(type(part), name) for part in values(scene) for name in vars(part)}
-    assert fields - given == {(Camera, "position_m"), (Camera, "look_at_m")}  # not with a target
+    assert fields - given == {  # not with a target, travel and a road
+        (Camera, "position_m"), (Camera, "look_at_m"), (Camera, "framing"), (Place, "wave_height"),
+    }  # fmt: skip
     SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
     described = describe_scene(scene, list_nouns())
     assert described.objects[0].motion == to_description(scene).objects[0].motion
@@ -232,6 +264,8 @@ WRONG = [
     ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 5, 1], "moves": [{"kind": "travel"}]}},
      "camera.position_m is given with a target or with travel"),
     ({"place": {"name": "raod"}}, "place.name is 'raod'; did you mean 'road'?"),
+    ({"place": {"name": "street"}}, "place.name is 'street'; did you mean 'city'?"),
+    ({"place": {"name": "pavment"}}, "place.name is 'pavment'; did you mean 'city'?"),
     ({"absent": ["hous"]}, "absent[0] is 'hous'; did you mean 'house'?"),
 ]  # fmt: skip
 

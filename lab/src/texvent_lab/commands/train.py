@@ -50,13 +50,13 @@ def run(arguments: Sequence[str]) -> int:
     )
     kind = TASKS.load(options.task)
     require("torch", extra=kind.packages)
-    from texvent_lab.train.loop import HIDDEN
+    from texvent_lab.train.loop import score_text
     from texvent_lab.train.run import train_from_file  # brings torch
 
     folder = options.out.absolute()
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         state = train_from_file(kind, options.specification, folder, hardware, progress)
     best = state.rows[state.best_epoch - 1]
-    scores = ", ".join(f"{name} {best[name]:.4g}" for name in best if name not in HIDDEN)
-    write_out(f"{options.out}: best epoch {state.best_epoch} of {state.epochs}: {scores}\n")
+    scores = f"best epoch {state.best_epoch} of {state.epochs}: {score_text(best)}"
+    write_out(f"{options.out}: {scores}\n")
     return 0

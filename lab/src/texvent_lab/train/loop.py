@@ -10,7 +10,7 @@ import copy
 import json
 import time
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -110,6 +110,7 @@ LOSSES = "loss"
 MOST_COLUMNS, WIDTH_INCHES, HEIGHT_INCHES = 3, 4.5, 3.4
 COLOURS = ("#1f77b4", "#d95f02", "#2ca02c", "#7b3294")
 STANDARD_ERROR = " standard error"
+VALIDATION_SAMPLES = "validation samples"
 """End of the names of standard errors; they are drawn around what they belong to."""
 
 
@@ -142,7 +143,7 @@ def draw_curves(rows: Sequence[Row], *, best: int | None = None) -> Any:
     figure_module = require("matplotlib.figure", extra=EXTRA)
     plots: dict[str, list[str]] = {}
     for name in rows[0]:
-        if name not in HIDDEN and not name.endswith(STANDARD_ERROR):
+        if name not in HIDDEN and not name.endswith((STANDARD_ERROR, VALIDATION_SAMPLES)):
             plots.setdefault(LOSSES if name.endswith(LOSSES) else name, []).append(name)
     columns = min(len(plots), MOST_COLUMNS)
     lines = -(-len(plots) // columns)
@@ -357,6 +358,14 @@ def _write_results(folder: Path, state: TrainingState, task: TrainingTask, netwo
     save(folder / WEIGHTS_FILE, {**task.published(best), NOTES: facts})
 
 
-def _row_text(row: Mapping[str, float], epochs: int) -> str:
-    scores = ", ".join(f"{name} {value:.4g}" for name, value in row.items() if name != "epoch")
-    return f"epoch {row['epoch']} of {epochs}: {scores}"
+def _row_text(row: Row, epochs: int) -> str:
+    return f"epoch {row['epoch']} of {epochs}: {score_text(row, hidden=('epoch',))}"
+
+
+def score_text(row: Row, hidden: Container[str] = HIDDEN) -> str:
+    """The scores of an epoch in a line: counts in full, others to four digits."""
+    shown = {name: value for name, value in row.items() if name not in hidden}
+    return ", ".join(
+        f"{name} {value:,}" if isinstance(value, int) else f"{name} {value:.4g}"
+        for name, value in shown.items()
+    )

@@ -12,6 +12,7 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from texvent_lab.train.classification.config import ClassData, ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
+from texvent_lab.train.loop import score_text  # noqa: E402
 from texvent_lab.train.schedule import Schedule  # noqa: E402
 
 from ..written_samples import bar  # noqa: E402
@@ -40,7 +41,10 @@ def test_accuracy_and_its_standard_error(tmp_path: Path) -> None:
     # Classes 0, 0, 0, 1, 1: three are right.
     table = np.array([[2, 1], [0, 1], [3, 0], [5, 0], [0, 1]])
     found, _ = task(tmp_path, (3, 2)).validate(scores_of(table), torch.device("cpu"), workers=0)
-    assert [*found] == ["accuracy", "accuracy standard error", "validation loss"]
+    names = ["accuracy", "accuracy standard error", "validation samples", "validation loss"]
+    assert [*found] == names
+    assert found["validation samples"] == len(table)
+    assert "validation samples 5, " in score_text({"epoch": 1, **found})
     assert found["accuracy"] == pytest.approx(3 / 5)
     assert found["accuracy standard error"] == pytest.approx(math.sqrt(0.6 * 0.4 / 5))
     margins = np.array([1, -1, 3, -5, 1])

@@ -21,6 +21,7 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
+from texvent.runtime.device_names import AUTO, check_device_name
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.engines import Engine, Outcome, local_engine
 from texvent.runtime.progress import Progress
@@ -54,6 +55,9 @@ class MakeOptions:
     machine belongs to; "local", one of --workers processes for this run."""
     shards: str | None = None
     """K/N: of N parts of all shards, the K-th only, from 1."""
+    device: str = AUTO
+    """Device that simulates: auto, cpu, cuda or cuda:N, for this run; on a GPU several clips of a
+    shard as one batch. auto: the specification's."""
     retry_failed: bool = False
     """Make samples that failed again."""
     allow_failed: bool = False
@@ -63,6 +67,7 @@ class MakeOptions:
     """Show errors only."""
 
     def __post_init__(self) -> None:
+        check_device_name(self.device)
         check_range("workers", self.workers, 1, 1024)
         if self.workers is not None and self.ray not in (None, "local"):
             raise ConfigError(
@@ -81,7 +86,9 @@ def run_make(arguments: Sequence[str]) -> int:
     part = parse_part(options.shards)
     recipe, folder = _open(options)
     begin(recipe, folder)
-    work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
+    work = find_work(
+        recipe, folder, part=part, retry_failed=options.retry_failed, device=options.device
+    )
     try:
         with (
             closing(_engine(options, work)) as engine,

@@ -21,7 +21,8 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shard_files import FILTERED
 from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
-from texvent.dataset.statistics import Statistics, summary_lines
+from texvent.dataset.statistics import Statistics, class_lines, summary_lines
+from texvent.errors import few, shown
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
@@ -87,7 +88,11 @@ def _prompts(recipe: Recipe) -> str:
     tally = tally_prompts([item.subject for item in items], recipe.prompt_settings)
     if tally is None:
         return ""
-    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n"
+    untrue = [
+        f"warning  make refuses class {shown(label)}: not understood: {few(words)}\n"
+        for label, words in recipe.untrue_classes().items()
+    ]
+    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n{''.join(untrue)}"
 
 
 def describe_contents(recipe: Recipe) -> list[str]:
@@ -114,7 +119,10 @@ def describe_contents(recipe: Recipe) -> list[str]:
     if items.labels:
         sizes = Counter(item.label for item in items.all).values()
         each = f"{min(sizes):,}" if min(sizes) == max(sizes) else f"{min(sizes):,}-{max(sizes):,}"
-        lines.append(f"classes  {len(items.labels):,}, {each} {kind} each")
+        lines.append(f"classes  {len(items.labels):,}, {each} {kind} each; clips of each:")
+        lines += class_lines(recipe.clips.class_counts)
+        for split, classes in recipe.clips.lacking().items():
+            lines.append(f"warning  {split} has no {few(classes)}")
     if recipe.stores_videos:
         lines.append(
             f"videos   {clips:,}, made and stored first; every variant is simulated from them"

@@ -23,17 +23,18 @@ from texvent.dataset.statistics import (
     COUNTS,
     MICROSECONDS,
     DatasetStatistics,
+    class_lines,
     counts_rows,
     summary_lines,
 )
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, few
+from texvent.prompt_report import ranked
 from texvent.runtime.file_names import inside
 from texvent.runtime.threads import count_threads
 
 MOST_LINES = 20
-MOST_CLASSES = 12
 WIDTH = 110
 """Width of the table of counts, which has ten columns, also where there is no terminal."""
 TITLES = {
@@ -153,12 +154,15 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
         table.add_row(*map(escape, row))
     console.print(table)
     total = statistics.total
-    for title in ("classes", "sensors"):
-        ranked = sorted(getattr(total, title).items(), key=lambda pair: (-pair[1], pair[0]))
-        if ranked:
-            shown = "; ".join(f"{name} {count:,}" for name, count in ranked[:MOST_CLASSES])
-            more = len(ranked) - MOST_CLASSES
-            console.print(escape(f"{title}: {shown}{f' ... {more:,} more' if more > 0 else ''}"))
+    counts = statistics.class_counts
+    for line in class_lines(counts):
+        console.print(escape(line))
+    is_whole = dataset.is_shared_out and not dataset.missing()
+    for split, has in counts.items() if is_whole else ():
+        if lacks := [label for label in dataset.labels if label not in has]:
+            console.print(escape(f"warning  {split} has no {few(lacks)}"))
+    sensors = "; ".join(f"{name} {count:,}" for name, count in ranked(total.sensors))
+    console.print(f"sensors: {sensors}")
     for line in summary_lines(total, dataset.box_classes):
         console.print(escape(line))
     console.print(

@@ -63,7 +63,7 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     for packet in events:
         check.update(packet)
     report = check.report()
-    complaints = report.complaints()
+    complaints = [*_missing_frames(events.metadata), *report.complaints()]
     verdict = "suspicious" if complaints else "sound"
     if not report.events:
         verdict = "empty"
@@ -84,6 +84,15 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
         "hot_pixels": len(hot),
         "hottest": [list(pixel) for pixel in hot[:SHOWN_HOT_PIXELS]],
     }
+
+
+def _missing_frames(metadata: Mapping[str, Any]) -> list[str]:
+    """Complaint about frames that a live recording dropped or left out, of which no event is."""
+    source = metadata.get("source")
+    places = (metadata, source if isinstance(source, Mapping) else {})
+    counts = [one.get("frames_dropped", 0) for one in places]
+    lost = sum(count for count in counts if isinstance(count, int))
+    return [f"{lost:,} frames of its source are missing"] if lost > 0 else []
 
 
 def _lines(facts: Mapping[str, Any]) -> list[str]:

@@ -21,10 +21,14 @@ from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, OutputError, TexventError, shown, warn
+from texvent.errors import ConfigError, InputError, OutputError, TexventError, few, shown, warn
 from texvent.io.atomic import sweep
+from texvent.runtime.device_names import AUTO
 from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.engines import local_engine
+
+MOST_NAMED = 5
+"""Classes that the error names."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,7 @@ class ShardTask:
     folder: Path
     units: tuple[Shard, ...]
     retry_failed: bool = False
+    device: str = AUTO
 
     @property
     def is_video(self) -> bool:
@@ -60,11 +65,18 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        return make_together(recipe, self.folder, self.units, retry_failed=self.retry_failed)
+        return make_together(
+            recipe, self.folder, self.units, retry_failed=self.retry_failed, device=self.device
+        )
 
 
 def find_work(
-    recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
+    recipe: Recipe,
+    folder: Path,
+    *,
+    part: tuple[int, int] = (1, 1),
+    retry_failed: bool = False,
+    device: str = AUTO,
 ) -> Work:
     """Complete shards, with their counts of samples by status, and tasks that make the others.
 
@@ -75,14 +87,15 @@ def find_work(
         folder: of the data set.
         part: (K, N): of N parts of all shards, the K-th, 1 ≤ K ≤ N.
         retry_failed: whether shards with failed samples are made again.
+        device: of the pixel model and networks; "auto": that of the specification.
 
     Raises:
-        ConfigError: there is no such part.
+        ConfigError: there is no such part, or no such device.
         FileFormatError: the record of a shard is damaged.
     """
+    recipe.check_device(device)
     which, parts = part
     work = Work(summary=attrgetter("statuses"))
-    renders = not (recipe.items.are_videos or recipe.stores_videos)
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
         for number, shard in enumerate(recipe.shards(stage)):
@@ -95,12 +108,12 @@ def find_work(
                 record = None
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                place = number if renders else (stage, number)
+                place = number if recipe.renders else (stage, number)
                 together.setdefault((place, again), []).append(shard)
             else:
                 work.complete[shard] = record.statuses
     for (_, again), shards in together.items():
-        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again))
+        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again, device=device))
     return work
 
 
@@ -108,17 +121,33 @@ def begin(recipe: Recipe, folder: Path) -> None:
     """Note in a folder what will be made there, after a look at the prompts of a new data set.
 
     Raises:
-        InputError: prompts that `strict` refuses, or scenes that name files that are not there.
+        InputError: prompts that `strict` refuses, classes that prompts do not show, or scenes that
+            name files that are not there.
         ConfigError: a field of a scene is wrong, or the folder holds another data set.
         OutputError: the folder is a file or cannot be written.
     """
-    if not recipe.items.are_videos and not (folder / SPECIFICATION_FILE).exists():
-        subjects = [
-            (shown(item.prompt) if item.prompt else "a scene", item.subject)
-            for item in recipe.items.all
-        ]
-        refuse_prompts(subjects, recipe.prompt_settings)
+    if not (folder / SPECIFICATION_FILE).exists():
+        if not recipe.items.are_videos:
+            subjects = [
+                (shown(item.prompt) if item.prompt else "a scene", item.subject)
+                for item in recipe.items.all
+            ]
+            refuse_prompts(subjects, recipe.prompt_settings)
+            _refuse_untrue(recipe)
+        for split, classes in recipe.clips.lacking().items():
+            warn(f"{split} has no {few(classes)}; give more of each class, or other splits")
     recipe.begin(folder)
+
+
+def _refuse_untrue(recipe: Recipe) -> None:
+    untrue = recipe.untrue_classes()
+    if untrue:
+        faults = [f"{shown(label)}: {few(words)}" for label, words in untrue.items()]
+        raise InputError(
+            f"{len(untrue)} of {len(recipe.items.labels)} classes would not be shown, for words "
+            f"that are not understood ({'; '.join(faults[:MOST_NAMED])}); say them in words of "
+            f"`texvent scenes`, or allow them: allow_classes = {[*untrue][:MOST_NAMED]}"
+        )
 
 
 def remove_dead_parts(recipe: Recipe, folder: Path) -> None:
@@ -133,6 +162,7 @@ def make(
     *,
     workers: int = 1,
     retry_failed: bool = False,
+    device: str = AUTO,
     progress: ProgressOption = None,
 ) -> Work:
     """Make a data set, or what is missing of it; see docs/datasets.md.
@@ -143,6 +173,8 @@ def make(
         workers: processes; 1: this one. A program that uses more needs the usual
             `if __name__ == "__main__":`, because they import its main module.
         retry_failed: make samples that failed again.
+        device: of the pixel model and networks, as the option of `texvent.simulate`; "auto": that
+            of the specification.
         progress: receives every shard.
 
     Returns:
@@ -164,7 +196,7 @@ def make(
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
-    work = find_work(recipe, folder, retry_failed=retry_failed)
+    work = find_work(recipe, folder, retry_failed=retry_failed, device=device)
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         for _ in work.make(engine, display):
             pass

@@ -103,42 +103,72 @@ class SimulatedClip:
     """Reason why the filters leave it out; None: it is kept."""
 
 
-def simulate_sample(
-    simulation: Simulation, filters: Filters, on_frame: Callable[[Frame], None] | None = None
-) -> SimulatedClip:
-    """Run a simulation and apply the filters; one with too many events is stopped there.
+class SampleRun:
+    """A simulation whose events become a sample; one with too many is stopped there."""
 
-    Args:
-        simulation: the run.
-        filters: which samples to leave out.
-        on_frame: called with every dense frame.
+    def __init__(
+        self,
+        simulation: Simulation,
+        filters: Filters,
+        on_frame: Callable[[Frame], None] | None = None,
+    ) -> None:
+        """A run, not started.
+
+        Args:
+            simulation: the run.
+            filters: which samples to leave out.
+            on_frame: called with every dense frame.
+        """
+        run = self._run = simulation.settings.run
+        told_apart = replace(run, keep_events="all", label_noise=True)
+        self.simulation = replace(simulation, settings=replace(simulation.settings, run=told_apart))
+        self._filters, self._on_frame = filters, on_frame
+        self._measurer = VideoMeasurer() if filters.failed_videos else None
+        self._packets: list[EventStream] = []
+        self._count = self._signal = 0
+        self._times: list[int] = []
+        self._left_out: str | None = None
+
+    def take(self, frame: Frame, packet: EventStream) -> bool:
+        """Take the next step of `simulation`; False: no more is wanted."""
+        filters = self._filters
+        self._packets.append(select_events(packet, self._run))
+        self._count += len(self._packets[-1])
+        self._signal += _count_signal(packet)
+        self._times.append(frame.t_us)
+        if filters.max_events is not None and self._count > filters.max_events:
+            self._left_out = f"more than {filters.max_events:,} events"
+            return False
+        if self._on_frame is not None:
+            self._on_frame(frame)
+        if self._measurer is not None and frame.is_source:
+            self._measurer.add(frame)
+        return True
+
+    def finish(self) -> SimulatedClip:
+        """The sample, after all steps that were wanted."""
+        left_out = (
+            self._left_out
+            or _too_weak(self._signal, self._filters)
+            or _looks_failed(self._measurer)
+        )
+        size, times = self.simulation.video.size, self._times
+        events = EventStream.concat(self._packets) if self._packets else EventStream.empty(size)
+        start = times[0] if times else 0
+        length = times[-1] - start if times else 0
+        return SimulatedClip(events, start, length, self._signal, left_out)
+
+
+def simulate_sample(run: SampleRun) -> SimulatedClip:
+    """The sample of a run.
 
     Raises:
         TexventError: the video cannot be read or made.
     """
-    run = simulation.settings.run
-    told_apart = replace(run, keep_events="all", label_noise=True)
-    labelled = replace(simulation, settings=replace(simulation.settings, run=told_apart))
-    measurer = VideoMeasurer() if filters.failed_videos else None
-    packets, count, signal, times = [], 0, 0, []
-    left_out = None
-    for frame, packet in labelled.steps():
-        packets.append(select_events(packet, run))
-        count += len(packets[-1])
-        signal += _count_signal(packet)
-        times.append(frame.t_us)
-        if filters.max_events is not None and count > filters.max_events:
-            left_out = f"more than {filters.max_events:,} events"
+    for step in run.simulation.steps():
+        if not run.take(*step):
             break
-        if on_frame is not None:
-            on_frame(frame)
-        if measurer is not None and frame.is_source:
-            measurer.add(frame)
-    else:
-        left_out = _too_weak(signal, filters) or _looks_failed(measurer)
-    events = EventStream.concat(packets) if packets else EventStream.empty(simulation.video.size)
-    start = times[0] if times else 0
-    return SimulatedClip(events, start, times[-1] - start if times else 0, signal, left_out)
+    return run.finish()
 
 
 def _count_signal(packet: EventStream) -> int:

@@ -6,17 +6,18 @@ import functools
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import DEFAULT_GENERATOR, GENERATORS
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS, suggest
 from texvent._version import full_version
 from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shard_files import EXTENSION, read_json
 from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
 from texvent.dataset.specification.items import Item, Items, read_items
+from texvent.dataset.specification.prompts import find_untrue
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import (
     Specification,
@@ -32,6 +33,7 @@ from texvent.errors import (
     OutputError,
     TexventError,
     one_line,
+    shown,
     warnings_to,
 )
 from texvent.generation.protocol import renders_instants
@@ -39,6 +41,7 @@ from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note
 from texvent.run.prepare import check_run
+from texvent.runtime.device_names import AUTO, check_device_name
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
@@ -86,6 +89,11 @@ class Recipe:
         """
         recipe = cls(specification, read_items(specification))
         recipe._check_options()
+        for label in specification.allow_classes:
+            if label not in recipe.items.labels:
+                raise ConfigError(
+                    f"allow_classes names {shown(label)}; {suggest(label, recipe.items.labels)}"
+                )
         check_truth(specification, recipe.items, is_stored=recipe.stores_videos)
         recipe.clips  # noqa: B018  (refuses splits that would be empty)
         if VIDEOS in (variant.name for variant in specification.variants):
@@ -111,7 +119,8 @@ class Recipe:
     def _facts(self) -> dict[str, Any]:
         tables = self.specification.tables
         items = [item.facts for item in self.items.all]
-        return {name: one for name, one in tables.items() if name != "sources"} | {"items": items}
+        decides = {n: one for n, one in tables.items() if n not in ("sources", "allow_classes")}
+        return decides | {"items": items}
 
     @property
     def stores_videos(self) -> bool:
@@ -122,6 +131,11 @@ class Recipe:
             return self.specification.store_videos
         name = self.specification.options.get("generator", DEFAULT_GENERATOR)
         return not renders_instants(GENERATORS.load(name))
+
+    @property
+    def renders(self) -> bool:
+        """True if clips are rendered while they are simulated."""
+        return not (self.items.are_videos or self.stores_videos)
 
     @functools.cached_property
     def settings(self) -> Mapping[str, ClipSettings]:
@@ -151,11 +165,28 @@ class Recipe:
                         "are simulated from the same one: set it in options"
                     )
 
+    def check_device(self, device: str) -> None:
+        """Refuse a device that some run would refuse.
+
+        Raises:
+            ConfigError, MissingDependencyError: as `texvent.run.prepare.check_run`.
+        """
+        check_device_name(device)
+        for name in self.variants if device != AUTO else ():
+            for settings in self.settings[name].extremes:
+                check_run(replace(settings, run=replace(settings.run, device=device)))
+
     @property
     def prompt_settings(self) -> Settings:
         """The settings that all prompts share; ranges are left out."""
         options = self.specification.options
         return resolve("generate", {n: one for n, one in options.items() if not is_range(one)})
+
+    def untrue_classes(self) -> dict[str, list[str]]:
+        """Classes that prompts do not show, with the words at fault; without those allowed."""
+        found = find_untrue(self.items.all, self.prompt_settings)
+        allowed = self.specification.allow_classes
+        return {label: words for label, words in found.items() if label not in allowed}
 
     @functools.cached_property
     def files_named(self) -> Mapping[str, tuple[str, ...]]:

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.generation.make_sample import prepare_clip
-from texvent.dataset.generation.make_shard import StoredVideos
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.shard_files import SampleRecord
+from texvent.dataset.generation.shard_samples import StoredVideos
 from texvent.dataset.stored.folder import StoredShard
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError

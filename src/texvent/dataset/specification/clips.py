@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -19,6 +21,7 @@ from texvent.runtime.identity import derived_seed, digest
 from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve
 
+ROUNDING = 1e-6
 MOST_SHARDS = 1_000_000
 """Most shards of a variant."""
 
@@ -41,7 +44,7 @@ class Clips:
     """All clips, each computed from its number: none is stored.
 
     The prompts of a split are in the order of a digest, so every shard holds some of each kind,
-    and repeat after repeat.
+    and repeat after repeat. Each class is shared out by itself.
     """
 
     def __init__(self, specification: Specification, items: Items) -> None:
@@ -71,6 +74,21 @@ class Clips:
         """Split → number of clips."""
         return {split: len(items) * self._repeats for split, items in self._items.items()}
 
+    @property
+    def class_counts(self) -> dict[str, Counter[str]]:
+        """Split → number of clips of each class."""
+        return {
+            split: Counter(one.label for one in items * self._repeats if one.label is not None)
+            for split, items in self._items.items()
+        }
+
+    def lacking(self) -> dict[str, list[str]]:
+        """Split → the classes that it lacks, of those that are shared out over all splits."""
+        every = itertools.chain.from_iterable(self._items.values())
+        shared = {one.label for one in every if one.split is None and one.label is not None}
+        counts = self.class_counts.items()
+        return {split: lacks for split, has in counts if (lacks := sorted(shared - has.keys()))}
+
     def clip(self, split: str, number: int) -> Clip:
         """The clip at a place, 0 ≤ number < counts[split]."""
         repeat, place = divmod(number, len(self._items[split]))
@@ -92,20 +110,42 @@ def clip_key(item_key: str, seed: int) -> str:
 
 
 def _share_out(specification: Specification, items: Items) -> dict[str, list[Item]]:
-    """Split → its items: those that ask for it, and its share of the others."""
+    """Split → its items: those that ask for it, and its share of the others of each class."""
     seed = specification.seed
     ordered = sorted(items.all, key=lambda item: digest([seed, "order", item.key]))
-    shared: dict[str, list[Item]] = {split: [] for split in specification.splits}
-    free: list[Item] = []
+    classes: dict[str, list[Item]] = {}
     for item in ordered:
-        (free if item.split is None else shared[item.split]).append(item)
-    begin, sum_of_shares = 0, 0.0
-    for split, share in specification.splits.items():
-        sum_of_shares += share
-        end = min(math.floor(sum_of_shares * len(free) + 0.5), len(free))
-        shared[split] += free[begin:end]
-        begin = end
+        if item.split is None:
+            classes.setdefault(item.label or "", []).append(item)
+    split_of: dict[str, str] = {}
+    sizes = [len(classes[label]) for label in sorted(classes)]
+    for label, counts in zip(sorted(classes), _part(sizes, specification.splits), strict=True):
+        places = itertools.chain.from_iterable(map(itertools.repeat, counts, counts.values()))
+        split_of |= {item.key: split for item, split in zip(classes[label], places, strict=True)}
+    shared: dict[str, list[Item]] = {split: [] for split in specification.splits}
+    for item in ordered:
+        shared[item.split or split_of[item.key]].append(item)
     return shared
+
+
+def _part(sizes: Sequence[int], splits: Mapping[str, float]) -> Iterator[dict[str, int]]:
+    """Split → number of items, of each class of such a size.
+
+    Each split has its share of a class to within one item; what rounding leaves over goes to the
+    splits that lack most of their shares of all classes so far.
+    """
+    whole = sum(splits.values())
+    lacking = dict.fromkeys(splits, 0.0)
+    for size in sizes:
+        due = {split: size * share / whole for split, share in splits.items()}
+        counts = {split: math.floor(one + ROUNDING) for split, one in due.items()}
+        lacking = {split: lacking[split] + due[split] - counts[split] for split in splits}
+        partly = [split for split in splits if due[split] - counts[split] > ROUNDING]
+        left_over = size - sum(counts.values())
+        for split in sorted(partly, key=lambda split: -lacking[split])[:left_over]:
+            counts[split] += 1
+            lacking[split] -= 1
+        yield counts
 
 
 @dataclass(frozen=True, eq=False)

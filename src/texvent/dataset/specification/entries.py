@@ -48,7 +48,7 @@ def read_samples(
 
     Args:
         sources: lists of prompts or videos (`.txt`, `.csv`, `.jsonl`), scene files, video files,
-            folders of videos or of image folders, an image folder, patterns such as `clips/*.mp4`.
+            folders of videos, an image folder, folders of either, patterns such as `clips/*.mp4`.
         seed: of the batch.
         of_stills: every image of a folder is a sample, not the folder.
 
@@ -103,23 +103,19 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
 
 
 def _folder_entries(folder: Path) -> Iterator[ListEntry]:
-    """The videos in a folder, or its image folders, or itself if it holds images."""
-    inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+    """The videos in a folder, or itself if it holds images, or what the folders in it hold."""
+    inside = _visible(folder)
+    folders = _folders(inside)
     kinds = {
-        "videos": [path for path in inside if path.suffix.lower() in FOLDER_VIDEOS],
+        "videos": _videos(inside),
         "images": [folder] if _holds_images(inside) else [],
-        "folders of images": [
-            path
-            for path in inside
-            if os.access(path, os.R_OK | os.X_OK)
-            and path.is_dir()
-            and _holds_images(path.iterdir())
-        ],
+        "folders of images": [path for path in folders if _holds_images(path.iterdir())],
+        "folders of videos": [video for path in folders for video in _videos(_visible(path))],
     }
     found = [kind for kind, paths in kinds.items() if paths]
     if not found:
         raise InputError(
-            f"{folder} holds no video, no images and no folders of images; videos end in "
+            f"{folder} holds no video, no images and no folders of either; videos end in "
             f"{', '.join(sorted(FOLDER_VIDEOS))}"
         )
     for path in kinds[found[0]]:
@@ -132,13 +128,28 @@ def _folder_entries(folder: Path) -> Iterator[ListEntry]:
 
 
 def _folder_stills(folder: Path) -> Iterator[ListEntry]:
-    """Every image in a folder."""
-    inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+    """Every image in a folder, or else in the folders in it."""
+    inside = _visible(folder)
+    if not _holds_images(inside):
+        inside = [image for path in _folders(inside) for image in _visible(path)]
     images = [path for path in inside if _holds_images([path])]
     if not images:
         raise InputError(f"{folder} holds no image, and `camera` moves a camera over images")
     for path in images:
         yield ListEntry(where=str(path), video=path)
+
+
+def _visible(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+
+
+def _folders(paths: Iterable[Path]) -> list[Path]:
+    """The folders that may be read."""
+    return [path for path in paths if os.access(path, os.R_OK | os.X_OK) and path.is_dir()]
+
+
+def _videos(paths: Iterable[Path]) -> list[Path]:
+    return [path for path in paths if path.suffix.lower() in FOLDER_VIDEOS]
 
 
 def _holds_images(paths: Iterable[Path]) -> bool:

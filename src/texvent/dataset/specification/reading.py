@@ -21,7 +21,7 @@ from texvent.options.values import convert, with_options
 from texvent.settings.config_files import read_document
 
 _SCALARS = ("name", "description", "license", "seed", "repeats", "samples_per_shard", "previews",
-            "store_videos")  # fmt: skip
+            "store_videos", "allow_classes")  # fmt: skip
 
 
 def read_specification(path: str | Path) -> Specification:

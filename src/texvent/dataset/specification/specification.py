@@ -195,6 +195,8 @@ class Specification:
     classes: Sequence[str] | Mapping[str, str] = ()
     """Objects that have boxes, in the order of their class ids from 0; or object → class, of which
     several may share one. Empty: all objects, by the class ids of nouns."""
+    allow_classes: tuple[str, ...] = ()
+    """Labels that may hold words which are not understood, and so are not shown."""
     previews: bool = True
     """Whether each sample has an image to look at."""
     store_videos: bool | None = None
@@ -226,7 +228,9 @@ class Specification:
         tables: dict[str, Any] = plain(self)
         tables["classes"] = [[*pair] for pair in self.class_of.items()]  # JSON may sort a table
         return {
-            name: one for name, one in tables.items() if one or name not in ("truth", "classes")
+            name: one
+            for name, one in tables.items()
+            if one or name not in ("truth", "classes", "allow_classes")
         }
 
     @property

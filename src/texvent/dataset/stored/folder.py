@@ -68,6 +68,8 @@ class StoredDataset:
     """Names of the classes in the order of their numbers."""
     box_classes: tuple[str, ...]
     """Classes of boxes that its specification names, in the order of their numbers."""
+    is_shared_out: bool
+    """True if every class belongs in every split: no source names its split."""
 
     @classmethod
     def open(cls, folder: Path) -> StoredDataset:
@@ -88,6 +90,7 @@ class StoredDataset:
                 splits=tuple(tables["splits"]),
                 labels=tuple(map(str, facts.get("labels", ()))),
                 box_classes=tuple(dict.fromkeys(str(one) for _, one in tables.get("classes", ()))),
+                is_shared_out=not any(one.get("split") for one in tables.get("sources", ())),
             )
             for name in (*dataset.variants, *dataset.splits):
                 check_name("a variant or split", name)

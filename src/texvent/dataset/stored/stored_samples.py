@@ -20,6 +20,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import detection_target
 from texvent.truth.clip import ClipTruth
+from texvent.truth.flow_between import FrameFlow
 from texvent.truth.layout import CLIP_FILES
 
 NO_CLASS = -1
@@ -130,8 +131,9 @@ class StoredSamples(SampleTable):
       `texvent.truth.boxes.detection_target` gives them.
     * `flow`: px from frame to frame, [N − 1, 2, H, W] float32; `depth`: m, [N, H, W].
 
-    Targets of slices are tuples: what is of an instant after the start of the slice, up to its end;
-    flow counts by its end.
+    With slices, `flow` is the displacement over each slice of what a pixel shows at its start,
+    [slices, 2, H, W], composed by `texvent.truth.flow_between.FrameFlow`; `depth` that of the last
+    frame up to its end, [slices, H, W]; `boxes` a tuple, those after its start, up to its end.
 
     Raises:
         ConfigError: an unknown representation or option, or two kinds of slices.
@@ -295,15 +297,9 @@ class StoredSamples(SampleTable):
         return files.columns(), windows, partial(self._targets, files.truth())
 
     def _targets(self, truth: ClipTruth, windows: Sequence[Window] | None) -> Arrays:
-        found: Arrays = {}
-        for name in self.targets:
-            times, values = _timed(truth, name)
-            if windows is None:
-                found[name] = detection_target(values) if name == "boxes" else values
-                continue
-            parts = [values[(times > start) & (times <= stop)] for start, stop in windows]
-            found[name] = tuple(map(detection_target, parts) if name == "boxes" else parts)
-        return found
+        if windows is None:
+            return {name: _whole_target(truth, name) for name in self.targets}
+        return {name: _sliced_target(truth, name, windows) for name in self.targets}
 
     def _facts(self, number: int) -> Arrays:
         caption, key = self.index.captions[self.index.caption[number]], self.index.key[number]
@@ -324,10 +320,28 @@ class StoredSamples(SampleTable):
                 )
 
 
-def _timed(truth: ClipTruth, target: str) -> tuple[NDArray[np.int64], NDArray[Any]]:
-    """Times of the values of a target, µs, those of its end for flow, and the values."""
+def _whole_target(truth: ClipTruth, target: str) -> Any:
+    """A target of all frames."""
     if target == "boxes":
-        return truth.boxes["t"], truth.boxes
-    if target == "flow":
-        return truth.times_us[1:], np.moveaxis(truth.flow(), -1, 1)
-    return truth.times_us, truth.depth()
+        return detection_target(truth.boxes)
+    return np.moveaxis(truth.flow(), -1, 1) if target == "flow" else truth.depth()
+
+
+def _sliced_target(truth: ClipTruth, target: str, windows: Sequence[Window]) -> Any:
+    """A target of each slice: boxes in a tuple, others stacked."""
+    if target == "boxes":
+        times = truth.boxes["t"]
+        within = (truth.boxes[(times > start) & (times <= stop)] for start, stop in windows)
+        return tuple(map(detection_target, within))
+    if target == "depth":
+        depth, ends = truth.depth(), [stop for _, stop in windows]
+        return depth[np.searchsorted(truth.times_us, ends, "right") - 1]
+    steps = FrameFlow(truth.times_us, truth.flow(), _occluded(truth))
+    return np.stack([steps.between(*window) for window in windows])
+
+
+def _occluded(truth: ClipTruth) -> NDArray[np.bool_] | None:
+    try:
+        return truth.occluded()
+    except InputError:  # not known of videos
+        return None

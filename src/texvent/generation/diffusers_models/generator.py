@@ -1,16 +1,15 @@
-"""One adapter over every diffusers text-to-video pipeline (Eq. 3): prompt → video on disk.
+"""One adapter over every diffusers text-to-video pipeline (Eq. 3): prompt → video.
 
     generator = GENERATORS.load("wan-1.3b")(config, seed=0, size=None)
     video = generator.generate("a red car drives left")
 
-The pipeline is loaded only if the video was not made before. Its frames go into a lossless 16-bit
-file and are read from there.
+The pipeline is loaded only if the video was not made before. Its frames stay where it made them,
+rounded to 16 bits; a lossless file for later runs is written beside.
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
 from fractions import Fraction
 from importlib import metadata
 from pathlib import Path
@@ -19,7 +18,6 @@ from typing import Any, ClassVar
 from texvent._require import require
 from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
-from texvent.frames import PixelArray
 from texvent.generation.diffusers_models.guardrail import (
     PART,
     check_prompt,
@@ -32,6 +30,7 @@ from texvent.generation.diffusers_models.pipeline_call import (
     read_image,
 )
 from texvent.generation.diffusers_models.pipeline_loading import (
+    GB,
     LoadRequest,
     find_pipeline_class,
     load_pipeline,
@@ -47,11 +46,13 @@ from texvent.generation.video_models.model_files import (
     read_pipeline_index,
 )
 from texvent.generation.videos.retries import generate_checked
-from texvent.generation.videos.stored_video import StoredVideo
+from texvent.generation.videos.stored_video import FinishedVideo, MadeVideo
 from texvent.generation.videos.video_cache import VideoCache, content_key
 from texvent.networks.weight_files import describe_file
 from texvent.options.values import plain
+from texvent.runtime.devices import Tensor
 from texvent.runtime.progress import NoProgress, Progress
+from texvent.sensor import SensorSize
 
 EXTRA = "generate"
 PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
@@ -84,7 +85,7 @@ class DiffusersGenerator:
         self._has_guardrail = False
         self._origin: dict[str, Any] = {}
 
-    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> FinishedVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Args:
@@ -125,9 +126,12 @@ class DiffusersGenerator:
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
+        device, free = resolve_device()
+        found = "no GPU" if free is None else f"{device} with {free / GB:.0f} GB free"
         return (
             f"the video is not made yet: {self.model.name} would make it"
             f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
+            f"; {self.model.memory}, torch finds {found}"
         )
 
     @property
@@ -208,12 +212,12 @@ class DiffusersGenerator:
         self._request = request
         return request
 
-    def _frames(self, prompt: str, seed: int, progress: Progress) -> Iterator[PixelArray]:
-        """Frames [H, W, 3] float32 in 0..1."""
+    def _levels(self, prompt: str, seed: int, progress: Progress) -> Tensor:
+        """Frames as `call_pipeline` returns them."""
         pipeline = load_pipeline(self._prepare(progress), progress.announce)
         if self._has_guardrail:
             check_prompt(getattr(pipeline, PART, None), prompt)
-        frames = call_pipeline(
+        return call_pipeline(
             pipeline,
             prompt,
             self.config,
@@ -223,16 +227,15 @@ class DiffusersGenerator:
             generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
             progress=progress,
         )
-        return iter(frames)
 
-    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
+    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> FinishedVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
         key = content_key(self._pixel_facts(prompt, seed))
         found = cache.find(key, self.fps)
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
             return found.with_metadata(**self._request_facts())
-        frames = self._frames(prompt, seed, progress)
+        levels = self._levels(prompt, seed, progress)
         facts = {
             "generator": self.model.name,
             "version": __version__,
@@ -241,7 +244,9 @@ class DiffusersGenerator:
             **self._request_facts(),
             **self._origin,
         }
-        video = cache.store(key, frames, self.fps, facts)
+        count, height, width, _ = levels.shape
+        video = MadeVideo(self.fps, SensorSize(width, height), count, facts, levels=levels)
+        cache.store_beside(key, video.pixels, self.fps, facts)
         asked = self.config.frames
         if asked not in (None, video.frame_count):
             progress.announce(

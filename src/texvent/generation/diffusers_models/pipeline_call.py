@@ -12,6 +12,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
+from texvent.generation.videos.stored_video import to_16_bits_there
 from texvent.runtime.progress import Progress
 
 EXTRA = "generate"
@@ -33,7 +34,7 @@ GUIDER = "guider"
 """Part in which some pipelines keep the guidance scale, instead of an argument of the call."""
 ON_STEP = "callback_on_step_end"
 FRAME_DIMENSIONS = 4
-"""Dimensions of one video, [F, H, W, 3]; most pipelines return a batch of them."""
+"""Dimensions of one video, [F, 3, H, W]; most pipelines return a batch of them."""
 
 
 def call_pipeline(
@@ -58,10 +59,11 @@ def call_pipeline(
         progress: receives denoising steps, where the pipeline reports them.
 
     Returns:
-        Frames, [F, H, W, 3] float32 in 0..1.
+        Frames, [F, H, W, 3] int16 with the bits of 16-bit levels, on the decoder's device.
 
     Raises:
         ConfigError: the pipeline does not take an option, or refuses its value.
+        InputError: it makes no frame, or numbers that are NaN or infinite.
         TexventError: the GPU's memory is too small.
     """
     accepted = check_options(type(pipe), config)
@@ -81,10 +83,9 @@ def call_pipeline(
         arguments["image"] = _fitted_image(config.image, config, accepted)
     if ON_STEP in accepted:
         arguments[ON_STEP] = _reporter(progress)
-    arguments |= {"output_type": "np", "generator": generator}
+    arguments |= {"output_type": "pt", "generator": generator}
     with _guided(pipe, config.guidance):
-        output = _run(pipe, arguments)
-    return output[0] if output.ndim > FRAME_DIMENSIONS else output
+        return _run(pipe, arguments)
 
 
 def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str, inspect.Parameter]:
@@ -174,7 +175,9 @@ def _guided(pipe: Any, guidance: float | None) -> Iterator[None]:
 def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
     torch = require("torch", extra=EXTRA)
     try:
-        return pipe(**arguments, return_dict=False)[0]
+        output = pipe(**arguments, return_dict=False)[0]
+        output = output[0] if output.ndim > FRAME_DIMENSIONS else output
+        return to_16_bits_there(output.movedim(1, 3))
     except ValueError as error:
         raise ConfigError(
             f"{type(pipe).__name__} refuses the options: {one_line(error)}"

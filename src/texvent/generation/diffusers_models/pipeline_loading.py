@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from texvent._require import require
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generation.diffusers_models.guardrail import (
     GUARDRAIL_SWITCH,
     PART,
@@ -168,6 +168,7 @@ def _load(request: LoadRequest) -> Pipeline:
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
     pipe = _from_pretrained(pipeline_class, request, parts)
+    _check_embeddings(pipe, request.folder)
     if PART in parts:
         check_wiring(pipe)
     load_loras(pipe, request.loras)
@@ -201,6 +202,19 @@ def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str,
         return pipeline_class.from_pretrained(
             str(request.folder), dtype=dtype, local_files_only=True, use_safetensors=True, **parts
         )
+
+
+def _check_embeddings(pipe: Pipeline, folder: Path) -> None:
+    """Refuse words that all mean nothing: transformers before 5.3 loses UMT5's embeddings."""
+    torch = require("torch", extra=EXTRA)
+    for name, part in pipe.components.items():
+        for module in part.modules() if isinstance(part, torch.nn.Module) else ():
+            if isinstance(module, torch.nn.Embedding) and not bool(module.weight.any()):
+                raise FileFormatError(
+                    f"{folder}: an embedding of {name} is all 0, so no word would count; install "
+                    "the latest transformers (pip install -U transformers), or fetch the model "
+                    "again"
+                )
 
 
 def place_pipeline(pipe: Pipeline, placement: Placement) -> None:

@@ -98,6 +98,8 @@ class VideoModel:
     height: int | None = None
     steps: int | None = None
     guidance: float | None = None
+    negative_prompt: str | None = None
+    """Content to avoid, by the publisher's own program; the pipeline's default is none."""
     differs: str = ""
     """Why frames, size, steps or guidance are not the call defaults of the pipeline."""
     call: Mapping[str, Any] = field(default_factory=dict, hash=False)
@@ -133,6 +135,13 @@ class VideoModel:
     def licence_and_terms(self) -> str:
         """Licence with its terms, for messages and metadata."""
         return f"{self.licence}; {self.licence_terms}" if self.licence_terms else self.licence
+
+    @property
+    def memory(self) -> str:
+        """GPU memory that it needs, for messages."""
+        parts = [f"{self.gpu_gb:g} GB"] if self.gpu_gb else []
+        parts += [f"{self.offload_gb:g} GB with --offload model"] if self.offload_gb else []
+        return f"GPU memory {', '.join(parts) or 'not known'}"
 
     @property
     def source(self) -> str:

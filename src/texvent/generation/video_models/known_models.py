@@ -30,8 +30,11 @@ if TYPE_CHECKING:
 
 def _read_table() -> dict[str, VideoModel]:
     text = files(__package__).joinpath("known_models.toml").read_text(encoding="utf-8")
-    rows = {}
-    for name, facts in tomllib.loads(text).items():
+    table, rows = tomllib.loads(text), {}
+    publishers = table.pop("negative_prompts")
+    for name, facts in table.items():
+        maker = next((one for one in publishers if facts["repo"].startswith(one)), None)
+        facts.setdefault("negative_prompt", publishers.get(maker))
         sigmas = tuple(facts.pop("sigmas", ()))
         rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])}, sigmas=sigmas)
     return rows
@@ -53,7 +56,7 @@ class ModelGenerator:
     @property
     def config_type(self) -> Callable[[], DiffusersConfig]:
         """Factory of the options with this model's defaults."""
-        names = ("fps", "frames", "width", "height", "steps", "guidance")
+        names = ("fps", "frames", "width", "height", "steps", "guidance", "negative_prompt")
         defaults = {name: getattr(self.model, name) for name in names}
         return functools.partial(DiffusersConfig, **defaults)
 

@@ -9,6 +9,7 @@ import contextlib
 import hashlib
 import json
 import logging
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +25,7 @@ EXTRA = "generate"
 LIBRARIES = ("diffusers", "transformers")
 DAMAGE = (OSError, ValueError, RuntimeError, AttributeError, TypeError, LookupError)
 """Exceptions of the libraries for files that do not fit, beside that of safetensors."""
-LONGEST_REASON = 300
+LONGEST_REASON, MOST_NAMES = 300, 3
 REPOSITORY = r"[A-Za-z0-9]\w*(?:[.-]\w+)*/[A-Za-z0-9]\w*(?:[.-]\w+)*"
 """`organisation/name` as the model hub allows it: no two dots or hyphens in a row."""
 HUB = "hub:"
@@ -238,19 +239,52 @@ def read_json(path: Path) -> dict[str, Any]:
 def loading(folder: Path, role: str) -> Iterator[None]:
     """Inside, a library loads `folder`; it shows no bars, and a damaged folder is refused.
 
-    Weights that a file lacks are filled by the libraries with random numbers, which they warn of.
-
     Raises:
-        FileFormatError: a file is damaged, or of another network.
+        FileFormatError: a file is damaged, of another network, or lacks weights, which the
+            libraries would fill with random numbers.
         MissingDependencyError: a package is not installed.
     """
     damage = require("safetensors", extra=EXTRA).SafetensorError
     try:
-        with without_bars():
+        with without_bars(), _MissingWeights() as missing:
             yield
     except (*DAMAGE, damage) as error:
         reason = " ".join(str(error).split())[:LONGEST_REASON]
         raise FileFormatError(f"{folder} cannot be loaded as {role}: {reason}") from error
+    if missing.names:
+        raise FileFormatError(
+            f"{folder} lacks weights of {role}, {', '.join(missing.names[:MOST_NAMES])}, which "
+            "would be random numbers; fetch the model again"
+        )
+
+
+class _MissingWeights(logging.Handler):
+    """Inside, remembers weights that the libraries report as missing from the files."""
+
+    def __init__(self) -> None:
+        super().__init__(level=logging.WARNING)
+        self.names: list[str] = []
+        self._levels: dict[str, int] = {}
+
+    def __enter__(self) -> _MissingWeights:
+        for name in LIBRARIES:
+            logger = logging.getLogger(name)
+            self._levels[name] = logger.level
+            logger.setLevel(min(logger.level or logging.WARNING, logging.WARNING))
+            logger.addHandler(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for name, level in self._levels.items():
+            logging.getLogger(name).removeHandler(self)
+            logging.getLogger(name).setLevel(level)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep the names of a report: a list by diffusers, a table by transformers."""
+        text = re.sub(r"\x1b\[[0-9;]*m", "", record.getMessage())
+        if "newly initialized" in text:
+            names = re.findall(r"^(\S+) *\| *MISSING|'([\w.]+)'|^- ([\w.]+): ", text, re.MULTILINE)
+            self.names += ["".join(one) for one in names] or ["of which it names none"]
 
 
 @contextlib.contextmanager

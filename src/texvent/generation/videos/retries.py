@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generation.video_models.config import GeneratedVideoConfig
-from texvent.generation.videos.stored_video import StoredVideo
+from texvent.generation.videos.stored_video import FinishedVideo
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.video_check.checks import VideoReport, check_video
 
@@ -16,12 +16,12 @@ RETRIES = 3
 
 
 def generate_checked(
-    make: Callable[[int, Progress], StoredVideo],
+    make: Callable[[int, Progress], FinishedVideo],
     config: GeneratedVideoConfig,
     *,
     seed: int,
     progress: Progress | None,
-) -> StoredVideo:
+) -> FinishedVideo:
     """A video that passes the failure filter, or the response of `on_failure`.
 
     Returns:

@@ -1,4 +1,6 @@
-"""Finished videos on disk: 16-bit lossless for what we generate, anything PyAV reads for the rest.
+"""Finished videos in memory or on disk.
+
+Files are 16-bit lossless for what we generate, anything PyAV reads for the rest.
 
 A diffusion model's decoder gives floats. They are kept at 16 bits per component in FFV1, a
 lossless codec, in an AVI file: that is 256 times finer than 8-bit video and finer than the
@@ -13,12 +15,14 @@ note says `"transfer": "linear"` and `"coding": "half"`.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import json
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import av
 import numpy as np
@@ -26,6 +30,7 @@ from av.error import FFmpegError
 from av.video.reformatter import VideoReformatter
 from av.video.stream import VideoStream
 
+from texvent._require import require
 from texvent.errors import FileFormatError, InputError
 from texvent.frames import (
     UINT16_PER_LEVEL,
@@ -38,6 +43,8 @@ from texvent.frames import (
     transfer_of,
 )
 from texvent.io.atomic import atomic_file
+from texvent.pairs.on_device import keep_on_device
+from texvent.runtime.devices import Tensor
 from texvent.runtime.media_files import open_media_file, raise_scarcity
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, Transfer, encode_half
@@ -46,18 +53,16 @@ EXTENSION = ".avi"
 REMEDY = "delete it and generate again"
 """Advice about a damaged file."""
 FULL_SCALE = 65_535.0
+NOT_FINITE = "the generator made a frame with NaN or infinite values; try another seed"
+NO_FRAME = "the generator made no frame"
 _CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
 _EIGHT_BITS = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StoredVideo(NotebookFrames):
-    """A video file as a stream of frames at a stated rate; decoded anew at every iteration.
+class FinishedVideo(NotebookFrames, ABC):
+    """A generated video as a stream of frames at a stated rate."""
 
-    The file's own times are not used: a generated video has a frame rate and nothing else.
-    """
-
-    path: Path
     fps: Fraction
     size: SensorSize
     frame_count: int
@@ -69,12 +74,47 @@ class StoredVideo(NotebookFrames):
 
     @property
     def is_live(self) -> bool:
-        """False: the file can be read again."""
+        """False: the frames can be read again."""
         return False
 
-    def with_metadata(self, **facts: Any) -> StoredVideo:
+    def with_metadata(self, **facts: Any) -> Self:
         """The same video with more facts about it."""
         return dataclasses.replace(self, metadata={**self.metadata, **facts})
+
+    @abstractmethod
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MadeVideo(FinishedVideo):
+    """A video in memory, where the model left it: on a GPU it need not go up again."""
+
+    _: KW_ONLY
+    levels: Tensor
+    """[N, H, W, 3] int16, the bits of 16-bit levels."""
+
+    @functools.cached_property
+    def pixels(self) -> PixelArray:
+        """The levels on the host, uint16; 65535 is white."""
+        return np.asarray(self.levels.cpu().numpy()).view(np.uint16)
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, [H, W, 3] RGB, uint16, also on the device of the levels."""
+        for index, pixels in enumerate(self.pixels):
+            frame = Frame(pixels, frame_time_us(index, self.fps))
+            yield keep_on_device(frame, self.levels[index])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StoredVideo(FinishedVideo):
+    """A video file, decoded anew at every iteration.
+
+    The file's own times are not used: a generated video has a frame rate and nothing else.
+    """
+
+    _: KW_ONLY
+    path: Path
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, [H, W, 3] RGB: uint16 (65535 is white), uint8 for 8-bit files.
@@ -104,7 +144,7 @@ def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> Store
         count, shape = count + 1, (pixels.shape[1], pixels.shape[0])
     if count == 0:
         raise FileFormatError(f"{path} holds no frame")
-    return StoredVideo(path, fps, SensorSize(*shape), count, metadata)
+    return StoredVideo(fps, SensorSize(*shape), count, metadata, path=path)
 
 
 def reopen(path: Path) -> StoredVideo | None:
@@ -124,7 +164,7 @@ def reopen(path: Path) -> StoredVideo | None:
     is_ours = stream.codec_context.name == "ffv1" and isinstance(metadata, dict)
     if not is_ours or not rate or count < 1:
         return None
-    return StoredVideo(path, Fraction(rate), size, count, metadata)
+    return StoredVideo(Fraction(rate), size, count, metadata, path=path)
 
 
 def write_stream(video: FrameStream, path: Path, *, overwrite: bool) -> StoredVideo:
@@ -180,9 +220,9 @@ def write_video(
             container.mux(stream.encode(video_frame))
             count += 1
         if stream is None:
-            raise InputError("the generator made no frame")
+            raise InputError(NO_FRAME)
         container.mux(stream.encode())
-    return StoredVideo(path, fps, size, count, metadata)
+    return StoredVideo(fps, size, count, metadata, path=path)
 
 
 def _frame(pixels: PixelArray, t_us: int, transfer: Transfer) -> Frame:
@@ -204,11 +244,37 @@ def to_16_bits(pixels: PixelArray, transfer: Transfer = Transfer.GAMMA) -> Pixel
     if pixels.dtype == np.uint16:
         return np.ascontiguousarray(pixels)
     if not np.isfinite(pixels).all():
-        raise InputError("the generator made a frame with NaN or infinite values; try another seed")
+        raise InputError(NOT_FINITE)
     if transfer is Transfer.LINEAR:
         return np.ascontiguousarray(encode_half(pixels))
     scaled = np.clip(pixels.astype(np.float32), 0.0, 1.0) * np.float32(FULL_SCALE)
     return np.ascontiguousarray(np.rint(scaled).astype(np.uint16))
+
+
+def to_16_bits_there(frames: Tensor) -> Tensor:
+    """`to_16_bits` of a model's frames, on their device.
+
+    Args:
+        frames: [N, H, W, 3] floats from 0 to 1.
+
+    Returns:
+        [N, H, W, 3] int16, with the bits of uint16, contiguous.
+
+    Raises:
+        InputError: there is no frame, or a value is NaN or infinite.
+    """
+    torch = require("torch", extra="generate")
+    if not len(frames):
+        raise InputError(NO_FRAME)
+    levels = torch.empty(frames.shape, dtype=torch.int16, device=frames.device)
+    is_finite = torch.ones((), dtype=torch.bool, device=frames.device)
+    for frame, to in zip(frames, levels, strict=True):  # one by one: floats take twice the room
+        is_finite &= frame.isfinite().all()
+        whole = (frame.float().clamp(0.0, 1.0) * FULL_SCALE).round()
+        to.copy_(torch.where(whole > 32_767, whole - 65_536, whole))
+    if not is_finite:
+        raise InputError(NOT_FINITE)
+    return levels
 
 
 def _full_scale(frame: Frame) -> PixelArray:

@@ -17,12 +17,13 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import OutputError, warn
+from texvent.errors import OutputError, TexventError, one_line, warn
 from texvent.frames import PixelArray
 from texvent.generation.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
 from texvent.io.atomic import atomic_file, temporary_folder
 from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
+from texvent.runtime.side_work import begin_side_work, finish_side_work
 
 LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""
@@ -74,6 +75,7 @@ class VideoCache:
             TexventWarning: it has changed since.
         """
         path = self.path(key, extension)
+        finish_side_work(path)
         if not (self._is_kept and path.is_file()):
             return False
         seal = _seal_of(path)
@@ -94,6 +96,27 @@ class VideoCache:
         video = write_video(frames, self.path(key), fps, metadata, overwrite=True)
         self.seal(video.path)
         return video
+
+    def store_beside(
+        self, key: str, frames: Iterable[PixelArray], fps: Fraction, metadata: Mapping[str, Any]
+    ) -> None:
+        """Store a video in a thread of its own, for later runs; `has` and `find` wait for it.
+
+        Nothing is written where videos are not kept. A failure is a warning, as the frames are
+        there without the file.
+        """
+        if not self._is_kept:
+            return
+        path = self.path(key)
+
+        def store() -> None:
+            try:
+                self.store(key, frames, fps, metadata)
+            except (TexventError, OSError, ValueError, RuntimeError, MemoryError) as error:
+                reason = str(error) if isinstance(error, TexventError) else one_line(error)
+                warn(f"the video is not kept for later runs: {reason}")
+
+        begin_side_work(path, store)
 
     def seal(self, path: Path) -> None:
         """Note the digest of a video of this cache, by which `has` finds damage."""

@@ -26,10 +26,9 @@ from texvent.io.atomic import temporary_folder
 from texvent.io.compressed import load_zstd
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES
+from texvent.io.ros.bag_kind import FACTS_KEY, FOLDER_FACTS, MCAP_MAGIC, SQLITE_MAGIC
 from texvent.runtime.memory import check_proportion, most_unpacked
 
-FOLDER_FACTS = "metadata.yaml"
-MCAP_MAGIC, SQLITE_MAGIC = b"\x89MCAP", b"SQLite format 3"
 PIECE_BYTES = 2**20
 
 
@@ -77,11 +76,8 @@ def bounded_bag(path: Path, extra: str) -> Iterator[tuple[Path, bool]]:
             _check_file(folder / Path(name).stem, extra)
         facts["relative_file_paths"] = [Path(name).stem for name in names]
         facts["compression_mode"] = facts["compression_format"] = ""
-        (folder / FOLDER_FACTS).write_text(yaml.safe_dump({_FACTS_KEY: facts}), encoding="utf-8")
+        (folder / FOLDER_FACTS).write_text(yaml.safe_dump({FACTS_KEY: facts}), encoding="utf-8")
         yield folder, False
-
-
-_FACTS_KEY = "rosbag2_bagfile_information"
 
 
 def _read_facts(path: Path) -> dict[str, Any]:
@@ -99,7 +95,7 @@ def _read_facts(path: Path) -> dict[str, Any]:
     try:
         events = yaml.parse(text, yaml.SafeLoader)
         has_aliases = any(isinstance(one, yaml.AliasEvent) for one in events)
-        facts = None if has_aliases else yaml.safe_load(text)[_FACTS_KEY]
+        facts = None if has_aliases else yaml.safe_load(text)[FACTS_KEY]
     except (yaml.YAMLError, LookupError, TypeError, RecursionError, ValueError) as error:
         raise FileFormatError(f"{file} holds no facts of a bag ({one_line(error)})") from error
     if not isinstance(facts, dict):

@@ -36,13 +36,11 @@ from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.reading import ReadOptions, choose
 from texvent.io.ros.bag_bounds import (
-    FOLDER_FACTS,
-    MCAP_MAGIC,
-    SQLITE_MAGIC,
     bound_chunks,
     bounded_bag,
     check_total,
 )
+from texvent.io.ros.bag_kind import FOLDER_FACTS, ROSBAG1_MAGIC, ROSBAG2_MAGICS
 from texvent.io.ros.bag_writer import (
     EXTRA,
     FACTS_TOPIC,
@@ -64,8 +62,6 @@ from texvent.io.ros.messages import (
 from texvent.sensor import SensorSize
 
 TOPIC = "/dvs/events"
-ROSBAG1_MAGIC = b"#ROSBAG V"
-ROSBAG2_MAGICS = (MCAP_MAGIC, SQLITE_MAGIC)
 TEXT_START = {1: 4, 2: 8}
 """Version of ROS → bytes before the text in a std_msgs/String."""
 
@@ -79,7 +75,7 @@ class BagReader(BlockReader):
         """Size and metadata from the message of texvent, else the size of the first events."""
         size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}
-        with _open_bag(path) as bag:
+        with open_bag(path) as bag:
             connections = bag.reader.connections
             facts = bag.messages([one for one in connections if _is_facts(one)])
             for _, data in itertools.islice(facts, 1):
@@ -101,7 +97,7 @@ class BagReader(BlockReader):
 
     def beside(self, path: Path) -> Iterator[str]:
         """Topics of images and of an IMU."""
-        with _open_bag(path) as bag:
+        with open_bag(path) as bag:
             for one in bag.reader.connections:
                 if re.search("sensor_msgs/.*(Image|Imu)$", one.msgtype) and one.msgcount:
                     yield one.topic
@@ -187,12 +183,12 @@ class McapCodec(BagCodec):
         return any(begins_with(path, magic) for magic in ROSBAG2_MAGICS)
 
 
-def _opened(bag: _Bag, connections: list[Any]) -> Iterator[RawMessage]:
+def _opened(bag: Bag, connections: list[Any]) -> Iterator[RawMessage]:
     for connection, data in bag.messages(connections):
         yield open_message(connection.msgtype, data, bag.version)
 
 
-def _sized(bag: _Bag, connections: list[Any]) -> Iterator[RawMessage]:
+def _sized(bag: Bag, connections: list[Any]) -> Iterator[RawMessage]:
     """Messages that say the size of the sensor.
 
     Raises:
@@ -207,7 +203,7 @@ def _sized(bag: _Bag, connections: list[Any]) -> Iterator[RawMessage]:
 
 def _read_blocks(path: Path, topic: str) -> Iterator[Columns]:
     decoder = None
-    with _open_bag(path) as bag:
+    with open_bag(path) as bag:
         size: SensorSize | None = None
         for message in _opened(bag, _event_topics(bag.reader.connections)[topic]):
             if any(message.size):
@@ -233,7 +229,7 @@ UNPACK = {
 
 
 @dataclass(frozen=True)
-class _Bag:
+class Bag:
     """An open bag."""
 
     path: Path
@@ -250,7 +246,7 @@ class _Bag:
 
 
 @contextmanager
-def _open_bag(path: Path) -> Iterator[_Bag]:
+def open_bag(path: Path) -> Iterator[Bag]:
     """An open bag; what a damaged one makes rosbags raise is a FileFormatError."""
     version = 1 if path.is_file() and begins_with(path, ROSBAG1_MAGIC) else 2
     package = require(ROSBAG1 if version == 1 else ROSBAG2, extra=EXTRA)
@@ -259,7 +255,7 @@ def _open_bag(path: Path) -> Iterator[_Bag]:
         if version == 1:
             with package.Reader(path) as reader:
                 bound_chunks(reader)
-                yield _Bag(path, reader, version)
+                yield Bag(path, reader, version)
             return
         damage = (*damage, require("apsw", extra=EXTRA).Error)
         with bounded_bag(path, EXTRA) as (bounded, is_packed), package.Reader(bounded) as reader:
@@ -268,7 +264,7 @@ def _open_bag(path: Path) -> Iterator[_Bag]:
                 # rosbags would unpack messages without a bound.
                 facts = reader.storage.metadata._replace(compression_mode=None)
                 reader.storage.metadata = facts
-            yield _Bag(path, reader, version, is_packed)
+            yield Bag(path, reader, version, is_packed)
     except (InputError, MissingDependencyError) as error:
         if str(path) in str(error) or isinstance(error, MissingDependencyError):
             raise

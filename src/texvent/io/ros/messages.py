@@ -138,8 +138,8 @@ def pack_event_array(columns: Columns, size: SensorSize, sequence: int) -> bytes
     return head + records.tobytes()
 
 
-class _Fields:
-    """Reads the fields of a serialised message in their order."""
+class MessageFields:
+    """Reader of the fields of a serialised message in their order."""
 
     def __init__(self, data: bytes, version: int) -> None:
         if version == 2 and data[:2] != b"\0\1":
@@ -163,11 +163,23 @@ class _Fields:
         self.place += length
         return bytes(self.body[self.place - length : self.place][:32]).rstrip(b"\0")
 
-    def header(self) -> None:
-        """A std_msgs/Header, which is read over."""
-        for form in "II" if self._is_aligned else "III":
-            self.number(form)
+    def header(self) -> int:
+        """Time of a std_msgs/Header, ns."""
+        *_, seconds, rest = (self.number(form) for form in ("iI" if self._is_aligned else "III"))
         self.text()
+        return seconds * NS_PER_S + rest
+
+    def data(self) -> memoryview:
+        """A list of bytes.
+
+        Raises:
+            FileFormatError: it ends too early.
+        """
+        count = self.number("I")
+        found = self.body[self.place : self.place + count]
+        if len(found) != count:
+            raise FileFormatError(f"a message states {count} bytes of data; it is damaged")
+        return found
 
 
 def open_message(kind: str, data: bytes, version: int) -> RawMessage:
@@ -177,7 +189,7 @@ def open_message(kind: str, data: bytes, version: int) -> RawMessage:
         FileFormatError: the message is damaged, or its encoding is not read.
     """
     try:
-        fields = _Fields(data, version)
+        fields = MessageFields(data, version)
         fields.header()
         height, width = fields.number("I"), fields.number("I")
         if kind not in PACKETS:
@@ -203,7 +215,7 @@ def open_message(kind: str, data: bytes, version: int) -> RawMessage:
     return RawMessage(SensorSize(width, height), payload, encoding, time_base_ns)
 
 
-def _open_records(fields: _Fields, size: SensorSize, version: int) -> RawMessage:
+def _open_records(fields: MessageFields, size: SensorSize, version: int) -> RawMessage:
     count = fields.number("I")
     payload = fields.body[fields.place :]
     wanted = count * _RECORD.itemsize

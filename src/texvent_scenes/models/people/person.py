@@ -38,6 +38,7 @@ from texvent_scenes.models.people.posture import (
 )
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import Affine, ArticulatedModel, Point, point
+from texvent_scenes.models.surfaces import Painted
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.rendered_scene import Colour
 
@@ -134,15 +135,23 @@ def build_person(
     kind: PersonKind, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a person; `colour` is the shirt or dress."""
-    outfit = dress_person(kind, colour=colour, seed=seed)
+    draw = partial(_draw, kind, dress_person(kind, colour=colour, seed=seed))
+    return _usual_person(kind).scaled(scale * kind.height, draw)
 
-    def articulate(pose: Pose) -> list[ModelPart]:
-        return draw_figure(kind, outfit, solve(choose_posture(kind, pose)))
+
+@cache
+def _usual_person(kind: PersonKind) -> ArticulatedModel:
+    """A person in any clothes: all of a kind have the same shapes."""
 
     def anchor(name: str, pose: Pose) -> Affine:
         return locate_anchor(name, solve(choose_posture(kind, pose)), kind.head)
 
-    return ArticulatedModel([], scale=scale * kind.height, articulate=articulate, anchor=anchor)
+    outfit = dress_person(kind, colour=None, seed=0)
+    return ArticulatedModel([], articulate=partial(_draw, kind, outfit), anchor=anchor)
+
+
+def _draw(kind: PersonKind, outfit: Painted, pose: Pose) -> list[ModelPart]:
+    return draw_figure(kind, outfit, solve(choose_posture(kind, pose)))
 
 
 def choose_posture(kind: PersonKind, pose: Pose) -> Posture:

@@ -153,7 +153,7 @@ def _water(instant: Record, strip: Strip, axes: Patch, view_up: float, foam: flo
     )  # fmt: skip
     place = strip[0] - speed * instant.time
     sample = sample_material(instant, _WATER, place, strip[1], turned, 1.0)
-    mirror = 0.06 + 0.74 * (1.0 - min(abs(view_up), 1.0)) ** 4
+    mirror = 0.06 + 0.44 * (1.0 - min(abs(view_up), 1.0)) ** 4  # ripples too small to be seen
     deep = mix(triple(instant.second_colour), triple(instant.sky_horizon), mirror)
     bright = mix(deep, triple(instant.sky_horizon), 0.65)
     look = painted(sample, deep, bright, 1.0)
@@ -253,8 +253,29 @@ def strip_look(
     return mixed(land, _water(instant, strip, axes, view_up, foam), wet)
 
 
+@jit(error_model="numpy", inner=True)
+def glossy_share(instant: Record, point: Vector, foot: float) -> tuple[float, float]:
+    """Share of the ground that is water or wet, and the roughness of it.
+
+    `foot` is the length that a pixel covers, metres.
+    """
+    if instant.ground in (_RIVER, _LAKE):
+        return _inside_share(instant, strip_place(instant, point[0], point[1]), foot), 0.05
+    if instant.wetness == 0.0 or instant.ground not in (0, 2, _CITY):
+        return 0.0, 0.0
+    share = 1.0
+    if instant.ground == 2:
+        share = _inside_share(instant, strip_place(instant, point[0], point[1]), foot)
+    puddle = 0.0
+    if share > 0.0:
+        hollow = noise_2d(0.31 * point[0], 0.31 * point[1], 7)
+        hollow += 0.4 * noise_2d(0.9 * point[0], 0.9 * point[1], 8) * detail_fade(0.9 * foot)
+        puddle = smooth(1.6 * hollow + 0.3) * detail_fade(0.31 * foot)
+    return share * instant.wetness * (0.45 + 0.55 * puddle), 0.1 - 0.07 * puddle
+
+
 _PLASTER, _STONE, _CLOTH = 33, 31, 43
-_HANGING_EVERY_M = 2.3
+HANGING_EVERY_M = 2.3
 _FRAME_M = 0.05
 _FRAME = (0.70, 0.69, 0.66)
 _DARK_FRAME = (0.10, 0.06, 0.035)
@@ -291,15 +312,27 @@ def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colo
 
 
 @jit(error_model="numpy", inner=True)
+def _hanging(cell: int, side: int) -> float:
+    """Number in [0, 1) that decides what hangs on a stretch of a wall: below .4 a window."""
+    return lattice(cell, side, 31)
+
+
+@jit(error_model="numpy", inner=True)
+def has_window(instant: Record, cell: int, side: int) -> bool:
+    """Whether there is a window on a stretch of a room's wall; see `_hang`."""
+    return instant.wall_surface not in (_STONE, _CLOTH) and _hanging(cell, side) < 0.4
+
+
+@jit(error_model="numpy", inner=True)
 def _hang(
     instant: Record, wall: Colour, place: tuple[float, float], feet: Colour, side: int
 ) -> Colour:
     """A wall with windows and pictures on it; `place` is metres along and up."""
-    cell = math.floor(place[0] / _HANGING_EVERY_M)
-    chance = lattice(int(cell), side, 31)
+    cell = math.floor(place[0] / HANGING_EVERY_M)
+    chance = _hanging(int(cell), side)
     if chance > 0.75:
         return wall
-    at = (place[0] - _HANGING_EVERY_M * (cell + 0.5), place[1] - 1.6)
+    at = (place[0] - HANGING_EVERY_M * (cell + 0.5), place[1] - 1.6)
     shape = lattice(int(cell), side, 32)
     if chance < 0.4:
         half = (0.62, 0.65)

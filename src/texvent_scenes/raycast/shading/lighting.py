@@ -12,13 +12,19 @@ from texvent.runtime.jit import jit
 from texvent_scenes.raycast.addresses import shape_at
 from texvent_scenes.raycast.lamps.light import lamp_light
 from texvent_scenes.raycast.records import Record
-from texvent_scenes.raycast.shading.ground import ground_look, wall_look
+from texvent_scenes.raycast.shading.ambient import ambient_light
+from texvent_scenes.raycast.shading.ground import glossy_share, ground_look, wall_look
+from texvent_scenes.raycast.shading.reflection import (
+    add_fog,
+    mirrored_light,
+    sky_light,
+    with_reflection,
+)
 from texvent_scenes.raycast.shading.texture import patch_extent, surface_look, surface_patch
 from texvent_scenes.raycast.shading.value_noise import (
     detail_fade,
     mix,
-    sky_colour,
-    sky_gradient,
+    noise_2d,
     smooth,
 )
 from texvent_scenes.raycast.trace import (
@@ -32,13 +38,14 @@ from texvent_scenes.raycast.vectors import (
     NO_DISTORTION,
     along,
     dot,
+    mapped,
     pixel_steps,
     scaled,
     times,
     triple,
     unit,
 )
-from texvent_scenes.rendered_scene import Colour
+from texvent_scenes.rendered_scene import FIRST_SURFACE, Colour
 
 FOAM_FROM, FOAM_STEEPNESS = 0.085, 5.0
 """Sum of the waves' heights over their lengths, per wave height, from which on crests foam."""
@@ -65,7 +72,9 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     normal = (-slope_x * scale, -slope_y * scale, scale)
     facing = max(-dot(view, normal), 0.0)
     mirror = 0.03 + 0.75 * (1.0 - facing) ** 4
-    up = abs(view[2] + 2.0 * facing * normal[2])
+    away = along(view, normal, 2.0 * facing)
+    away = (away[0], away[1], abs(away[2]))
+    seen = mirrored_light(instant, point, away, _WAVE_BLUR, 0, instant.time)
     deep = mix(
         triple(instant.colour),
         triple(instant.second_colour),
@@ -73,7 +82,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     )
     sun_colour = triple(instant.sun_colour)
     water = times(deep, along(triple(instant.ambient), sun_colour, 0.5))
-    colour = mix(water, sky_gradient(instant, up), mirror)
+    colour = mix(water, seen, mirror)
     half = along(triple(instant.sun), view, -1.0)
     shine = dot(half, normal) / math.sqrt(dot(half, half) + 1e-12)
     if instant.wave_height > 1.0:
@@ -96,24 +105,14 @@ def caustics(instant: Record, point: Colour, footprint: float) -> float:
     return 1.0 + share * (0.9 * math.exp(-3.0 * abs(web)) - 0.25)
 
 
-_SEA = 4
+_SEA, _RIVER, _LAKE = 4, 11, 12
+_WAVE_BLUR = 0.15
+"""Blur of what the sea mirrors, by the waves that are too small to be seen, radians."""
+_WATER_GLOSS = 0.02
+_WET_DARK = 0.45
+"""Share of its light that a wet ground loses."""
+_BOX, _MESH = 1, 4
 _UNDERWATER = 9
-_FOG_HEIGHT_M = 40.0
-"""Fog and water above this height do not count for rays that go up."""
-
-
-@jit(error_model="numpy", inner=True)
-def _add_fog(instant: Record, colour: Colour, distance: float) -> Colour:
-    if instant.fog == 0.0:
-        return colour
-    return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
-
-
-@jit(error_model="numpy", inner=True)
-def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
-    """Sky in a unit direction, behind the fog."""
-    path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
-    return _add_fog(instant, sky_colour(instant, direction, pixel), path)
 
 
 @jit(error_model="numpy", inner=True)
@@ -122,13 +121,12 @@ def _reflected(
 ) -> Colour:
     """Light reflected by a matt surface of which a pixel covers `foot` metres."""
     lamps = lamp_light(instant, point, normal, lit)
-    above = 0.68 + 0.32 * normal[2]
     facing = 0.0
     if lit & 1:
         facing = max(dot(normal, instant.sun), 0.0)
         if instant.ground == _UNDERWATER:
             facing *= caustics(instant, point, footprint)
-    light = along(scaled(triple(instant.ambient), above), triple(instant.sun_colour), facing)
+    light = along(ambient_light(instant, point, normal), triple(instant.sun_colour), facing)
     return times(colour, along(light, lamps, 1.0))
 
 
@@ -143,16 +141,47 @@ def _shape_light(
 ) -> Colour:
     """Light from a shape: texture, reflection, a soft highlight, its own glow."""
     depth, number, face = hit
-    normal = surface_normal(instant, number, face, point)
-    patch = surface_patch(steps, direction, depth, normal)
-    colour, normal = surface_look(instant, number, face, point, (normal, patch[0], patch[1]))
+    shape = shape_at(instant.shapes, number)
+    flat = surface_normal(instant, number, face, point)
+    patch = surface_patch(steps, direction, depth, flat)
+    foot = patch_extent(patch)[2]
+    gloss, rough, bend = 0.0, 0.0, 0.0
+    crowned = flat
+    if shape.texture >= FIRST_SURFACE and shape.kind != _MESH:
+        coat = instant.gloss[shape.texture - FIRST_SURFACE]
+        gloss, rough = coat[0], coat[1]
+        if gloss > 0.0:
+            crowned, bend = _crowned(shape, face, point, flat, coat[2])
+    colour, normal = surface_look(instant, number, face, point, (crowned, patch[0], patch[1]))
     view = unit(direction)
-    light = _reflected(instant, colour, point, normal, patch_extent(patch)[2], lit)
+    light = _reflected(instant, colour, point, normal, foot, lit)
+    if gloss > 0.0:
+        blur = rough + 0.5 * instant.step + bend * foot
+        light = with_reflection(instant, light, (point, view, crowned), gloss, blur, shape.instance)
     if lit & 1:
         half = along(triple(instant.sun), view, -1.0)
         facing = max(dot(half, normal), 0.0) / math.sqrt(dot(half, half) + 1e-12)
         light = along(light, triple(instant.sun_colour), 0.12 * facing**24)
-    return along(light, colour, shape_at(instant.shapes, number).emission)
+    return along(light, colour, shape.emission)
+
+
+@jit(error_model="numpy", inner=True)
+def _crowned(
+    shape: Record, face: int, point: Colour, normal: Colour, crown: float
+) -> tuple[Colour, float]:
+    """Normal of a face that bulges, and by how much normals turn along it, radians per metre."""
+    extent = triple(shape.extent)
+    if shape.kind != _BOX:
+        return normal, 1.0 / max(min(extent[0], extent[1], extent[2]), 0.01)
+    m = shape.inverse
+    place = mapped(m, point)
+    narrowest = math.inf
+    for axis in range(3):
+        if axis != face // 2:
+            slope = crown * extent[axis] * place[axis]
+            normal = along(normal, (m[axis, 0], m[axis, 1], m[axis, 2]), slope)
+            narrowest = min(narrowest, extent[axis])
+    return unit(normal), crown / max(narrowest, 0.01)
 
 
 @jit(error_model="numpy", inner=True)
@@ -174,9 +203,32 @@ def _ground_light(
         colour, slope_x, slope_y = ground_look(instant, point, patch, unit(direction)[2])
         normal = unit((-slope_x, -slope_y, 1.0))
         light = _reflected(instant, colour, point, normal, footprint[2], lit)
+        wet, rough = glossy_share(instant, point, footprint[2])
+        if wet > 0.0:
+            light = _wetted(instant, light, point, unit(direction), (wet, rough, footprint[2]))
     if instant.ground == _UNDERWATER:
         return light
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
+
+
+@jit(error_model="numpy", inner=True)
+def _wetted(instant: Record, light: Colour, point: Colour, view: Colour, wet: Colour) -> Colour:
+    """Light of the ground under water.
+
+    `wet` is the share of it, the roughness, and the metres that a pixel covers.
+    """
+    share, rough, foot = wet
+    slope_x, slope_y = 0.0, 0.0
+    if instant.ground in (_RIVER, _LAKE):
+        fade = 0.1 * instant.wave_height * detail_fade(0.8 * foot)
+        x, y, t = 0.8 * point[0], 1.3 * point[1], instant.time
+        slope_x = fade * noise_2d(x + 0.7 * t, y, 9)
+        slope_y = fade * noise_2d(x, y - 0.6 * t, 10)
+    else:
+        light = scaled(light, 1.0 - _WET_DARK * instant.wetness)
+    normal = unit((-slope_x, -slope_y, 1.0))
+    wetted = with_reflection(instant, light, (point, view, normal), _WATER_GLOSS, rough, 0)
+    return mix(light, wetted, share)
 
 
 @jit(error_model="numpy", inner=True)
@@ -205,7 +257,7 @@ def shade_hit(instant: Record, x: float, y: float, hit: tuple[float, int, int], 
     if instant.distortion != NO_DISTORTION:
         step = _angle_of_step(direction, steps[0])
     if number == SKY:
-        return _sky_light(instant, unit(direction), step)
+        return sky_light(instant, unit(direction), step, instant.time)
     point = along(triple(instant.origin), direction, depth)
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
@@ -217,4 +269,4 @@ def shade_hit(instant: Record, x: float, y: float, hit: tuple[float, int, int], 
         light = _reflected(instant, colour, point, unit(normal), patch_extent(patch)[2], lit)
     else:
         light = _shape_light(instant, hit, point, direction, steps, lit)
-    return _add_fog(instant, light, distance)
+    return add_fog(instant, light, distance)

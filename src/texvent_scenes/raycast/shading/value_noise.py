@@ -142,24 +142,26 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) -> float:
+def _cloud_cover(instant: Record, direction: Colour, pixel: float, time: float) -> float:
     """Share of the sky that cloud hides in a unit direction with z > 0."""
+    x, y, z = direction
     height = max(z, 0.02)
-    u = 1.1 * x / height + _CLOUD_SPEED * instant.time
-    v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * instant.time
+    u = 1.1 * x / height + _CLOUD_SPEED * time
+    v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * time
     thickness = fractal_2d(u, v, 5, 1.1 * pixel / (height * height))
     cover = smooth((thickness + 1.7 * instant.clouds - 0.95) / 0.7)
     return cover * smooth((z - 0.01) / 0.12)
 
 
 @jit(error_model="numpy", inner=True)
-def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
+def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) -> Colour:
     """Light from the sky, before fog and exposure.
 
     Args:
         instant: the surroundings.
         direction: unit vector from the camera.
         pixel: angle that one pixel covers, radians.
+        time: of the clouds, s.
     """
     x, y, z = direction
     colour = sky_gradient(instant, z)
@@ -177,5 +179,5 @@ def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     if instant.clouds > 0.0 and z > 0.0:
         white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)
         lit = along(white, triple(instant.sun_colour), 0.28)
-        colour = mix(colour, lit, 0.92 * _cloud_cover(instant, x, y, z, pixel))
+        colour = mix(colour, lit, 0.92 * _cloud_cover(instant, direction, pixel, time))
     return colour

@@ -37,6 +37,12 @@ class SurfaceKind:
     """Pattern of those patches."""
     larger: float = 25.0
     """Size of their tile, as a multiple of the material's."""
+    gloss: float = 0.0
+    """Share of light that its clear layer mirrors straight on; 0 = it is matt."""
+    roughness: float = 0.02
+    """Blur of what it mirrors, radians."""
+    crown: float = 0.0
+    """Slope at the edges of a box's faces, which bulge as sheet metal does."""
 
 
 SURFACES: dict[Texture, SurfaceKind] = {
@@ -67,11 +73,14 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.FEATHERS: SurfaceKind(patterns.feathers, 0.5, 0.3, 0.0),
     Texture.CLOTH: SurfaceKind(patterns.cloth, 0.7, 0.35, 0.0),
     Texture.SKIN: SurfaceKind(patterns.skin, 0.35, 0.2, 0.0),
-    Texture.METAL: SurfaceKind(patterns.metal, 1.0, 0.1, 0.0),
+    Texture.METAL: SurfaceKind(patterns.metal, 1.0, 0.1, 0.0, gloss=0.25, roughness=0.12),
     Texture.RUST: SurfaceKind(patterns.rust, 0.9, 0.4, 0.0),
     Texture.LEATHER: SurfaceKind(patterns.leather, 0.6, 0.5, 0.0),
     Texture.SPOTS: SurfaceKind(patterns.spots, 1.0, 0.2, 0.0),
     Texture.SCALES: SurfaceKind(patterns.scales, 0.5, 0.4, 0.0),
+    Texture.LACQUER: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.06, crown=0.3),
+    Texture.PANE: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.1, crown=0.06),
+    Texture.MIRROR: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.9, roughness=0.004),
 }
 """Every material."""
 SURFACE_COUNT = max(SURFACES) - FIRST_SURFACE + 1
@@ -136,6 +145,14 @@ def surface_rows(textures: frozenset[int]) -> tuple[NDArray[np.int64], NDArray[n
         addresses[row] = [build_tile(each).ctypes.data for each in (Texture(value), kind.large)]
         sizes[row] = 1.0 / kind.side_m, kind.wear, 1.0 / (kind.larger * kind.side_m)
     return addresses, sizes
+
+
+def gloss_rows() -> NDArray[np.float64]:
+    """[SURFACE_COUNT, 3] gloss, roughness and crown, by texture less `FIRST_SURFACE`."""
+    rows = np.zeros((SURFACE_COUNT, 3))
+    for texture, kind in SURFACES.items():
+        rows[texture - FIRST_SURFACE] = kind.gloss, kind.roughness, kind.crown
+    return rows
 
 
 def _slope(height: Field, axis: int, relief: float) -> Field:

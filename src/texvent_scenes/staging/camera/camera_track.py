@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -23,9 +23,15 @@ AMOUNTS = {
 }  # fmt: skip
 """Kind of move, which is also its channel → usual amount: angles in rad, displacements in widths of
 the picture at the subject, logarithms of the focal length and of the nearness."""
-_NEAREST = ("zoom", "dolly")
-"""Moves that are framed where they are nearest; the others in the middle of their range."""
-_NEGATIVE = ("left", "down", "out", "counter-clockwise")
+STATED = {"truck": "truck m", "pedestal": "pedestal m", "dolly": "dolly m", "zoom": "zoom rad"}
+"""Kind of move → its channel where the scene says how fast it is, in m and rad; that of what turns
+is the usual one."""
+_NEAREST = ("zoom", "dolly", STATED["zoom"], STATED["dolly"])
+"""Channels that are framed where they are nearest; the others in the middle of their range."""
+_CHANNELS = (*AMOUNTS, *STATED.values())
+_NEGATIVE = ("left", "down", "out", "counter-clockwise", "backward")
+_LEAST_DISTANCE, _VIEWS_RAD = 0.02, (math.radians(1.0), math.radians(150.0))
+"""Least share of its distance at which a stated dolly stops, and fields of view of a zoom."""
 _HANDHELD = (
     Term("pan", 0.015, 1.1), Term("pan", 0.009, 2.7, 1.0),
     Term("tilt", 0.015, 1.4, 2.0), Term("tilt", 0.0075, 3.3),
@@ -91,13 +97,16 @@ def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove
     return [one for one in timed if one.begin_s < min(one.end_s, duration_s)]
 
 
-def terms_of(moves: Sequence[TimedMove], duration_s: float) -> tuple[Term, ...]:
+@lru_cache(maxsize=64)
+def terms_of(moves: tuple[TimedMove, ...], duration_s: float) -> tuple[Term, ...]:
     """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along"."""
     terms = tuple(term for one in moves for term in _expand(one))
     edges = {0.0, duration_s, *(time for one in moves for time in (one.begin_s, one.end_s))}
     middles = []
-    for kind in AMOUNTS:
+    for kind in _CHANNELS:
         going = [term for term in terms if term.channel == kind and term.drift]
+        if not going:
+            continue
         reached = [add_up(going, min(time, duration_s)).get(kind, 0.0) for time in edges]
         least = max(reached) if kind in _NEAREST else min(reached)
         middles.append(Term(kind, offset=-0.5 * (least + max(reached))))
@@ -113,11 +122,15 @@ def _expand(timed: TimedMove) -> Iterator[Term]:
     for wave in (*waves, *(_ROAMING if is_roaming else ())):
         yield wave._replace(amplitude=scale * wave.amplitude, begin_s=begin_s, end_s=end_s)
     if move.kind in AMOUNTS:
-        span = timed.end_s - timed.begin_s
+        channel, span = str(move.kind), timed.end_s - timed.begin_s
         amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace * AMOUNTS[move.kind]
-        drift = (-amount if move.direction in _NEGATIVE else amount) / span
+        rate, turn = amount / span, move.rate_deg_s
+        stated = move.speed_m_s if turn is None else math.radians(turn)
+        if stated is not None:
+            rate, channel = stated, STATED.get(move.kind, move.kind)
+        drift = -rate if move.direction in _NEGATIVE else rate
         offset = -drift * timed.begin_s
-        yield Term(move.kind, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
+        yield Term(channel, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
 
 
 @dataclass(frozen=True)
@@ -193,7 +206,7 @@ class CameraTrack:
 
     def at(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
-        framing, by = self.framing, dict.fromkeys((*AMOUNTS, "along"), 0.0)
+        framing, by = self.framing, dict.fromkeys((*_CHANNELS, "along"), 0.0)
         by |= add_up(self._terms, time_s)
         roll = by["roll"]
         if self.journey is not None:
@@ -205,15 +218,17 @@ class CameraTrack:
             if self.tie is not None:
                 target = target + self.tie.displacement(time_s)
             away = direction(framing.azimuth + by["orbit"], framing.elevation)
-            start = target + framing.distance_m * math.exp(-by["dolly"]) * away
-        slide = width * _aside(framing.azimuth, by)
+            distance = framing.distance_m * math.exp(-by["dolly"])
+            distance = max(distance - by[STATED["dolly"]], _LEAST_DISTANCE * framing.distance_m)
+            start = target + distance * away
+        slide = _aside(framing.azimuth, by, width)
         position = self._keep_inside(start + slide)
         if self.journey is not None:
             ahead = -direction(state.yaw - 0.5 * math.pi, self.journey.pitch_rad)
         else:
             ahead = target + slide - position
         ahead = _turned(ahead, by["pan"], by["tilt"])
-        camera = look_at(position, position + ahead, framing.focal * math.exp(by["zoom"]))
+        camera = look_at(position, position + ahead, _zoomed(framing.focal, by))
         return _rolled(camera, roll)
 
     def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrack:
@@ -236,11 +251,22 @@ class CameraTrack:
         return position
 
 
-def _aside(azimuth: float, by: Mapping[str, float]) -> Float64Array:
-    """[3] by which camera and target move together."""
+def _zoomed(focal: float, by: Mapping[str, float]) -> float:
+    """Focal length after all zooms."""
+    focal *= math.exp(by["zoom"])
+    if not by[STATED["zoom"]]:
+        return focal
+    view = 2.0 * math.atan(0.5 / focal) - by[STATED["zoom"]]
+    return 0.5 / math.tan(0.5 * min(max(view, _VIEWS_RAD[0]), _VIEWS_RAD[1]))
+
+
+def _aside(azimuth: float, by: Mapping[str, float], width_m: float) -> Float64Array:
+    """[3] by which camera and target move together, m; the picture is so wide at the subject."""
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
     ahead = np.array([-right[1], right[0], 0.0])
-    return np.asarray(by["truck"] * right + by["along"] * ahead + [0.0, 0.0, by["pedestal"]])
+    to_right = width_m * by["truck"] + by[STATED["truck"]]
+    up = width_m * by["pedestal"] + by[STATED["pedestal"]]
+    return np.asarray(to_right * right + width_m * by["along"] * ahead + [0.0, 0.0, up])
 
 
 def _rolled(camera: PosedCamera, angle: float) -> PosedCamera:

@@ -14,7 +14,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.staging.camera.camera_track import Journey, TimedMove, time_moves
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.environment import RoadLine, with_crossing
 from texvent_scenes.staging.tracks.keys import Key
 from texvent_scenes.staging.tracks.track import Track
 
@@ -102,9 +102,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     route, length = _lay_route(travels, means.speed_m_s, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = RoadLine(NORTH, (-lane, route.start[1]))
-    if description.place.road == "crossing":
-        crossing = (-lane, route.start[1] + 0.6 * length + 4.0, NORTH + 0.5 * math.pi)
-        road = replace(road, crossings=(crossing,))
+    road = with_crossing(road, description.place, 0.6 * length + 4.0)
     return TravelPlan(Journey(route, height, pitch), length, clear, road)
 
 

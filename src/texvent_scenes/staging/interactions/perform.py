@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import holding, striking
@@ -46,7 +46,7 @@ def settle_motions(
     objects = list(description.objects)
     relations = [
         _mounted(replace(one, targets=targets), objects, nouns)
-        for one in description.relations
+        for one in _in_hand(description.relations, objects)
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
@@ -58,6 +58,25 @@ def settle_motions(
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _in_hand(
+    relations: Sequence[IndexedRelation], objects: Sequence[SceneObject]
+) -> Iterator[IndexedRelation]:
+    """A person "with" small things wears what can be worn, and holds the first of the others."""
+    holding = {one.subject for one in relations if one.kind in ACTS}
+    for one in relations:
+        thing = objects[one.targets[0]].noun
+        is_small = thing in nouns_with("in hand or on something") and thing not in HAND_NOUNS
+        if one.kind != "with" or not is_small or objects[one.subject].noun not in PERSON_NOUNS:
+            yield one
+        elif trait_value("worn", thing) is not None or thing in CLOTHES:
+            yield replace(one, kind="wear")
+        elif one.subject not in holding:
+            holding.add(one.subject)
+            yield replace(one, kind="hold")
+        else:
+            yield one
 
 
 def _settle(

@@ -38,12 +38,13 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
     orbit,
 )
 from texvent_scenes.staging.tracks.keys import Vector
-from texvent_scenes.staging.tracks.motion_plan import plan_motion
+from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
 from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
@@ -74,6 +75,8 @@ class ObjectPlacer:
         self._level_m = level_m
         """Height of the origin of what lives in the air and in the water, in own sizes."""
         self.groups: dict[int, ObjectGroup] = {}
+        self.not_shown: list[str] = []
+        """Objects that have no place, and why."""
         self._travel = travel
         bodies = sum(scene_object.count for scene_object in description.objects)
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
@@ -82,8 +85,14 @@ class ObjectPlacer:
         """Every copy of every object, with its track."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
+        orphans = {*list_orphans(self._description)}
+        self.not_shown = [
+            f"the {objects[n].noun} (nobody has it and nothing carries it: say who or where)"
+            for n in sorted(orphans)
+        ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
-            self._place(index, frozenset())
+            if index not in orphans:
+                self._place(index, frozenset())
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
@@ -105,12 +114,9 @@ class ObjectPlacer:
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
-        motions = scene_object.motions or (STANDING,)
-        plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
-        if scene_object.heading_deg is not None:
-            yaw = math.radians(scene_object.heading_deg)
-            path = plan.path and replace(plan.path, yaw=yaw)
-            plan = replace(plan, yaw=yaw, path=path)
+        motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
+        plan = plan_motion(motions, noun, models[0], self._duration_s, rng, start_m)
+        plan = with_heading(plan, scene_object.heading_deg)
         offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
@@ -127,16 +133,21 @@ class ObjectPlacer:
         goal = self._choose_goal(group, related)
         self._match_paces(group)
         group.centre = self._find_free_position(group, goal)
-        if group.scene_object.position_m is not None:
-            self._start_at(group, group.scene_object.position_m)
+        self._start_where_said(group)
         self.groups[index] = group
 
-    def _start_at(self, group: ObjectGroup, place: tuple[float, float]) -> None:
-        """Move a group so that its first copy starts at a place on the ground, m."""
+    def _start_where_said(self, group: ObjectGroup) -> None:
+        """Move a group so that its first copy starts at the place and height of the scene, m."""
+        said, height_m = group.scene_object, group.scene_object.height_m
+        if said.position_m is None and height_m is None:
+            return
         x, y, z = group.centre + np.array(group.offsets[0])
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
         start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
-        group.centre[:2] += np.subtract(place, start[:2])
+        if said.position_m is not None:
+            group.centre[:2] += np.subtract(said.position_m, start[:2])
+        if height_m is not None:
+            group.centre[2] += height_m - lowest_point(group.models[0]) - start[2]
 
     def _match_paces(self, group: ObjectGroup) -> None:
         """Give a follower, a companion or what is overtaken the pace of its partner."""
@@ -222,10 +233,12 @@ class ObjectPlacer:
         """Height of the group's origin, m."""
         kind, name, habitat = group.plan.motion.kind, group.noun.name, group.noun.habitat
         levels, air = self._level_m, self._level_m.get("air", 0.0)
+        if group.plan.start_m is not None:
+            return group.origin_m
         if group.scene_object.height_m is not None:
             return group.scene_object.height_m - lowest_point(group.models[0])
         is_resting = rests(group.noun, kind) and name not in levels
-        lifts = kind in ("rise", "sink") and air > 0.0
+        lifts = kind in ("rise", "sink", "fall") and air > 0.0
         if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
             return -lowest_point(group.models[0])
         if name in levels:

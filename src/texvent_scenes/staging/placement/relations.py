@@ -16,7 +16,7 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.posture import SEAT
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.object_groups import (
@@ -24,7 +24,9 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
+from texvent_scenes.staging.tracks.keys import Key
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.track import Track, centred
 
 
 class Goal(NamedTuple):
@@ -223,6 +225,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         return _seat_on(group, target, neighbours)
     support = find_support(target.models[0])
     _line_up(group, target, support, neighbours)
+    if not group.scene_object.motions or kind == "stand":
+        _carry_along(group, target, support)
     if is_person and kind in ("lie", "stand"):
         body = target.models[0]
         is_across = kind == "lie" and body.width > body.length
@@ -230,6 +234,24 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """What lies on a belt that runs goes along with it, up to its end."""
+    usual_m_s, motion = trait_value("belt speed", target.noun.name), target.plan.motion
+    if usual_m_s is None or motion.kind != "work" or motion.pace == 0.0:
+        return
+    group.carrier, duration_s = None, target.plan.duration_s
+    speed = usual_m_s * motion.pace * size_of(target.models[0])
+    taken = np.ptp([math.hypot(x, y) for x, y, _ in group.offsets]) + group.models[0].length
+    room = max(support.high[0] - support.low[0] - float(taken), 0.0)
+    yaw = target.plan.yaw + (math.pi if motion.direction == "clockwise" else 0.0)
+    going_s = min(room / speed, duration_s)
+    keys = (Key(0.0, speed), Key(going_s, speed), Key(max(duration_s - going_s, 0.01), ramp_s=0.05))
+    path = Track((0.0, 0.0, 0.0), yaw, tuple(replace(key, activity="stand") for key in keys))
+    slide = replace(group.plan.motion, kind="slide")
+    path = centred(path, duration_s)
+    group.plan = replace(group.plan, motion=slide, yaw=yaw, path=path, is_facing=False)
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:

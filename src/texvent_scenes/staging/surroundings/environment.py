@@ -87,10 +87,18 @@ def find_road(
         one.placement != "lane" for one in description.objects
     )
     road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
-    if description.place.road == "crossing" and not road.crossings:
-        x, y, angle = road.at(_CROSSING_AHEAD_M)
-        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
-    return road
+    return road if road.crossings else with_crossing(road, description.place, _CROSSING_AHEAD_M)
+
+
+def with_crossing(road: RoadLine, said: Place, usual_m: float) -> RoadLine:
+    """The road with the one that crosses it where the scene says, or so far along it, m."""
+    if said.crossing_m is not None:
+        east, north = np.subtract(said.crossing_m, road.offset)
+        usual_m = float(east * math.cos(road.angle) + north * math.sin(road.angle))
+    elif said.road != "crossing":
+        return road
+    x, y, angle = road.at(usual_m)
+    return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
 
 
 def _straight_road(
@@ -120,7 +128,9 @@ def _straight_road(
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
     """The road whose right lane, or whose edge, the first mover keeps to, also where it turns."""
     first = movers[0]
-    is_alone = len(movers) == 1 and lane_m > 0.6 * first.model.width
+    headings = [one.track.at(0.0).yaw - first.track.at(0.0).yaw for one in movers]
+    has_oncoming = any(math.cos(turn) < -0.9 for turn in headings)
+    is_alone = (len(movers) == 1 or has_oncoming) and lane_m > 0.6 * first.model.width
     lane = lane_m if is_alone else 0.0
     if first.noun.motion != "drive":
         lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
@@ -173,7 +183,11 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
         gap, state = 0.0, swimmers[0].track.at(0.0)
         angle = state.yaw if swimmers[0].is_mover else angle
         x, y = float(state.position[0]), float(state.position[1])
-    elif swimmers:
+    elif not swimmers:
+        away = np.array([-math.sin(angle), math.cos(angle)])
+        corners = np.vstack([one.corners(time) for one in actors for time in (0.0, _USUAL_S)])
+        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + _LEAST_BANK_M)
+    else:
         gap = -_NEARER * path.framing.distance_m
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
@@ -194,6 +208,8 @@ keeps the usual one: edges cross a threshold of 0.25 four times."""
 _LUMA = np.array([0.2126, 0.7152, 0.0722])
 """Luma weights of linear RGB, Rec. 709."""
 _UNDERWATER_SIGHT_M = 16.0
+_WET = 0.85
+"""Share of rain water on roads while it rains."""
 _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
 
@@ -274,6 +290,7 @@ def build_environment(
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=_cloud_share(description, place, lighting),
+        wetness=_WET if said.weather == "rain" else 0.0,
         wave_height=said.wave_height,
         sun_direction=_unit(lighting.sun_direction),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),

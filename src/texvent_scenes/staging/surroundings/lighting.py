@@ -36,11 +36,11 @@ class Lighting:
 
 _DAY = Lighting(
     (-0.45, -0.55, 0.70), (1.0, 0.94, 0.82), (0.30, 0.34, 0.41), (0.10, 0.28, 0.72),
-    (0.55, 0.71, 0.88), 0.22,
+    (0.55, 0.71, 0.88), 0.42,
 )  # fmt: skip
 LIGHTINGS: dict[str, Lighting] = {
     "day": _DAY,
-    "sunny": replace(_DAY, sun=(1.18, 1.08, 0.88), clouds=0.08, ambient=(0.27, 0.31, 0.38)),
+    "sunny": replace(_DAY, sun=(1.18, 1.08, 0.88), clouds=0.3, ambient=(0.27, 0.31, 0.38)),
     "overcast": Lighting(
         (-0.3, -0.4, 0.86), (0.22, 0.22, 0.22), (0.56, 0.58, 0.61), (0.42, 0.46, 0.52),
         (0.60, 0.63, 0.66), 0.85, shadows=False,

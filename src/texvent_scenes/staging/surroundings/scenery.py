@@ -131,6 +131,8 @@ class _Scatterer:
         self._view, self._nouns, self._rng = view, nouns, rng
         self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
+        on_rails = (one for one in actors if trait_value("zone", one.noun.name) == "rails")
+        self._train = next(on_rails, None)
         rows = [
             (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
             for one in actors
@@ -199,6 +201,8 @@ class _Scatterer:
         """Under the middle of all, along the road, so far on as the first of them looks."""
         x, y = self._bodies[:, :2].mean(axis=0) if len(self._bodies) else (0.0, 0.0)
         ahead, angle = rule.reach[0], self._view.road.angle
+        if rule.noun in nouns_with("rails") and self._train is not None:
+            x, y, angle = *self._train.middle(0.0)[:2], self._train.track.at(0.0).yaw
         spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
         self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
 

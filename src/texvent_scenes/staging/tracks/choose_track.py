@@ -10,10 +10,17 @@ import numpy as np
 from texvent_scenes.description import SPIN_RATE_HZ
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
-from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead
+from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.phases import NO_FLOOR_M, PATH_KINDS, activity_of
+from texvent_scenes.staging.tracks.oscillations import LEANING, oscillations
+from texvent_scenes.staging.tracks.phases import (
+    BOUNCY,
+    NO_FLOOR_M,
+    PATH_KINDS,
+    activity_of,
+    fallen_m,
+    spin_lift,
+)
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
@@ -22,19 +29,6 @@ ORBIT_SIZES = 1.3
 """Radius of a circle around nothing, in sizes of who goes along it."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Ground motions for which "up and down" means back and forth."""
-_BOB = (Term("z", 0.04, 0.4, 1.0),)
-_DRIFT = (
-    Term("x", 0.072, 0.23, 0.23), Term("z", 0.12, 0.4, 0.4),
-    Term("yaw", 0.12, 0.31, 0.31), Term("roll", 0.05, 0.23, 0.23),
-)  # fmt: skip
-_WAVES = {
-    "fly": _BOB, "sail": _BOB, "paddle": _BOB, "swim": (Term("yaw", 0.08, 0.68, 1.0),),
-    "hover": _DRIFT, "float": _DRIFT, "sway": (Term("roll", 0.14),),
-}  # fmt: skip
-"""Kind of motion → its oscillations: amplitudes in rad or in the body's size, phases as shares of
-that of the body."""
-_MOST_DRIFTING_M = 2.5
-"""Size from which on what hovers drifts no further."""
 
 
 def choose_track(
@@ -82,22 +76,6 @@ def _raised(home: Vector, lift_m: float) -> Vector:
     return (home[0], home[1], home[2] + lift_m)
 
 
-def _waves(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]:
-    """Oscillations of a kind of motion, for a body of that size."""
-    size = model.height
-    if motion.kind in ("hover", "float"):
-        size = min(max(model.length, model.width, size), _MOST_DRIFTING_M) * motion.pace
-    rate_hz = motion.rate_hz or 0.5 * motion.pace
-    return tuple(
-        one._replace(
-            amplitude=one.amplitude * (size if one.channel in "xyz" else 1.0),
-            rate_hz=one.rate_hz or rate_hz,
-            phase=one.phase * phase,
-        )
-        for one in _WAVES.get(motion.kind, ())
-    )
-
-
 def _tempo(pace: float, gain_per_s: float = 0.0) -> tuple[Term, ...]:
     """The pace of gestures, of which the mean since t = 0 counts."""
     return (Term("tempo", offset=pace - 1.0, drift=0.5 * gain_per_s),)
@@ -106,6 +84,8 @@ def _tempo(pace: float, gain_per_s: float = 0.0) -> tuple[Term, ...]:
 def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Track:
     """Once round a point in the clip, from that share of the round on."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
+    if plan.motion.speed_m_s is not None:
+        rate = plan.motion.speed_m_s / radius_m
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
     begin, (x, y, z) = 2.0 * math.pi * share, centre
@@ -121,6 +101,8 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Track:
     reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
     is_vertical = direction == "up and down" and kind not in _ON_GROUND
     rate = rate or 1.0 / max(plan.duration_s, 1.0)
+    if plan.motion.speed_m_s is not None:  # the greatest one
+        reach = plan.motion.speed_m_s / (2.0 * math.pi * rate)
     speed = 2.0 * math.pi * rate * reach
     along, up = (0.0, speed) if is_vertical else (speed, 0.0)
     key = Key(1.0, along, climb_m_s=up, activity=activity_of(kind), swing_hz=rate)
@@ -132,17 +114,17 @@ def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
     start = ahead(home, plan.yaw, -half_m, home[2] - plan.climb * half_m)
     line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind))
-    waves = _waves(plan.motion, model, phase)
+    waves = oscillations(plan.motion, model, phase)
     return replace(line, terms=waves, radius_m=plan.radius_m, is_facing=plan.is_facing)
 
 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
-    motion, waves = plan.motion, _waves(plan.motion, model, phase)
+    motion, waves = plan.motion, oscillations(plan.motion, model, phase)
     activity = motion.kind if motion.kind in _STAYING else "move"
     if not waves:
         sign = -1.0 if motion.direction == "clockwise" else 1.0
         waves = _tempo(sign * motion.pace, sign * _gain(plan))
-    elif motion.kind == "sway":
+    elif motion.kind in LEANING:
         activity = "stand"
     return replace(steady(home, plan.yaw, activity=activity), terms=waves)
 
@@ -155,8 +137,8 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     if plan.spin_axis == "yaw":
         return replace(steady(home, phase), terms=(turn,))
     lift = 0.0
-    if plan.is_facing:  # its corners stay above the ground
-        lift = 0.5 * (math.hypot(model.width, model.height) - model.height)
+    if plan.is_facing:
+        lift = spin_lift(model)
     yaw = TO_CAMERA if plan.is_facing else plan.yaw
     rest = steady(_raised(home, lift), yaw)
     return replace(rest, terms=(turn,), pivot_m=0.5 * model.height)
@@ -172,13 +154,14 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Track:
     """Bouncing, falling and thrown objects: gravity decides."""
     kind, duration_s, floor = plan.motion.kind, plan.duration_s, home[2]
     if kind == "fall":
-        height = 0.5 * GRAVITY_M_S2 * (0.45 * duration_s) ** 2
-        height = min(max(height, model.height), max(1.2 * model.height, 0.5))
+        height = fallen_m(model, duration_s) if plan.start_m is None else plan.start_m
         keys = (Key(0.1 * duration_s), Key(1.0, restitution=0.3))
         return Track(_raised(home, height), plan.yaw, keys, floor_m=floor)
-    height = min(max(3.0 * model.height, 0.8), 2.5)
+    height = min(max(3.0 * model.height, 0.8), 2.5) if plan.start_m is None else plan.start_m
+    stated = plan.motion.speed_m_s
     is_still = kind == "bounce" and plan.motion.direction is None
     along = 0.0 if is_still else 0.5 * plan.speed_m_s
+    along = along if stated is None else stated
     place = ahead(home, plan.yaw, -0.5 * along * duration_s, floor + height)
-    keys = (Key(0.0, along), Key(1.0, along, restitution=0.82))
+    keys = (Key(0.0, along), Key(1.0, along, restitution=BOUNCY))
     return Track(place, plan.yaw, keys, floor_m=floor)

@@ -19,6 +19,7 @@ from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.phases import (
+    COMING_DOWN,
     GOING,
     PATH_KINDS,
     YAWS,
@@ -58,6 +59,8 @@ class MotionPlan:
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: str = "yaw"
     """Channel of a spin: the vertical, the body's width, or its length."""
+    start_m: float | None = None
+    """Height above the ground at which what falls, bounces or sinks begins; None: the usual one."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
 
@@ -89,6 +92,7 @@ def plan_motion(
     model: Model,
     duration_s: float,
     rng: np.random.Generator,
+    start_m: float | None = None,
 ) -> MotionPlan:
     """Heading and speed of a motion: said by the prompt, or usual for the noun.
 
@@ -98,30 +102,44 @@ def plan_motion(
         model: its model, for its size.
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
+        start_m: height above the ground at time 0, if it is said.
     """
-    motions = [_as_it_does(noun, one) for one in motions]
+    motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
+    start_m = start_m if any(one.kind in COMING_DOWN for one in motions) else None
     motion, toss = motions[0], rng.random()
     yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(noun, model, motion)
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
     plan = MotionPlan(
-        motion, yaw, speed, duration_s, is_facing=is_facing,
+        motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
         radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
         spin_axis="roll" if is_facing else axle,
     )  # fmt: skip
     if needs_steering(motions):
-        path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
+        path = build_path(
+            motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s,
+            spin_axis=plan.spin_axis, start_m=start_m,
+        )  # fmt: skip
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
 
 
-def _as_it_does(noun: Noun, motion: Motion) -> Motion:
+def with_heading(plan: MotionPlan, heading_deg: float | None) -> MotionPlan:
+    """The plan with the heading that a scene says, degrees, at time 0."""
+    if heading_deg is None:
+        return plan
+    yaw = math.radians(heading_deg)
+    return replace(plan, yaw=yaw, path=plan.path and replace(plan.path, yaw=yaw))
+
+
+def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
     """Motion kind that suits a noun: only hands rotate, other nouns spin; narrow ones topple."""
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
     is_falling_over = motion.kind == "fall" and noun.name in nouns_with("falls over")
+    is_falling_over = is_falling_over and start_m < 0.1
     return replace(motion, kind="topple") if is_falling_over else motion
 
 
@@ -168,7 +186,7 @@ def choose_gesture(noun: Noun, motion: Motion) -> str | None:
 
 def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
     """Whether its direction says which hand, or where it leans, not which way the body faces."""
-    if motion.kind in ("sway", "work"):
+    if motion.kind in ("sway", "tilt", "work"):
         return True
     gesture = choose_gesture(noun, motion)
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)

@@ -13,8 +13,9 @@ from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.keys import HOP_PAUSE_S, Key, flight_s
-from texvent_scenes.staging.tracks.track import Track, centred
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
+from texvent_scenes.staging.tracks.oscillations import between, oscillations
+from texvent_scenes.staging.tracks.track import Term, Track, centred
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
@@ -41,6 +42,10 @@ _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 that the turn to another direction takes."""
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
+COMING_DOWN = frozenset({"fall", "bounce", "throw", "sink"})
+"""Motions that begin at a height that is said, and lead to the ground."""
+BOUNCY = 0.82
+"""Share of its upward speed that a bounce keeps."""
 _RAMP_S = 0.3
 _BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
@@ -114,6 +119,8 @@ def build_path(
     yaw: float,
     usual_m_s: float,
     duration_s: float,
+    spin_axis: str = "yaw",
+    start_m: float | None = None,
 ) -> Track:
     """The path of several motions, its box centred over (0, 0).
 
@@ -124,10 +131,18 @@ def build_path(
         yaw: where it heads at first, radians.
         usual_m_s: speed at pace 1, m/s.
         duration_s: length of the clip, s.
+        spin_axis: channel of a spin.
+        start_m: height above the ground from which it comes down, if it is said, m.
     """
     phases = schedule(motions, duration_s)
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
-    builder = _KeyBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
+    if start_m is None and motions[0].kind == "fall":
+        spans = [one.duration_s for one in phases if one.motion.kind == "fall"]
+        start_m = fallen_m(model, spans[0] if spans else duration_s)
+    builder = _KeyBuilder(
+        noun, model, usual_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
+        start_m=start_m,
+    )  # fmt: skip
     for phase in phases:
         builder.add(phase)
     first = replace(builder.keys[0], activity=builder.keys[1].activity)
@@ -135,10 +150,23 @@ def build_path(
         (0.0, 0.0, builder.initial_height),
         yaw,
         (first, *builder.keys[1:]),
+        tuple(builder.terms),
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
+        pivot_m=builder.pivot_m,
     )
     return centred(path, duration_s)
+
+
+def spin_lift(model: Model) -> float:
+    """Height at which the corners of a flat shape that turns in the picture are above ground, m."""
+    return 0.5 * (math.hypot(model.width, model.height) - model.height)
+
+
+def fallen_m(model: Model, duration_s: float) -> float:
+    """Usual height from which something falls, m."""
+    height = 0.5 * GRAVITY_M_S2 * (0.45 * duration_s) ** 2
+    return min(max(height, model.height), max(1.2 * model.height, 0.5))
 
 
 def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
@@ -179,16 +207,20 @@ class _KeyBuilder:
     """Collects keys, the first without duration; knows heading and height at the last one."""
 
     def __init__(
-        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
-    ) -> None:
+        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool,
+        spin_axis: str, start_m: float | None,
+    ) -> None:  # fmt: skip
         self._noun, self._model, self._usual = noun, model, usual_m_s
+        self._spin_axis, self._start_m = spin_axis, start_m
         self._is_single = is_single
         self._is_free = noun.habitat in ("air", "water")
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
-        self._height = 0.0
+        self._height = start_m or 0.0
         self._heading = yaw
         self.keys = [Key(0.0)]
-        self.initial_height = 0.0
+        self.terms: list[Term] = []
+        self.pivot_m = 0.0
+        self.initial_height = self._height
 
     def add(self, phase: Phase) -> None:
         """Append the keys of one phase."""
@@ -197,6 +229,8 @@ class _KeyBuilder:
             self._travel(motion, span)
         elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)
+        elif motion.kind == "spin" and self._spin_axis != "yaw":
+            self._spin_on(phase)
         elif motion.kind == "spin":
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
             turn = -turn if motion.direction in _CLOCKWISE else turn
@@ -207,7 +241,21 @@ class _KeyBuilder:
         elif motion.kind in ("fall", "topple"):
             self._fall(motion.kind, span)
         else:
+            waves = oscillations(motion, self._model, 0.0) if motion.kind not in PATH_KINDS else ()
+            self.terms += between(waves, phase.start_s, phase.end_s)
             self._rest(motion, span)
+
+    def _spin_on(self, phase: Phase) -> None:
+        """Turn a wheel about its axle, or a flat shape in the picture."""
+        model, begin_s, axis = self._model, phase.start_s, self._spin_axis
+        rate = 2.0 * math.pi * SPIN_RATE_HZ * phase.motion.pace
+        rate = -rate if phase.motion.direction in _CLOCKWISE else rate
+        times = {"begin_s": begin_s, "end_s": phase.end_s}
+        self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
+        self.pivot_m = 0.5 * model.height
+        if axis == "roll":  # its corners stay above the ground
+            self.initial_height = max(self.initial_height, spin_lift(model))
+        self._rest(STANDING, phase.duration_s)
 
     @property
     def _is_first(self) -> bool:
@@ -296,18 +344,31 @@ class _KeyBuilder:
             return
         size = max(self._model.length, self._model.height)
         climb = min(max(self._usual, 0.3 * size), size) * motion.pace
-        if not is_up and self._is_single:
+        if motion.speed_m_s is not None:
+            climb = motion.speed_m_s
+        if self._start_m is not None and not is_up:
+            climb = -min(climb, self._height / span)
+        elif not is_up and self._is_single:
             self.initial_height = climb * 0.85 * span
             climb = -climb
         elif not is_up:
             climb = -climb if self._is_free else -min(climb, self._height / span)
         # What rises alone starts slowly and gets faster all along.
-        is_slow = is_up and self._is_single
+        is_slow = is_up and self._is_single and motion.speed_m_s is None
         ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
         self._append(Key(span, climb_m_s=factor * climb, ramp_s=ramp))
 
     def _hop(self, motion: Motion, span: float) -> None:
-        """Jump or bounce."""
+        """Jump or bounce; what falls bounces on where it lands."""
+        last = self.keys[-1]
+        is_high = self._start_m is not None and self._height > 0.0
+        if motion.kind == "bounce" and (last.restitution is not None or is_high):
+            self._append(Key(span, last.speed_m_s, restitution=BOUNCY))
+            if last.restitution is not None:
+                both_s = last.duration_s + span
+                self.keys[-2:] = [replace(last, duration_s=both_s, restitution=BOUNCY)]
+            self._height = 0.0
+            return
         model, speed = self._model, self.keys[-1].speed_m_s
         height = max(1.5 * model.height, 0.4)
         if motion.kind == "jump":
@@ -317,6 +378,9 @@ class _KeyBuilder:
             if self._is_first and motion.direction is not None:
                 speed = model.length / (flight_s(height) + HOP_PAUSE_S)
                 self._start(speed)
+        if motion.speed_m_s is not None:
+            speed = motion.speed_m_s
+            self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
         ramp = min(_RAMP_S, 0.35 * span)
         self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))

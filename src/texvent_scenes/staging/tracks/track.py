@@ -12,11 +12,11 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from texvent_scenes.models.shapes import compose, point, shift
+from texvent_scenes.models.shapes import affine, compose, point, shift
 from texvent_scenes.models.shapes import rotation as about
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.tracks.keys import (
@@ -60,12 +60,18 @@ class BodyState:
     tempo: float = 1.0
     """Rate of its gestures, as a multiple of their usual rate."""
 
+    def with_fields(self, **fields: Any) -> BodyState:
+        """The state with other values; several times as fast as `dataclasses.replace`."""
+        state = object.__new__(BodyState)
+        state.__dict__.update(self.__dict__, **fields)
+        return state
+
     def to_world(self) -> Float64Array:
         """[3, 4] map from body to world coordinates."""
         turn = rotation(self.yaw, self.pitch, self.roll)
         pivot = np.array([0.0, 0.0, self.pivot_m])
         offset = np.array(self.position) + pivot - turn @ pivot
-        return np.column_stack([turn, offset])
+        return affine(turn, offset)
 
 
 def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
@@ -194,8 +200,7 @@ class Track:
             state = self.anchor.at(time_s)
         else:
             state = self._add_terms(self._follow_keys(time_s), time_s)
-        return replace(
-            state,
+        return state.with_fields(
             activity=self.activity or state.activity,
             grips=self.grips,
             act_s=state.act_s if self.contact_s is None else time_s - self.contact_s,
@@ -231,7 +236,7 @@ class Track:
             value + added.pop(axis, 0.0) for axis, value in zip("xyz", state.position, strict=True)
         )
         others = {name: getattr(state, name) + value for name, value in added.items()}
-        return replace(state, position=(x, y, z), **others)
+        return state.with_fields(position=(x, y, z), **others)
 
     def _find(self, time_s: float) -> tuple[Knot, Key, float]:
         """The key that holds an instant: its beginning, itself, and time in it."""

@@ -29,7 +29,7 @@ from texvent_lab.train.classification.samples import (
     open_validation,
     take_run,
 )
-from texvent_lab.train.loop import STANDARD_ERROR
+from texvent_lab.train.loop import STANDARD_ERROR, VALIDATION_SAMPLES
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.task import Batches
 
@@ -136,7 +136,7 @@ class ClassificationTask:
     def validate(
         self, network: Any, device: Any, *, workers: int
     ) -> tuple[dict[str, float], dict[str, list[Any]]]:
-        """Accuracies with their standard errors and mean cross entropy; predictions.
+        """Accuracies with standard errors, number of samples, mean cross entropy; predictions.
 
         Returns:
             Columns of the predictions: `sample`; `class` and `predicted`, places in the list of
@@ -163,6 +163,7 @@ class ClassificationTask:
         for name, share in shares.items():
             scores[name] = share
             scores[f"{name}{STANDARD_ERROR}"] = math.sqrt(share * (1 - share) / len(ranks))
+        scores[VALIDATION_SAMPLES] = len(ranks)
         return {**scores, "validation loss": float(np.mean(predictions["loss"]))}
 
     def published(self, network: Any) -> Mapping[str, Any]:

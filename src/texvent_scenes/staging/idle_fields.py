@@ -1,0 +1,314 @@
+"""Fields of a scene that change nothing: those of objects are found by leaving them out.
+
+Each motion is put on its body twice, with a field and without it, and what is drawn is compared. So
+no table says which motion of which noun reads which field, and none can be wrong. Camera moves,
+places and light have tables: `spec.scene.READ_BY_MOVES`, and the conditions below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import fields, replace
+from functools import lru_cache
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from texvent.errors import few, shown
+from texvent_scenes.colours import rgb_of
+from texvent_scenes.defaults import decide_motions
+from texvent_scenes.description import STANDING
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.materials import in_material
+from texvent_scenes.models.nouns import MOTIONS
+from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.spec.data import PLACING, scene_from_data, scene_to_data, steps_of
+from texvent_scenes.spec.scene import (
+    DIRECTIONS_OF_MOVES,
+    READ_BY_MOVES,
+    Motion,
+    Scene,
+    SceneObject,
+    object_ids,
+)
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.tracks.choose_track import choose_track
+from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
+
+RESTS = frozenset({"stand", "sit", "lie", "hang", "move"})
+"""Motions that say no more than a noun does anyway."""
+_ALIKE = (
+    ("left", "right", "towards", "away", "forward", "backward", "up", "down"),
+    ("clockwise", "counter-clockwise"),
+)
+"""Directions of travel and of turns: if one of them changes something, each says something."""
+_SHARES = (0.0, 0.13, 0.29, 0.5, 0.71, 0.97)
+"""Instants at which bodies are compared, as shares of the clip."""
+_USUAL_S = 2.0
+_MOST_NAMED = 6
+
+
+class Idle(NamedTuple):
+    """A field without effect."""
+
+    path: str
+    why: str
+
+
+@lru_cache(maxsize=128)
+def _model(noun: Noun) -> Model:
+    return noun.build(colour=None, scale=1.0, seed=0)
+
+
+class _Body:
+    """A noun's model, on which motions are tried out."""
+
+    def __init__(self, noun: Noun) -> None:
+        self.noun = noun
+
+    def _put_on(self, one: SceneObject, duration_s: float) -> Actor:
+        motions = decide_motions(one.motions, self.noun) or (STANDING,)
+        rng, model = np.random.default_rng(0), _model(self.noun)
+        plan = plan_motion(motions, self.noun, model, duration_s, rng, one.height_m)
+        plan = with_heading(plan, one.heading_deg)
+        track = choose_track(plan, model, (0.0, 0.0, one.height_m or 1.0), rng)
+        crosses = motions[0].direction == "across"
+        return Actor(0, self.noun, model, track, True, 1, goes_across=crosses)
+
+    def differ(self, one: SceneObject, other: SceneObject) -> bool:
+        """Whether what is drawn of two objects is not the same."""
+        starts = [each.start_s or 0.0 for each in (*one.motions, *other.motions)]
+        duration_s = _USUAL_S + max(starts, default=0.0)
+        actors = [self._put_on(each, duration_s) for each in (one, other)]
+        first, second = actors
+        times = [share * duration_s for share in _SHARES]
+        if first.goes_across != second.goes_across or any(map(_is_apart(*actors), times)):
+            return True
+        return any(not _look_alike(first, second, time_s) for time_s in times)
+
+    def reads(self, one: SceneObject, number: int, name: str) -> bool:
+        """Whether a field of a motion changes anything, at its value or at others of its kind."""
+        usual = Motion("stand")
+        without = _with(one, number, **{name: getattr(usual, name)})
+        given = getattr(one.motions[number], name)
+        is_headed = name == "direction" and one.heading_deg is not None
+        probes = (given,) if is_headed else _probes(given)
+        return any(self.differ(_with(one, number, **{name: probe}), without) for probe in probes)
+
+    def does(self, one: SceneObject, number: int) -> bool:
+        """Whether a motion of it is any other than rest, or, at the end of a list, than none."""
+        motion = one.motions[number]
+        decided = decide_motions(one.motions, self.noun)
+        works = self.noun.is_working and decided[0].kind == "work"
+        if not number and (motion.kind in RESTS or works):
+            return True
+        if motion.kind in RESTS:
+            shorter = (*one.motions[:number], *one.motions[number + 1 :])
+            return self.differ(one, replace(one, motions=shorter))
+        rest = replace(one, motions=_with(one, number, kind="stand").motions)
+        return self.differ(one, rest)
+
+
+def _is_apart(one: Actor, other: Actor) -> Callable[[float], bool]:
+    """Whether two bodies are at different places at an instant, or turned differently."""
+
+    def check(time_s: float) -> bool:
+        a, b = (each.track.at(time_s).to_world() for each in (one, other))
+        return not np.allclose(a, b, rtol=0.0, atol=1e-9)
+
+    return check
+
+
+def _look_alike(one: Actor, other: Actor, time_s: float) -> bool:
+    first, second = one.pose(time_s), other.pose(time_s)
+    return first == second or all(
+        a.emission == b.emission and np.allclose(a.to_body, b.to_body, rtol=0.0, atol=1e-9)
+        for a, b in zip(one.own_parts(first), other.own_parts(second), strict=True)
+    )
+
+
+def _with(one: SceneObject, number: int, **changes: Any) -> SceneObject:
+    """An object with other fields of one of its motions."""
+    motions = list(one.motions)
+    motions[number] = replace(motions[number], **changes)
+    return replace(one, motions=tuple(motions))
+
+
+def _probes(given: Any) -> Iterable[Any]:
+    """The value of a field, and others that say something of the same kind."""
+    if isinstance(given, str):
+        alike = [kind for kinds in _ALIKE if given in kinds for kind in kinds]
+        return dict.fromkeys((given, *alike))
+    return (given, 1.7 * given + 0.3)
+
+
+def list_idle(scene: Scene, decided: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]:
+    """Fields of a scene that change nothing, and why; the place is that of the decided scene."""
+    ids = object_ids(scene)
+    bound = {
+        id for one, own in zip(scene.objects, ids, strict=True)
+        for each in one.relations if each.kind not in PLACING for id in (own, *each.to)
+    }  # fmt: skip
+    for number, one in enumerate(scene.objects):
+        where, body = f"objects[{number}]", _Body(nouns[one.noun])
+        yield from _idle_looks(where, one, body.noun)
+        # What an act, a route or a companion makes of a motion is not seen on one body alone.
+        if ids[number] not in bound:
+            yield from _idle_motions(where, one, body)
+    yield from _idle_moves(scene)
+    yield from _idle_light(scene)
+    yield from _idle_place(scene, decided.place.name or "")
+
+
+def leave_out(scene: Scene, idle: Iterable[Idle]) -> Scene:
+    """The scene without these fields; a motion that a noun does not do is rest."""
+    data = scene_to_data(scene)
+    for path in (one.path for one in idle):
+        *way, last = steps_of(path)
+        place: Any = data
+        for step in way:
+            place = place[step]
+        if last == "kind":
+            kept = {name: place[name] for name in ("start_s",) if name in place}
+            place.clear()
+            place |= {"kind": "stand", **kept}
+        else:
+            place.pop(last, None)
+    return scene_from_data(data)
+
+
+def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
+    """Fields that would change the looks of an object."""
+
+    def build(colour: str | None, material: str | None) -> list[tuple[Any, ...]]:
+        paint = rgb_of(colour)
+        model = noun.build(colour=paint, scale=1.0, seed=0)
+        parts = in_material(model, material, paint).parts(Pose(0.0, 0.0, 0.0, "stand"))
+        return [(each.colour, each.second_colour, each.texture) for each in parts]
+
+    if one.colour is not None:
+        tried = [build(each, one.material) for each in (one.colour, "red", "blue")]
+        if all(each == tried[0] for each in tried):
+            yield Idle(f"{where}.colour", f"a {one.noun} has colours of its own")
+    if one.material is not None and build(None, one.material) == build(None, None):
+        yield Idle(f"{where}.material", f"a {one.noun} is of it anyway, or cannot be of any other")
+    for name in ("blink_hz", "is_lit"):
+        has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
+        if getattr(one, name) is not None and not has_light:
+            known = few(sorted(LAMPS), _MOST_NAMED)
+            yield Idle(f"{where}.{name}", f"a {one.noun} has no lamp; these have: {known}")
+    if one.placement is not None and one.position_m is not None:
+        yield Idle(f"{where}.placement", "position_m takes its place; leave one of them out")
+
+
+def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
+    for number, motion in enumerate(one.motions):
+        path = f"{where}.motions[{number}]"
+        if not body.does(one, number):
+            kinds = _name_kinds(body, lambda other: body.does(other, 0))
+            why = f"a {one.noun} does not do that, it shows: {kinds}"
+            yield Idle(f"{path}.kind", why if motion.kind not in RESTS else
+                       f"a {one.noun} goes on with what it did")  # fmt: skip
+            continue
+        for each in fields(Motion):
+            given, usual = getattr(motion, each.name), each.default
+            if each.name == "kind" or given == usual or motion.kind in RESTS - {"move"}:
+                continue
+            if not body.reads(one, number, each.name):
+                yield Idle(f"{path}.{each.name}", _who_reads(body, one, motion, each.name))
+    if one.heading_deg is not None:
+        bare = replace(one, heading_deg=None)
+        turned = (replace(one, heading_deg=angle) for angle in (one.heading_deg, 17.0, 101.0))
+        if not any(body.differ(each, bare) for each in turned):
+            yield Idle(f"{where}.heading_deg", f"a {one.noun} shows its front to the camera then")
+
+
+def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:
+    """The first kinds of motion of a noun for which something holds, its usual one before all."""
+    usual = [body.noun.motion, *sorted(body.noun.acts)]
+    kinds = [kind for kind in dict.fromkeys((*usual, *sorted(MOTIONS))) if kind not in RESTS]
+    does = (kind for kind in kinds
+            if holds(SceneObject(body.noun.name, motions=(Motion(kind),))))  # fmt: skip
+    named = list(islice(does, _MOST_NAMED + 1))
+    return ", ".join([*named[:_MOST_NAMED], *["..."][: max(len(named) - _MOST_NAMED, 0)]])
+
+
+def _who_reads(body: _Body, one: SceneObject, motion: Motion, name: str) -> str:
+    """Why a field of a motion has no effect, and what would give it one."""
+    if name == "pace" and motion.speed_m_s is not None:
+        return "speed_m_s takes its place; leave one of them out"
+    if name == "direction" and one.heading_deg is not None:
+        return "heading_deg takes its place; leave one of them out"
+    given = getattr(motion, name)
+    readers = _name_kinds(body, lambda other: body.reads(_with(other, 0, **{name: given}), 0, name))
+    if name == "rate_hz" and motion.kind in PATH_KINDS:
+        readers = f'{readers}; or direction "to and fro"'
+    left = f"these do: {readers}" if readers else f"no motion of a {one.noun} does"
+    return f"{shown(motion.kind)} of a {one.noun} does not read it; {left}"
+
+
+def _idle_moves(scene: Scene) -> Iterator[Idle]:
+    camera = scene.camera
+    for number, move in enumerate(camera.moves):
+        path, read = f"camera.moves[{number}]", READ_BY_MOVES[move.kind]
+        for name in ("direction", "pace", "means", "speed_m_s", "rate_deg_s"):
+            if getattr(move, name) in (None, 1.0):
+                continue
+            if name not in read:
+                kinds = ", ".join(kind for kind, known in READ_BY_MOVES.items() if name in known)
+                yield Idle(f"{path}.{name}", f"{shown(move.kind)} does not read it; "
+                           f"these do: {kinds}")  # fmt: skip
+            elif name == "direction" and move.direction not in DIRECTIONS_OF_MOVES[move.kind]:
+                known = ", ".join(DIRECTIONS_OF_MOVES[move.kind])
+                yield Idle(f"{path}.{name}", f"{shown(move.kind)} goes: {known}")
+            elif name == "pace" and (move.speed_m_s, move.rate_deg_s) != (None, None):
+                yield Idle(f"{path}.pace", "the stated speed takes its place; leave one out")
+    chosen = "position_m" if camera.position_m is not None else None
+    chosen = "travel" if any(one.kind == "travel" for one in camera.moves) else chosen
+    for name in ("framing", "view") if chosen == "position_m" else ("framing",) if chosen else ():
+        if getattr(camera, name) is not None:
+            yield Idle(f"camera.{name}", f"{chosen} decides what is in the picture")
+
+
+def _idle_light(scene: Scene) -> Iterator[Idle]:
+    if scene.light.wave != "sine" and scene.light.flicker_hz is None:
+        yield Idle("light.wave", "it is that of light that flickers; give flicker_hz")
+    for number, lamp in enumerate(scene.light.lamps):
+        if lamp.wave != "sine" and lamp.frequency_hz is None:
+            yield Idle(f"light.lamps[{number}].wave", "it is that of a lamp with a frequency; "
+                       "give frequency_hz")  # fmt: skip
+
+
+_WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER, Ground.UNDERWATER)
+_OF_PLACES: Mapping[str, tuple[Callable[[PlaceModel], bool], str]] = {
+    "road": (lambda place: place.has_road, "a road"),
+    "crossing_m": (lambda place: place.has_road, "a road"),
+    "wave_height": (lambda place: place.ground in _WATER, "water"),
+    "sky": (lambda place: not place.is_room, "a sky"),
+    "clouds": (lambda place: not place.is_room, "a sky"),
+    "backdrops": (lambda place: not place.is_room, "a horizon"),
+    "colour": (lambda place: place.ground is not Ground.NONE, "a ground"),
+}
+"""Field of a place → whether a place reads it, and what it needs."""
+
+
+def _idle_place(scene: Scene, name: str) -> Iterator[Idle]:
+    """Fields that change nothing in a place."""
+    said = scene.place
+    for each in fields(said):
+        reads, needed = _OF_PLACES.get(each.name, (None, ""))
+        value = getattr(said, each.name)
+        if reads is None or value in (each.default, ()) or reads(PLACES[name]):
+            continue
+        known = few([other for other, place in PLACES.items() if reads(place)], _MOST_NAMED)
+        yield Idle(f"place.{each.name}", f"the place {shown(name)} has not {needed}; "
+                   f"these have: {known}")  # fmt: skip
+    is_lane = [one.placement == "lane" for one in scene.objects]
+    travels = any(one.kind == "travel" for one in scene.camera.moves)
+    if any(is_lane) and not (PLACES[name].has_road or travels):
+        yield Idle(f"objects[{is_lane.index(True)}].placement", f"{shown(name)} has no lane")

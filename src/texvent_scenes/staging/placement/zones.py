@@ -1,0 +1,214 @@
+"""Zones: road, pavement and rails, and who may stand where.
+
+Things that nothing binds are moved to where their kind may be: what drives to its lane, opposite
+ways in opposite lanes; what else is on the ground off the road and the rails, unless it crosses.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.surroundings.environment import RoadLine, find_road
+
+_CLEAR_M, _RAILS_M = 0.6, 1.3
+"""From the edge of a road or of rails to what stands beside it; half the width of rails."""
+_PARALLEL, _CROSSING = 0.35, 0.5
+"""Sines of the angle to the road below which something goes along it, and above which it crosses.
+"""
+_INSTANTS = 9
+_CARRYING = frozenset(
+    {"on", "in", "hold", "wear", "ride", "push", "kick", "throw", "collide", "towards", "from",
+     "away from", "through", "around"}
+)  # fmt: skip
+"""Relations that hang on how a body is turned."""
+
+
+def zone_of(noun: Noun) -> str:
+    """Zone of a noun on the ground: "road", "rails", "pavement", or "any" where it is free."""
+    said = trait_value("zone", noun.name)
+    if said is not None:
+        return str(said)
+    if noun.habitat not in ("ground", "fixed"):
+        return "any"
+    return "road" if noun.motion == "drive" else "pavement"
+
+
+def list_orphans(description: SceneDescription) -> Iterator[int]:
+    """Objects that a person would hold or wear, of which the scene says nothing more."""
+    objects = description.objects
+    bound = {n for one in description.relations if one.kind != "with"
+             for n in (one.subject, *one.targets)}  # fmt: skip
+    bound |= {n for n in (description.index(description.camera.target),) if n is not None}
+    if not any(one.noun in PERSON_NOUNS for one in objects):
+        return
+    for number, one in enumerate(objects):
+        rests = {motion.kind for motion in one.motions} <= {"stand"}
+        is_placed = one.position_m is not None or one.height_m is not None
+        is_loose = one.noun in nouns_with("in hand or on something") and number not in bound
+        if is_loose and rests and not is_placed and one.placement is None:
+            yield number
+
+
+def keep_to_zones(
+    description: SceneDescription, place: PlaceModel, actors: Sequence[Actor], duration_s: float
+) -> list[Actor]:
+    """The actors, those that nothing binds moved to where they may be."""
+    relations, said = description.relations, description.objects
+    fixed = {
+        number for number, one in enumerate(actors)
+        if one.track.anchor is not None or said[one.object_index].position_m is not None
+    }  # fmt: skip
+    carried = {n for one in relations if one.kind in _CARRYING for n in (one.subject, *one.targets)}
+    units = _list_units(description, actors)
+    work = _Zones(
+        list(actors), [unit for unit in units if fixed.isdisjoint(unit)],
+        [n for n, one in enumerate(actors) if n not in fixed and one.object_index not in carried],
+        duration_s,
+    )  # fmt: skip
+    if any(zone_of(one.noun) == "rails" for one in actors):
+        work.clear_rails()
+    if place.has_road and any(zone_of(one.noun) == "road" for one in actors):
+        work.use_lanes(0.5 * place.road_m)
+        road = find_road(description, place, work.actors, 0.0)
+        work.lead_across(road)
+        work.clear_strip(road, place.road_m)
+    return work.actors
+
+
+def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[list[int]]:
+    """Numbers of the actors that relations hold together."""
+    unit = list(range(len(description.objects)))
+    for one in description.relations:
+        for target in one.targets:
+            old, new = unit[target], unit[one.subject]
+            unit = [new if each == old else each for each in unit]
+    alone = {n for n in unit if unit.count(n) == 1}
+    groups: dict[tuple[int, int], list[int]] = {}
+    for number, one in enumerate(actors):
+        own = unit[one.object_index]
+        # Copies of one object that nothing binds stand each by themselves.
+        groups.setdefault((own, number if own in alone else -1), []).append(number)
+    return list(groups.values())
+
+
+class _Zones:
+    """Moves actors, one kind after the other."""
+
+    def __init__(
+        self,
+        actors: list[Actor],
+        units: Sequence[list[int]],
+        turned: Sequence[int],
+        duration_s: float,
+    ) -> None:
+        self.actors, self._units, self._turned = actors, units, turned
+        self._free = {unit[0] for unit in units if len(unit) == 1}
+        self._times = np.linspace(0.0, duration_s, _INSTANTS)
+
+    def _zone(self, number: int) -> str:
+        return zone_of(self.actors[number].noun)
+
+    def _move(self, number: int, shift: Float64Array, yaw: float | None = None) -> None:
+        """Move the track of an actor over the ground, m, and turn it at rest."""
+        one = self.actors[number]
+        x, y, z = one.track.start
+        track = replace(one.track, start=(x + float(shift[0]), y + float(shift[1]), z))
+        track = track if yaw is None else replace(track, yaw=yaw)
+        self.actors[number] = replace(one, track=track)
+
+    def clear_rails(self) -> None:
+        """Others stand off the line of the first train."""
+        train = next(one for one in self.actors if zone_of(one.noun) == "rails")
+        x, y, _ = train.middle(0.0)
+        self.clear_strip(RoadLine(train.track.at(0.0).yaw, (float(x), float(y))), _RAILS_M)
+
+    def use_lanes(self, lane_m: float) -> None:
+        """Vehicles at rest stand along the road; what goes the other way has the other lane."""
+        drivers = [n for n in self._turned if self._zone(n) == "road"]
+        goers = [n for n in drivers if self.actors[n].is_mover]
+        first = next(iter(goers), next(iter(drivers), None))
+        if first is None:
+            return
+        angle = self.actors[first].track.at(0.0).yaw if first in goers else 0.0
+        if first not in goers:
+            angle = math.pi if math.cos(self.actors[first].track.yaw) < 0.0 else 0.0
+        home = self.actors[first].middle(0.0)
+        line = RoadLine(angle, (float(home[0]), float(home[1])))
+        left = np.array([-math.sin(angle), math.cos(angle)])
+        for number in drivers:
+            one = self.actors[number]
+            turn = one.track.at(0.0).yaw - angle
+            if not one.is_mover and one.track.is_resting:
+                yaw = angle if math.cos(turn) >= 0.0 else angle + math.pi
+                self._move(number, np.zeros(2), yaw)
+            elif abs(math.sin(turn)) > _PARALLEL or one.track.terms:
+                continue
+            if number in self._free and number != first and math.cos(turn) < 0.0:
+                across = float(line.across(np.array([one.middle(0.0)[:2]]))[0])
+                self._move(number, (2.0 * lane_m - across) * left)
+
+    def clear_strip(self, line: RoadLine, half_m: float) -> None:
+        """Things that belong beside a road or rails stand there, on the far side."""
+        left = np.array([-math.sin(line.angle), math.cos(line.angle)])
+        along = np.array([math.cos(line.angle), math.sin(line.angle)])
+        taken: list[tuple[float, float]] = []
+        for unit in self._units:
+            members = [self.actors[number] for number in unit]
+            is_beside = all(self._zone(number) == "pavement" for number in unit)
+            if not is_beside or any(self._crosses(one, line) for one in members):
+                continue
+            corners = np.vstack(
+                [one.corners(time)[:, :2] for one in members for time in self._times]
+            )
+            across = line.across(corners)
+            if across.min() >= half_m or across.max() <= -half_m:
+                continue
+            side = math.copysign(1.0, left[1]) if abs(left[1]) > 0.1 else 1.0
+            edge = across.min() if side > 0.0 else across.max()
+            shift = (side * (half_m + _CLEAR_M) - float(edge)) * left
+            places = (corners - line.offset) @ along
+            low, high = float(places.min()), float(places.max())
+            step = 0.0
+            for begin, end in sorted(taken):
+                if low + step < end + 0.3 and high + step > begin - 0.3:
+                    step = end + 0.3 - low
+            taken.append((low + step, high + step))
+            for number in unit:
+                self._move(number, shift + step * along)
+
+    def lead_across(self, line: RoadLine) -> None:
+        """Those who cross do so at right angles, beyond where vehicles come."""
+        along = np.array([math.cos(line.angle), math.sin(line.angle)])
+        driven = [one for one in self.actors if zone_of(one.noun) == "road"]
+        corners = np.vstack([one.corners(time)[:, :2] for one in driven for time in self._times])
+        free_m = float(((corners - line.offset) @ along).max()) + _CLEAR_M
+        for number in sorted(self._free):
+            one, middle_s = self.actors[number], 0.5 * float(self._times[-1])
+            if self._zone(number) != "pavement" or not one.goes_across or one.track.terms:
+                continue
+            free_m += 0.5 * one.size_m
+            turned = replace(one.track, yaw=line.angle + math.copysign(0.5 * math.pi, along[0]))
+            self.actors[number] = replace(one, track=turned)
+            goal = np.array(line.offset) + free_m * along
+            self._move(number, goal - np.array(turned.at(middle_s).position[:2]))
+            free_m += 0.5 * one.size_m + _CLEAR_M
+
+    def _crosses(self, one: Actor, line: RoadLine) -> bool:
+        """Whether it goes across the line."""
+        if one.goes_across:
+            return True
+        gone = one.middle(float(self._times[-1]))[:2] - one.middle(0.0)[:2]
+        way = float(np.hypot(*gone))
+        turn = math.atan2(gone[1], gone[0]) - line.angle
+        return way > 0.5 and abs(math.sin(turn)) > _CROSSING

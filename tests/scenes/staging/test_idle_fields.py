@@ -1,0 +1,220 @@
+"""A field of a scene file changes something, or is refused; heights and speeds are as it says."""
+
+import itertools
+import math
+from dataclasses import replace
+from typing import get_args
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import stage
+
+from texvent.errors import ConfigError
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import MOTIONS, NOUNS
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.scene import (
+    DIRECTIONS_OF_MOVES,
+    READ_BY_MOVES,
+    Camera,
+    CameraMove,
+    Light,
+    Motion,
+    MoveKind,
+    Place,
+    Relation,
+    Scene,
+    SceneObject,
+)
+from texvent_scenes.staging.actors import Actor, lowest_point
+from texvent_scenes.staging.idle_fields import list_idle
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.staging.tracks.phases import COMING_DOWN
+
+LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
+TRIED = ("car", "box", "checkerboard", "fan", "drone", "ball", "wheel", "boat", "tree")
+"""Nouns of every habitat, that go, roll, work, are flat, or stand."""
+VALUES = {"direction": ("left", "clockwise", "to and fro"), "pace": (2.0,), "end_pace": (0.1,),
+          "speed_m_s": (1.5,), "rate_hz": (1.25,), "start_s": (0.6,)}  # fmt: skip
+ROWS = [
+    (kind, TRIED[number % len(TRIED)], name, value)
+    for number, (kind, (name, values)) in enumerate(
+        itertools.product(sorted(MOTIONS - {"stand", "hang", "sit", "lie", "move"}), VALUES.items())
+    )
+    for value in values
+][::2]
+
+
+def place(one: SceneObject, *others: SceneObject, duration_s: float = 2.0) -> list[Actor]:
+    description = complete(to_description(Scene(objects=(one, *others))), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS)
+    return placer.place_all()
+
+
+def drawn(one: SceneObject) -> np.ndarray:
+    (actor,) = place(one)
+    rows = [np.array([each.to_body for each in placed.parts]).ravel()
+            for placed in map(actor.place, np.linspace(0.0, 1.9, 9))]  # fmt: skip
+    ways = [actor.place(t).to_world.ravel() for t in np.linspace(0.0, 1.9, 9)]
+    return np.concatenate([*rows, *ways, [float(actor.goes_across)]])
+
+
+@for_every(ROWS)
+def test_a_field_of_a_motion_changes_what_is_drawn_or_is_refused(row):
+    kind, noun, name, value = row
+    one = SceneObject(noun, motions=(Motion(kind, **{name: value}),))
+    idle = next(list_idle(Scene(objects=(one,)), Scene(place=Place("plain")), NOUNS), None)
+    if idle is not None:
+        assert idle.path in (f"objects[0].motions[0].{name}", "objects[0].motions[0].kind")
+        usual = replace(one, motions=(Motion(kind),))
+        if idle.path.endswith(".kind"):
+            usual = replace(one, motions=(Motion("stand", **{name: value}),))
+        is_aloft = NOUNS[noun].habitat == "air"  # and would stand on the ground
+        if name != "direction" and not is_aloft:  # the seed's may be another one
+            np.testing.assert_allclose(drawn(one), drawn(usual), atol=1e-6)
+        return
+    others = [replace(one, motions=(Motion(kind, **{name: other}),)) for other in (
+        ("right", "counter-clockwise", "down", "towards") if name == "direction" else (None,)
+    )] if name != "pace" else [replace(one, motions=(Motion(kind),))]  # fmt: skip
+    shown = drawn(one)
+    assert any(shown.shape != each.shape or not np.allclose(shown, each, atol=1e-6)
+               for each in map(drawn, others))  # fmt: skip
+
+
+@for_every([(noun, kind) for noun in TRIED for kind in sorted(MOTIONS)])
+def test_a_height_is_that_at_time_0(row):
+    noun, kind = row
+    one = SceneObject(noun, height_m=2.5, position_m=(1.0, 2.0), motions=(Motion(kind),))
+    (actor,) = place(one)
+    x, y, z = actor.track.at(0.0).position
+    assert (x, y, z + lowest_point(actor.model)) == pytest.approx((1.0, 2.0, 2.5), abs=1e-6)
+
+
+@for_every(itertools.product(("box", "ball", "checkerboard", "drone", "car"),
+                             ((), ("bounce",), ("stand",), ("slide",))))  # fmt: skip
+def test_what_falls_starts_raised_and_ends_on_the_ground(row):
+    noun, later = row
+    kinds = ("fall", *later)
+    for height_m in (None, 3.0):
+        one = SceneObject(noun, height_m=height_m, motions=tuple(map(Motion, kinds)))
+        (actor,) = place(one, duration_s=12.0)
+        lows = [float(actor.corners(t)[:, 2].min()) for t in np.linspace(0.0, 12.0, 61)]
+        assert height_m is None or lows[0] == pytest.approx(height_m, abs=0.02)
+        assert min(lows) > -0.03
+        assert min(lows) < 0.05 * max(1.0, actor.model.height)
+
+
+def test_what_comes_down_from_a_height_is_in_free_fall():
+    for kind in sorted(COMING_DOWN - {"sink"}):
+        (actor,) = place(SceneObject("ball", height_m=4.0, motions=(Motion(kind),)))
+        times = np.linspace(0.25, 0.8, 6)
+        steps = np.diff([actor.track.at(t).position[2] for t in times], 2)
+        np.testing.assert_allclose(steps, -9.81 * (times[1] - times[0]) ** 2, rtol=1e-6)
+
+
+MOVES = [(kind, name) for kind in get_args(MoveKind)
+         for name in ("direction", "pace", "means", "speed_m_s", "rate_deg_s")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "name"), MOVES)
+def test_a_field_of_a_camera_move_changes_the_path_or_is_refused(kind, name):
+    ways = (*DIRECTIONS_OF_MOVES.get(kind, ("left",)), None)
+    values = {
+        "direction": ways[0],
+        "pace": 3.0,
+        "means": "fly",
+        "speed_m_s": 2.0,
+        "rate_deg_s": 9.0,
+    }
+    scene = Scene(
+        objects=(SceneObject("box"),), camera=Camera((CameraMove(kind, **{name: values[name]}),))
+    )
+    if name not in READ_BY_MOVES[kind]:
+        with pytest.raises(ConfigError, match=rf"^camera\.moves\[0\]\.{name} has no effect: "):
+            describe_scene(scene, NOUNS)
+        return
+    described = describe_scene(scene, NOUNS)
+    usual = CameraMove(kind) if name != "direction" else CameraMove(kind, ways[1])
+    paths = []
+    for move in (described.camera.moves[0], usual):
+        camera = stage(SceneObject("box"), camera=Camera((move,))).camera
+        poses = [camera(t) for t in (0.3, 1.7)]
+        paths.append(np.array([[*p.position, *p.rotation.ravel(), p.focal] for p in poses]))
+    assert not np.allclose(*paths)
+
+
+@pytest.mark.parametrize("kind", [kind for kind, read in READ_BY_MOVES.items()
+                                  if read & {"speed_m_s", "rate_deg_s"}])  # fmt: skip
+def test_a_camera_move_is_as_fast_as_it_says_while_it_lasts(kind):
+    is_turn = "rate_deg_s" in READ_BY_MOVES[kind]
+    said = {"rate_deg_s": 30.0} if is_turn else {"speed_m_s": 1.5}
+    times = {} if kind == "travel" else {"start_s": 0.5, "duration_s": 0.8}
+    move = CameraMove(kind, DIRECTIONS_OF_MOVES[kind][0], **said, **times)
+    camera = stage(SceneObject("tree"), camera=Camera((move,))).camera
+    before, a, b, after = (camera(t) for t in (0.4, 0.6, 1.1, 1.4))
+    turn = math.degrees(math.acos(min(1.0, 0.5 * (np.trace(a.rotation @ b.rotation.T) - 1.0))))
+    widths = [2.0 * math.degrees(math.atan(0.5 / one.focal)) for one in (a, b)]
+    turn = abs(widths[1] - widths[0]) if kind == "zoom" else turn
+    went = float(np.linalg.norm(b.position - a.position))
+    assert (turn if is_turn else went) == pytest.approx(0.5 * (30.0 if is_turn else 1.5), rel=1e-3)
+    if times:
+        np.testing.assert_allclose(before.position, camera(0.1).position)
+        np.testing.assert_allclose(after.position, camera(1.9).position)
+
+
+@pytest.mark.parametrize(
+    ("fields", "path"),
+    [
+        ({"place": Place("kitchen", clouds=0.5)}, "place.clouds"),
+        ({"place": Place("beach", road="crossing")}, "place.road"),
+        ({"place": Place("grass", crossing_m=(1, 1))}, "place.crossing_m"),
+        ({"place": Place("road", wave_height=2.0)}, "place.wave_height"),
+        ({"light": Light(wave="strobe")}, "light.wave"),
+        ({"objects": (SceneObject("box", blink_hz=3.0),)}, "objects[0].blink_hz"),
+        ({"objects": (SceneObject("car", heading_deg=9, motions=(Motion("drive", "left"),)),)},
+         "objects[0].motions[0].direction"),
+        ({"objects": (SceneObject("car", placement="left", position_m=(0, 0)),)},
+         "objects[0].placement"),
+        ({"objects": (SceneObject("car", motions=(Motion("wave"),)),)},
+         "objects[0].motions[0].kind"),
+    ],
+)  # fmt: skip
+def test_a_field_without_effect_is_named_with_what_would_have_one(fields, path):
+    with pytest.raises(ConfigError) as caught:
+        describe_scene(Scene(**fields), NOUNS)
+    assert str(caught.value).startswith(f"{path} has no effect: ")
+
+
+def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():
+    car = SceneObject("car", position_m=(-4, 1), heading_deg=0, motions=(Motion("drive"),))
+    scene = Scene(objects=(car,), place=Place("city", crossing_m=(9, 30)))
+    from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+
+    for said in (scene, replace(scene, place=Place("city", road="crossing"))):
+        video = ProceduralGenerator(ProceduralConfig(duration=0.2)).generate(said)
+        ((x, y, angle),) = video.scene.environment(0.0).road_crossings
+        assert said is not scene or (x, angle) == pytest.approx((9.0, 0.5 * math.pi))
+        note = f"the roads cross at ({x:.3g}, {y:.3g}) m"
+        assert note in video.metadata["prompt_report"]["notes"]
+
+
+@pytest.mark.parametrize("pace", [1.0, 4.0])
+def test_a_belt_carries_what_is_on_it_up_to_its_end(pace):
+    belt = SceneObject("conveyor belt", motions=(Motion("work", pace=pace),))
+    boxes = SceneObject("box", count=2, size=0.4, relations=(Relation("on", ("conveyor belt",)),))
+    carrier, *carried = place(belt, boxes, duration_s=3.0)
+    for one in carried:
+        x0, x1 = (one.track.at(t).position[0] for t in (0.5, 0.75))
+        assert (x1 - x0) / 0.25 == pytest.approx(0.4 * pace, rel=1e-3)
+        half = 0.5 * carrier.model.length + 0.1
+        assert all(abs(one.track.at(t).position[0]) <= half for t in np.linspace(0.0, 3.0, 7))
+
+
+def test_a_board_tilts_then_rotates_at_the_rate_that_is_said():
+    motions = (Motion("tilt", rate_hz=1.0), Motion("rotate", rate_hz=0.5))
+    (board,) = place(SceneObject("checkerboard", motions=motions))
+    assert max(abs(board.track.at(t).pitch) for t in np.linspace(0.0, 1.0, 21)) > 0.35
+    turned = board.track.at(1.9).yaw - board.track.at(1.5).yaw
+    assert abs(turned) == pytest.approx(2.0 * math.pi * 0.5 * 0.4, rel=1e-3)
