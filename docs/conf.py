@@ -162,7 +162,12 @@ def unlisted(index: str) -> str:
 
 def one_signature_each() -> None:
     """Signatures say what the function takes once, not once per overload."""
-    for module in ("texvent.api", "texvent.dataset", "texvent.event_packets", "texvent.events"):
+    for module in (
+        "texvent.api.functions",
+        "texvent.dataset",
+        "texvent.event_packets",
+        "texvent.events",
+    ):
         analyzer = ModuleAnalyzer.for_module(module)
         analyzer.analyze()
         analyzer.overloads.clear()

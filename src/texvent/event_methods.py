@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 from numpy.typing import NDArray
 
 from texvent._registry import load_object
-from texvent.runtime.displays.notebook_value import NotebookValue
+from texvent.runtime.displays.notebooks import NotebookValue
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike

@@ -23,8 +23,8 @@ from numpy.typing import ArrayLike, NDArray
 from texvent.errors import InputError, one_line, shown
 from texvent.event_methods import StreamMethods, time_edit, with_edit
 from texvent.options.arrays import HOW_TO_ROUND, as_array, whole_numbers
+from texvent.options.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
-from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
 SIGNAL, NOISE = 0, 1
 """Values of `EventStream.label`: fired by a brightness change, or by noise."""

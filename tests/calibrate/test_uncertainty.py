@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.calibrate.bootstrap import bootstrap, percentile_interval
+from texvent.calibrate.estimates import bootstrap, percentile_interval
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.uncertainty import FARTHEST, cut_blocks, vertex, widen
 

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import pytest
 
 from texvent._registry import GENERATORS, SIMULATORS
-from texvent.api import generate, simulate, video
+from texvent.api.functions import generate, simulate, video
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.generation.video_models.config import DiffusersConfig
 from texvent.options import keywords

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from texvent.events import EventStream
 from texvent.frames import MotionVectors
 from texvent.sensor import SensorSize
-from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
+from texvent.truth.event_ids import FrameSpan, ids_of_frames, ids_of_scene, moved_ids
 from texvent.truth.source import Snapshot
 from texvent_scenes.procedural import ProceduralConfig, ProceduralVideo
 from texvent_scenes.rendered_scene import Shape
@@ -39,7 +39,7 @@ def snapshot(t_us, ids, depth=None, flow_x=None):
 def test_an_event_of_a_scene_is_what_its_pixel_touches_at_either_instant():
     video = board_video()
     # At 0 the board's front covers columns 40 - 80 · 2 / 7.5 = 18.67 to 40; at 40 ms 1.28 px more.
-    every_column = Interval(0, 40_000, events_at(range(80), 25, SIZE))
+    every_column = FrameSpan(0, 40_000, events_at(range(80), 25, SIZE))
     found = ids_of_scene(video, every_column)
     assert np.flatnonzero(found == 3).tolist() == list(range(18, 42))
     assert set(found) == {0, 3}
@@ -52,7 +52,7 @@ INSTANT = st.lists(st.tuples(st.integers(0, 2), st.integers(1, 9)), min_size=8, 
 @given(INSTANT, INSTANT)
 def test_an_event_shows_the_nearest_object_of_both_instants(first, second):
     before, after = (snapshot(t, *zip(*one, strict=True)) for t, one in ((0, first), (9, second)))
-    found = ids_of_frames(before, after, Interval(0, 9, events_at(range(8))))
+    found = ids_of_frames(before, after, FrameSpan(0, 9, events_at(range(8))))
     for one, *seen in zip(found.tolist(), first, second, strict=True):
         objects = [(depth, number) for number, depth in seen if number]
         assert one == min(objects, key=lambda pair: pair[0], default=(0, 0))[1]
@@ -68,7 +68,7 @@ def test_of_two_objects_of_a_scene_seen_one_after_the_other_the_nearer_one_count
         MovingShape(Shape.BOX, (9.0, 0.1, 5.0), still(0.0, 4.0, 1.5), instance=4),
     )
     video = ProceduralVideo(HandScene(boards, level), SIZE, ProceduralConfig(fps=FPS, duration=0.1))
-    found = ids_of_scene(video, Interval(0, 40_000, events_at(range(80), 25, SIZE)))
+    found = ids_of_scene(video, FrameSpan(0, 40_000, events_at(range(80), 25, SIZE)))
     # 0.5 m either side of 0, then of 0.6 m, 7.9 m away, at a focal length of 80 px.
     assert np.flatnonzero(found == 3).tolist() == list(range(34, 52))
     assert set(found) == {3, 4}
@@ -88,6 +88,6 @@ def test_ids_move_along_their_vectors_and_near_ones_cover_far_ones():
 
 def test_without_vectors_the_closer_frame_counts():
     before, after = snapshot(0, [1] * 8), snapshot(1000, [2] * 8)
-    early = ids_of_frames(before, after, Interval(0, 400, events_at([3])))
-    late = ids_of_frames(before, after, Interval(600, 1000, events_at([3])))
+    early = ids_of_frames(before, after, FrameSpan(0, 400, events_at([3])))
+    late = ids_of_frames(before, after, FrameSpan(600, 1000, events_at([3])))
     assert (early.tolist(), late.tolist()) == ([1], [2])

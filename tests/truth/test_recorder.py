@@ -14,13 +14,13 @@ import pytest
 
 import texvent
 from texvent.camera import PosedCamera
-from texvent.class_ids import CLASS_IDS
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.frames import Frame, MotionVectors, Video
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
+from texvent.truth.class_ids import CLASS_IDS
 from texvent.truth.sinks import encode_flow, write_png
 
 from .hand_video import SIZE, board_video, level

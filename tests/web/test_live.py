@@ -19,11 +19,11 @@ from tests.cli.running import refused, run
 from tests.web.opened import open_entry
 
 import texvent
+from texvent.api.event_camera import EventCamera
 from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError, TexventError
-from texvent.event_camera import EventCamera
 from texvent.frames import Frame
 from texvent.io.block_writer import BlockWriter
 from texvent.sensor import SensorSize

@@ -25,7 +25,7 @@ from texvent_lab.alignment.align import align  # noqa: E402
 from texvent_lab.alignment.clip_model import ClipModel  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
-    Recording,
+    TextRecording,
     list_samples,
 )
 
@@ -62,9 +62,9 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def recordings(events: list[EventStream], texts: list[str]) -> list[Recording]:
+def recordings(events: list[EventStream], texts: list[str]) -> list[TextRecording]:
     return [
-        Recording(str(number), text, lambda one=one: one)
+        TextRecording(str(number), text, lambda one=one: one)
         for number, (one, text) in enumerate(zip(events, texts, strict=True))
     ]
 

@@ -13,7 +13,7 @@ from texvent.events import EventStream
 from texvent.metrics.stpp import Stpp
 from texvent.sensor import SensorSize
 from texvent_lab.alignment.pairs import OTHER, score_pairs
-from texvent_lab.alignment.recordings import Recording
+from texvent_lab.alignment.recordings import TextRecording
 from texvent_lab.commands.nt_imagenet import pairs_table
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet
@@ -29,9 +29,9 @@ def events(seed: int, start: int = 0, count: int = 400, length: int = 50_000) ->
     )
 
 
-def recording(id: str, *parts: EventStream) -> Recording:
+def recording(id: str, *parts: EventStream) -> TextRecording:
     whole = EventStream.concat(parts)
-    return Recording(id, f"text of {id}", lambda: whole, f"key of {id}")
+    return TextRecording(id, f"text of {id}", lambda: whole, f"key of {id}")
 
 
 def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id() -> None:

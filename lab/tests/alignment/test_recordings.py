@@ -15,7 +15,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
-    Recording,
+    TextRecording,
     keep_common,
     list_samples,
     list_streams,
@@ -83,8 +83,8 @@ def test_recorded_streams_are_read_at_their_size(tmp_path: Path) -> None:
 
 
 def test_sources_are_scored_on_the_ids_they_share() -> None:
-    def some(*ids: str) -> list[Recording]:
-        return [Recording(id, id, lambda: EventStream.empty(SensorSize(1, 1))) for id in ids]
+    def some(*ids: str) -> list[TextRecording]:
+        return [TextRecording(id, id, lambda: EventStream.empty(SensorSize(1, 1))) for id in ids]
 
     kept = keep_common({"a": some("1", "2", "3", "3"), "b": some("4", "3", "2")})
     assert {name: [one.id for one in found] for name, found in kept.items()} == {

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent_lab.alignment.align import RetrievalReport, find_misfits, score_retrieval
-from texvent_lab.alignment.recordings import Recording
+from texvent_lab.alignment.recordings import TextRecording
 
 EMPTY = EventStream.empty(SensorSize(1, 1))
 
@@ -50,7 +50,7 @@ def test_ranks_by_hand() -> None:
 
 
 def test_misfits_are_nearer_to_other_texts_than_to_their_own_and_the_worst_come_first() -> None:
-    recordings = [Recording(str(n), f"text {n}", lambda: EMPTY, f"key {n}") for n in range(4)]
+    recordings = [TextRecording(str(n), f"text {n}", lambda: EMPTY, f"key {n}") for n in range(4)]
 
     def misfits(margin: float) -> list[dict[str, Any]]:
         return find_misfits(recordings, BY_HAND, np.arange(4), margin)

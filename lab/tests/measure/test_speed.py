@@ -26,7 +26,7 @@ def absent():
 
 def test_small_rows_of_every_kind_become_tables(monkeypatch):
     size, models = SensorSize(64, 48), ("texvent", "esim")
-    plan = kernels.Plan(frames=2, steps=1, models=models, sizes=(size,), densities=(0.2,))
+    plan = kernels.KernelPlan(frames=2, steps=1, models=models, sizes=(size,), densities=(0.2,))
     rows = kernels.measure_kernels(plan)
     assert [(row["model"], row["way"]) for row in rows][:2] == [
         ("texvent", "clip"),

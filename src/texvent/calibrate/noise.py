@@ -9,8 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate
+from texvent.calibrate.estimates import Estimate, Float64Array, bootstrap
 from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.frames import MICROSECONDS, Frame
 from texvent.represent.event_frame import count_events

@@ -15,8 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate, Measurement, UnidentifiedOption
+from texvent.calibrate.estimates import (
+    Estimate,
+    Float64Array,
+    Measurement,
+    UnidentifiedOption,
+    bootstrap,
+)
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.search import COORDINATES, STEPS, Search, measure_distance
 from texvent.events import EventStream
@@ -37,7 +42,7 @@ LEAST_POWER = 0.3
 """The least power with which counts fall that is believed."""
 
 
-class Interval(NamedTuple):
+class OptionInterval(NamedTuple):
     """Interval of an option, in the logarithm, and its effect on the thresholds."""
 
     low: float
@@ -109,11 +114,11 @@ def _judge_option(
     blocks: list[TimeSpan],
     best: PhysicalConfig,
     name: str,
-) -> Interval:
+) -> OptionInterval:
     """The 95 % interval of an option, and what thresholds do along it."""
     value = getattr(best, name)
     if value == 0:  # unlimited
-        return Interval(-math.inf, math.inf, np.zeros(2))
+        return OptionInterval(-math.inf, math.inf, np.zeros(2))
     distances, thresholds = np.empty((3, len(blocks))), []
     for row, factor in enumerate((1 / FACTOR, 1.0, FACTOR)):
         config = dataclasses.replace(best, **{name: value * factor})
@@ -124,7 +129,7 @@ def _judge_option(
     slopes = (thresholds[2] - thresholds[0]) / (2 * math.log(FACTOR))
     shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))
     low, high = shifts[:, 0].tolist()
-    return Interval(
+    return OptionInterval(
         -math.inf if low <= -FARTHEST else min(low, -NEAREST),
         math.inf if high >= FARTHEST else max(high, NEAREST),
         slopes,

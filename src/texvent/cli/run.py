@@ -37,7 +37,7 @@ def print_settings(settings: Settings) -> int:
 
 
 @dataclass
-class Tally:
+class RunCounts:
     """Counters of a run."""
 
     events: int = 0
@@ -102,7 +102,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     progress = ConsoleProgress(is_quiet=options.quiet)
     for line in _notes(simulation):
         progress.announce(line)
-    tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
+    tally, started, total = RunCounts(), time.perf_counter(), simulation.video.frame_count
 
     def count(frame: Frame, packet: EventStream) -> None:
         tally.add(frame, packet)
@@ -159,7 +159,7 @@ def _notes(simulation: Simulation) -> Iterator[str]:
         yield f"note     {unmeasured}"
 
 
-def _summary(tally: Tally, seconds: float) -> list[str]:
+def _summary(tally: RunCounts, seconds: float) -> list[str]:
     """Summary of a run that took `seconds`."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""

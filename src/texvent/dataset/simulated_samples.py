@@ -10,8 +10,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
-from texvent.api import Source
-from texvent.class_ids import class_ids_of
+from texvent.api.functions import Source
 from texvent.config import check_range
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window, stack_windows
 from texvent.dataset.specification.entries import entries_of
@@ -24,6 +23,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulation.random.draws import frame_key
 from texvent.truth.boxes import box_records, detection_target
+from texvent.truth.class_ids import class_ids_of
 
 Target: TypeAlias = Literal["frame", "flow", "depth", "instance", "boxes"]
 

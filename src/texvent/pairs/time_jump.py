@@ -43,7 +43,7 @@ class Timed(Protocol):
         ...
 
 
-class Instant(NamedTuple):
+class FrameTime(NamedTuple):
     """The time of a frame without its pixels."""
 
     t_us: int
@@ -54,7 +54,7 @@ AnyTimed = TypeVar("AnyTimed", bound=Timed)
 
 def check_times(times_us: Iterable[int]) -> None:
     """Refuse or warn of jumps, as `watch_steps`, before any frame is read."""
-    for _ in watch_steps(map(Instant, times_us), is_live=False):
+    for _ in watch_steps(map(FrameTime, times_us), is_live=False):
         pass
 
 

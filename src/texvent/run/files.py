@@ -96,8 +96,7 @@ def write_run(
 ) -> EarlyStop | None:
     """Run a simulation into its files; none appears under its name before all are complete.
 
-    Everything is opened, and so checked, before any work. Each output is written by a thread of
-    its own, while the next frames are simulated.
+    Everything is opened, and so checked, before any work; a thread of its own writes each output.
 
     Args:
         simulation: the run.

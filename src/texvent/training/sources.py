@@ -13,9 +13,8 @@ from typing import Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent import api
+from texvent.api import functions as api
 from texvent.capture.open import open_frames
-from texvent.class_ids import class_ids_of
 from texvent.config import CaptureConfig
 from texvent.dataset.generation.recipe import SPECIFICATION_FILE, load_recipe
 from texvent.dataset.layouts.frames import clip_frames
@@ -28,6 +27,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
 from texvent.truth.boxes import BOX_RECORD, box_records
+from texvent.truth.class_ids import class_ids_of
 
 TRUTH = ("flow", "depth", "boxes")
 """Truth that a clip can bring."""

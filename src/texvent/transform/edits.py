@@ -14,8 +14,8 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS
+from texvent.options.time_range import SeenTimes, describe_outside
 from texvent.sensor import SensorSize, SizeLike, as_size
-from texvent.time_range import SeenTimes, describe_outside
 from texvent.transform.packets import (
     Recording,
     check_stream,

@@ -43,7 +43,7 @@ Float32Array = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
-class Interval:
+class FrameSpan:
     """The events between two instants that a simulator compared."""
 
     start_us: int
@@ -51,7 +51,7 @@ class Interval:
     events: EventStream
 
 
-def ids_of_scene(scene: InstancesStream, interval: Interval) -> Ids:
+def ids_of_scene(scene: InstancesStream, interval: FrameSpan) -> Ids:
     """The instance that each event shows, [n], 0 for none."""
     events = interval.events
     if not len(events):
@@ -66,7 +66,7 @@ def ids_of_scene(scene: InstancesStream, interval: Interval) -> Ids:
     return np.asarray(instance[np.arange(len(events)), nearest], dtype=np.int32)
 
 
-def ids_of_frames(before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
+def ids_of_frames(before: Snapshot, after: Snapshot, interval: FrameSpan) -> Ids:
     """The instance that each event between two frames shows, from the ids of the frames.
 
     Pixels of the earlier frame move along their vectors, nearer ones over farther ones; a pixel

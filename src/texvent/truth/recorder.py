@@ -14,7 +14,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.frames import Frame, FrameStream
 from texvent.io.atomic import AtomicOutput
-from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene
+from texvent.truth.event_ids import FrameSpan, ids_of_frames, ids_of_scene
 from texvent.truth.layout import PARTS, parse_parts
 from texvent.truth.sinks import FolderSink, SampleSink
 from texvent.truth.source import InstancesStream, Snapshot, as_ids
@@ -43,8 +43,8 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
         self._sink: Sink = sink
         self._on_events = on_events
         self._last_us: int | None = None
-        self._intervals: list[Interval] = []
-        self._pending: tuple[Frame, list[Interval]] | None = None
+        self._intervals: list[FrameSpan] = []
+        self._pending: tuple[Frame, list[FrameSpan]] | None = None
         self._before: Snapshot | None = None
 
     def add_metadata(self, facts: Mapping[str, Any]) -> None:
@@ -59,7 +59,7 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
         """
         if packet is not None and len(packet):
             start_us = int(packet.t[0]) if self._last_us is None else self._last_us
-            self._intervals.append(Interval(start_us, frame.t_us, packet))
+            self._intervals.append(FrameSpan(start_us, frame.t_us, packet))
         self._last_us = frame.t_us
         if not frame.is_source:
             return
@@ -85,12 +85,12 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
     def _complete(self) -> None:
         self.finish()
 
-    def _taken_intervals(self) -> list[Interval]:
+    def _taken_intervals(self) -> list[FrameSpan]:
         """The events gathered so far; gathering restarts."""
         taken, self._intervals = self._intervals, []
         return taken
 
-    def _record(self, frame: Frame, intervals: list[Interval], next_us: int | None) -> None:
+    def _record(self, frame: Frame, intervals: list[FrameSpan], next_us: int | None) -> None:
         """Record what is true at a frame, and of the events before it; after the last, too."""
         source, before = self._sink.source, self._before
         truth = source.at(frame, None if before is None else before.t_us, next_us)
@@ -103,7 +103,7 @@ class TruthRecorder(AtomicOutput, Generic[Sink]):
         self._sink.add(truth.t_us, rows)
         self._before = truth
 
-    def _ids(self, before: Snapshot, after: Snapshot, interval: Interval) -> NDArray[np.uint16]:
+    def _ids(self, before: Snapshot, after: Snapshot, interval: FrameSpan) -> NDArray[np.uint16]:
         """Instances of the events between two frames, which are handed on with them."""
         source = self._sink.source
         if isinstance(source.video, InstancesStream):

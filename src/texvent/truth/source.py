@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from texvent.camera import PosedCamera
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.scale_check import CheckedFrames
-from texvent.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.errors import ConfigError, InputError
 from texvent.frames import Frame, FrameStream, MotionVectors
 from texvent.ground_truth import Box
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import box_records
+from texvent.truth.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.truth.layout import PARTS
 from texvent.truth.poses import intrinsics, pose_matrix
 from texvent.view.drawing.panels import GroundTruthStream

@@ -14,16 +14,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from texvent.api.event_camera import EventCamera
 from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, one_line
-from texvent.event_camera import EventCamera
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS, Frame, FrameStream, PixelArray, transfer_of
 from texvent.settings.provenance import describe_run
 from texvent.simulation.model_options import contrast_threshold_of
 from texvent.transfer import Transfer
-from texvent.web.recording import Recording
+from texvent.web.recording import LiveRecording
 
 MEASURED_FRAMES = 300
 """Drawn frames over which latency is measured, the latest."""
@@ -68,7 +68,7 @@ class LiveEvents:
         self._waiting: tuple[Frame, int, float] | None = None
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
-        self._recording: Recording | None = None
+        self._recording: LiveRecording | None = None
         self._error: TexventError | None = None
         self._is_over = False
         self._changed = threading.Condition(threading.RLock())
@@ -136,7 +136,7 @@ class LiveEvents:
             self._refuse_recording()
             if self._state != "running" or self._shown is None:
                 raise InputError(f"no events come ({self._state}); there is nothing to record")
-            self._recording = Recording(
+            self._recording = LiveRecording(
                 path,
                 size=self._camera.size,
                 metadata=describe_run(
@@ -263,7 +263,7 @@ class LiveEvents:
                 self.stop_recording()
 
 
-def _reported(error: Exception, recording: Recording | None = None) -> TexventError:
+def _reported(error: Exception, recording: LiveRecording | None = None) -> TexventError:
     """An error in one line, with the place of the events that it could not spoil."""
     if not isinstance(error, TexventError):
         error = TexventError(f"{type(error).__name__}: {one_line(error)}")

@@ -27,7 +27,7 @@ COPY = ".unfinished.npy"
 RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("p", "u1"), ("t_us", "<i8")])
 
 
-class Recording:
+class LiveRecording:
     """A recording that has begun.
 
     Args:

@@ -1,7 +1,7 @@
 """The TOML files of `models/data` and `read/data` as tables, traits of nouns, and class ids.
 
 The class id of a noun in label images, boxes and events is the same in every clip and version: new
-nouns are added at the end of `data/class_ids.toml`, and no number is given to another noun.
+nouns are added at the end of `truth/class_ids.toml` of texvent, and no number is ever given again.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from texvent.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.errors import FileFormatError
+from texvent.truth.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent_scenes.models.joints import Instant, read_joint, read_light
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import NOUNS

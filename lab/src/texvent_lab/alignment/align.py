@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent_lab.alignment.clip_model import ClipModel, Vectors
-from texvent_lab.alignment.recordings import Recording, View
+from texvent_lab.alignment.recordings import TextRecording, View
 
 RECALL_AT = (1, 5, 10)
 CONFIDENCE = 0.95
@@ -161,7 +161,7 @@ def _retrieval(values: NDArray[np.float64]) -> Retrieval:
 
 
 def align(
-    sources: Mapping[str, Sequence[Recording]],
+    sources: Mapping[str, Sequence[TextRecording]],
     draw: View,
     clip: ClipModel,
     *,
@@ -202,7 +202,10 @@ def align(
 
 
 def find_misfits(
-    recordings: Sequence[Recording], similarity: NDArray[Any], own: NDArray[Any], margin: float
+    recordings: Sequence[TextRecording],
+    similarity: NDArray[Any],
+    own: NDArray[Any],
+    margin: float,
 ) -> list[dict[str, Any]]:
     """Recordings less similar to their own text than `margin` above the mean of the other texts.
 

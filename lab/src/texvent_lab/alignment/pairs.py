@@ -14,7 +14,7 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.protocol import Metric
-from texvent_lab.alignment.recordings import Recording
+from texvent_lab.alignment.recordings import TextRecording
 
 PARTS = 4
 """Parts of a clip, at most."""
@@ -23,8 +23,8 @@ OTHER = ", other stream"
 
 
 def score_pairs(
-    samples: Mapping[str, Sequence[Recording]],
-    streams: Sequence[Recording],
+    samples: Mapping[str, Sequence[TextRecording]],
+    streams: Sequence[TextRecording],
     metrics: Sequence[Metric],
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
 ) -> list[dict[str, Any]]:

@@ -25,7 +25,7 @@ from texvent_lab.nt_imagenet.selection import STREAM_EXTENSION, validation_folde
 
 
 @dataclass(frozen=True)
-class Recording:
+class TextRecording:
     """Events with the text they belong to."""
 
     id: str
@@ -38,7 +38,7 @@ class Recording:
 
 def list_samples(
     folder: Path, *, split: str | None = None, ids: Mapping[str, str] | None = None
-) -> dict[str, list[Recording]]:
+) -> dict[str, list[TextRecording]]:
     """The samples of a data set by variant.
 
     Args:
@@ -50,7 +50,7 @@ def list_samples(
         InputError: it is no data set, there is no sample, or samples have no prompt.
         FileFormatError: the record of a shard is damaged.
     """
-    found: dict[str, list[Recording]] = {}
+    found: dict[str, list[TextRecording]] = {}
     for shard in StoredDataset.open(folder).shards():
         if split not in (None, shard.record.split):
             continue
@@ -63,7 +63,7 @@ def list_samples(
                     f"{folder} is made of videos without prompts; there is no text to fit"
                 )
             load = shard.files(sample).events
-            recording = Recording(id, sample.prompt, load, sample.key)
+            recording = TextRecording(id, sample.prompt, load, sample.key)
             found.setdefault(shard.record.variant, []).append(recording)
     if not found:
         where = "" if split is None else f" in split {split}"
@@ -100,7 +100,7 @@ def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, s
     return ids
 
 
-def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recording]:
+def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[TextRecording]:
     """N-ImageNet's streams of some captions.
 
     Raises:
@@ -112,13 +112,13 @@ def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recor
         path = root / one.label / f"{one.id}{STREAM_EXTENSION}"
         if not path.is_file():
             raise InputError(f"{root} lacks {one.label}/{path.name}; its caption is there")
-        recordings.append(Recording(one.id, one.caption, partial(load_stream, path)))
+        recordings.append(TextRecording(one.id, one.caption, partial(load_stream, path)))
     return recordings
 
 
 def keep_common(
-    sources: Mapping[str, Sequence[Recording]], *, limit: int | None = None
-) -> dict[str, list[Recording]]:
+    sources: Mapping[str, Sequence[TextRecording]], *, limit: int | None = None
+) -> dict[str, list[TextRecording]]:
     """The recordings whose ids all sources have, so that all rank the same texts.
 
     Args:

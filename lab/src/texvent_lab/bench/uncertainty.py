@@ -22,7 +22,7 @@ DEPENDENT = 1.645
 Key = TypeVar("Key", bound=Hashable)
 
 
-class Interval(NamedTuple):
+class MeanInterval(NamedTuple):
     """Ends of a 95 % interval; NaN where there are too few windows."""
 
     low: float
@@ -79,7 +79,7 @@ def _is_correlated(values: NDArray[np.float64]) -> bool:
     return float(deviation[:-1] @ deviation[1:]) / total > DEPENDENT / math.sqrt(len(values))
 
 
-def bootstrap_interval(values: ArrayLike, *, comparisons: int = 1, seed: int = 0) -> Interval:
+def bootstrap_interval(values: ArrayLike, *, comparisons: int = 1, seed: int = 0) -> MeanInterval:
     """95 % interval of the mean of independent windows.
 
     Args:
@@ -98,12 +98,12 @@ def bootstrap_interval(values: ArrayLike, *, comparisons: int = 1, seed: int = 0
     defined = every[~np.isnan(every)]
     count = len(defined)
     if count < LEAST_WINDOWS:
-        return Interval(math.nan, math.nan)
+        return MeanInterval(math.nan, math.nan)
     drawn = np.random.default_rng(seed).integers(0, count, (RESAMPLES, count))
     quantile = _t_quantile(count - 1, 1 - (1 - LEVEL) / (2 * comparisons))
     tail = NormalDist().cdf(-math.sqrt(count / (count - 1)) * quantile)
     low, high = np.quantile(defined[drawn].mean(axis=1), [tail, 1 - tail])
-    return Interval(float(low), float(high))
+    return MeanInterval(float(low), float(high))
 
 
 def _t_quantile(freedom: int, share: float) -> float:
@@ -127,7 +127,7 @@ class Mean:
 
     mean: float
     """NaN without a defined window."""
-    interval: Interval
+    interval: MeanInterval
     """95 %; NaN where there are too few windows."""
     windows: int
     """Independent means: windows, or blocks of them."""
@@ -163,7 +163,7 @@ class Mean:
     def reversed(self) -> Mean:
         """The same with the opposite sign."""
         low, high = self.interval
-        return Mean(-self.mean, Interval(-high, -low), self.windows, self.block)
+        return Mean(-self.mean, MeanInterval(-high, -low), self.windows, self.block)
 
     def document(self) -> dict[str, Any]:
         """Plain values, NaN where undefined."""

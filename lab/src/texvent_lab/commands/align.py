@@ -17,7 +17,7 @@ from texvent_lab.alignment.align import align, alignment_table
 from texvent_lab.alignment.clip_model import ClipModel
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
-    Recording,
+    TextRecording,
     ids_of_clips,
     keep_common,
     list_samples,
@@ -80,7 +80,7 @@ class AlignOptions:
         check_range("events_per_image", self.events_per_image, 1)
         check_range("least_similarity", self.least_similarity, -2, 2)
 
-    def sources(self) -> dict[str, list[Recording]]:
+    def sources(self) -> dict[str, list[TextRecording]]:
         """The recordings by source.
 
         Raises:
@@ -92,7 +92,7 @@ class AlignOptions:
         if self.n_imagenet is not None and self.captions is None:
             raise ConfigError("the recorded streams need their texts; give them with --captions")
         captioned = None if self.captions is None else read_captioned(self.captions)
-        found: dict[str, list[Recording]] = {}
+        found: dict[str, list[TextRecording]] = {}
         if self.folder is not None:
             ids = None if captioned is None else ids_of_clips(self.folder, captioned)
             found |= list_samples(self.folder, split=self.split, ids=ids)

@@ -33,7 +33,7 @@ HOUR = 3600.0
 
 
 @dataclass(frozen=True)
-class Plan:
+class StreamPlan:
     """Sizes and repeats."""
 
     batch: int = 12
@@ -51,7 +51,7 @@ class Textures:
 
     known_truth: Sequence[str] = ()
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: StreamPlan) -> None:
         """Textures as long as a clip of the plan."""
         self._count = plan.frames * plan.bins + 1
         self._side = plan.side + 16
@@ -96,7 +96,7 @@ def simulate_plainly(
     return np.stack(counts).reshape(-1, bins, *shape).astype(np.float32)
 
 
-def measure(plan: Plan, device: str) -> dict[str, Any]:
+def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
     """All figures, ready for JSON."""
     torch = require("torch", extra="torch")
     is_cpu = device == "cpu"
@@ -154,7 +154,7 @@ def main() -> int:
     if chosen.device != "cpu" and not require("torch", extra="torch").cuda.is_available():
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
-    document = measure(Plan(), chosen.device)
+    document = measure(StreamPlan(), chosen.device)
     if chosen.json is not None:
         write_document(chosen.json, document, overwrite=True)
     for name, value in document.items():

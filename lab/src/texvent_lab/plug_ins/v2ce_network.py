@@ -36,9 +36,9 @@ class V2ce(Network):
         pairs, widest = list(itertools.pairwise(WIDTHS)), WIDTHS[-1]
         halving = partial(_nn.Conv3d, kernel_size=3, stride=(1, 2, 2), padding=1, bias=False)
         plain = partial(_nn.Conv3d, kernel_size=3, padding=1, bias=False)
-        encoders = (_Block(narrow, wide, halving, plain, (1, 2, 2)) for narrow, wide in pairs)
-        middle = (_Block(widest, widest) for _ in range(BLOCKS))
-        decoders = (_Block(wide + narrow, narrow) for narrow, wide in reversed(pairs))
+        encoders = (_Residual(narrow, wide, halving, plain, (1, 2, 2)) for narrow, wide in pairs)
+        middle = (_Residual(widest, widest) for _ in range(BLOCKS))
+        decoders = (_Residual(wide + narrow, narrow) for narrow, wide in reversed(pairs))
         head = _nn.Conv3d(2, WIDTHS[0], 3, padding=1)
         self.UNet = _nn.ModuleDict(
             {
@@ -92,7 +92,7 @@ class _SpectralConv(_Module):
         return _nn.functional.conv3d(x, weight / (matrix @ right).norm(), padding=1)
 
 
-class _Block(_Module):
+class _Residual(_Module):
     """Two convolutions, and one of a single pixel around them."""
 
     def __init__(

@@ -24,7 +24,7 @@ from texvent.networks.weight_files import DAMAGE, NOTES, TRAINING, Tensor
 from texvent.run.ledger import describe_differences
 from texvent.runtime.progress import Progress
 from texvent_lab.train.schedule import EXTRA, Hardware, Schedule
-from texvent_lab.train.task import Batches, Task
+from texvent_lab.train.task import Batches, TrainingTask
 
 CHECKPOINT_FILE, WEIGHTS_FILE = "checkpoint.pt", "weights.pt"
 
@@ -185,7 +185,7 @@ LOSS = "training loss"
 
 
 def train(
-    task: Task,
+    task: TrainingTask,
     schedule: Schedule,
     folder: Path,
     *,
@@ -261,7 +261,7 @@ def _make_folder(folder: Path) -> None:
 
 
 def _train_epoch(
-    task: Task,
+    task: TrainingTask,
     batches: Batches,
     network: Any,
     optimizer: Any,
@@ -318,7 +318,7 @@ def descend(
 
 
 def _note_epoch(
-    state: TrainingState, task: Task, schedule: Schedule, network: Any, optimizer: Any
+    state: TrainingState, task: TrainingTask, schedule: Schedule, network: Any, optimizer: Any
 ) -> None:
     """Keep the network and its optimiser, the best network, and reduce the learning rate."""
     state.epochs += 1
@@ -342,7 +342,7 @@ def _is_over(state: TrainingState, schedule: Schedule) -> bool:
     return is_stopped or state.epochs >= schedule.epochs
 
 
-def _write_results(folder: Path, state: TrainingState, task: Task, network: Any) -> None:
+def _write_results(folder: Path, state: TrainingState, task: TrainingTask, network: Any) -> None:
     """The best weights, scores and curves."""
     torch = require("torch", extra=EXTRA)
     facts = {

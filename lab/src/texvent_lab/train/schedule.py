@@ -17,7 +17,7 @@ from texvent.runtime.devices import say_no_gpu
 from texvent.simulation.random.draws import frame_key, frame_keys
 
 if TYPE_CHECKING:
-    from texvent_lab.train.task import Task
+    from texvent_lab.train.task import TrainingTask
 
 EXTRA = "texvent-lab[train]"
 """Extra that brings torch and matplotlib."""
@@ -143,13 +143,13 @@ class TrainingConfig:
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
 
-    def make_task(self) -> Task:
+    def make_task(self) -> TrainingTask:
         """The task; this imports torch, and opens the validation samples.
 
         Raises:
             InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
         """
-        task: Task = load_object(self.task)(self)
+        task: TrainingTask = load_object(self.task)(self)
         return task
 
 

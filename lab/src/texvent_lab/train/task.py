@@ -17,7 +17,7 @@ from texvent.networks.weight_files import Tensor
 from texvent_lab.train.schedule import EXTRA, epoch_order
 
 
-class Task(Protocol):
+class TrainingTask(Protocol):
     """A network, its samples, its loss and its scores.
 
     `validate` and `loss` are given the network on its device and move what they need there.

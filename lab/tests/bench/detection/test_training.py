@@ -7,7 +7,7 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.detection.clips import (
-    Clip,
+    BoxedClip,
     bin_pixels,
     mark_resting,
     read_classes,
@@ -86,7 +86,7 @@ def test_cells_add_the_counts_of_their_pixels():
 
 def test_a_part_of_a_clip_has_its_windows():
     histograms = [np.full((1, 2, 2), n, np.uint8) for n in (1, 0, 3, 4)]
-    clip = Clip.of("a", histograms, [boxes((n, n, 0, 1, 1)) for n in range(4)])
+    clip = BoxedClip.of("a", histograms, [boxes((n, n, 0, 1, 1)) for n in range(4)])
     part = clip.part(1, 2)
     assert part.shape == (2, 1, 2, 2)
     assert (part.places.tolist(), part.counts.tolist()) == ([4, 5, 6, 7], [3] * 4)
@@ -101,7 +101,7 @@ def test_mirrored_histograms_and_boxes_agree():
 
     histogram = np.zeros((20, 48, 64), np.uint8)
     histogram[3, 10:20, 5:15] = 2
-    clip = Clip.of("a", [histogram], [boxes((1, 5, 10, 10, 10))])
+    clip = BoxedClip.of("a", [histogram], [boxes((1, 5, 10, 10, 10))])
     image = dense([clip], "cpu")[0, 0].flip(-1).numpy()
     ((_, x, y, w, h),) = targets(clip, 0, flip=True)
     assert image[3, int(y - h / 2) : int(y + h / 2), int(x - w / 2) : int(x + w / 2)].sum() == 200
@@ -136,7 +136,7 @@ def test_a_detector_finds_what_it_was_trained_on():
     assert average_precision(found, truth, classes=("square",), iou=(0.5,))["all"] > 0.5
 
 
-def _square(number: int) -> Clip:
+def _square(number: int) -> BoxedClip:
     """A filled square of 16 to 22 px that moves by 4 px."""
     side = 16 + 2 * number
     histograms = np.zeros((2, 20, 64, 64), np.uint8)
@@ -145,7 +145,7 @@ def _square(number: int) -> Clip:
         x, y = 4 + 8 * number + 4 * window, 30 - 6 * number
         histograms[window, :, y : y + side, x : x + side] = 3
         found.append(boxes((1, x, y, side, side)))
-    return Clip.of(str(number), list(histograms), found)
+    return BoxedClip.of(str(number), list(histograms), found)
 
 
 @pytest.mark.detect
@@ -159,7 +159,7 @@ def test_eqs_computes_with_the_stored_weights_as_evlib_does(tmp_path: Path, binn
     config = DetectionConfig(data=DetectionData(binning=binning))
     histogram = np.random.default_rng(4).poisson(0.3, (20, 90, 140)).astype(np.uint8)
     cells = bin_pixels(histogram, binning)
-    task = DetectionTask(config, ("car",), [Clip.of("a", [cells], [boxes()])])
+    task = DetectionTask(config, ("car",), [BoxedClip.of("a", [cells], [boxes()])])
     network = task.make_network().eval()
     with torch.no_grad():
         for one in network.backbone.parameters():  # attention is scaled by 1e-5 at first

@@ -16,11 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import Float64Array, bootstrap
 from texvent.calibrate.estimates import (
     Estimate,
+    Float64Array,
     Measurement,
     UnidentifiedOption,
+    bootstrap,
     with_estimates,
 )
 from texvent.calibrate.events_only.flicker_cycles import Bursts, Cycles, find_bursts, find_cycles

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import bootstrap
 from texvent.calibrate.estimates import (
     Estimate,
     Measurement,
     UnidentifiedOption,
+    bootstrap,
     with_estimates,
 )
 from texvent.calibrate.events_only.pixel_trains import (

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.calibrate.bootstrap import Float64Array
+from texvent.calibrate.estimates import Float64Array
 from texvent.events import EventStream
 
 WINDOWS = 16

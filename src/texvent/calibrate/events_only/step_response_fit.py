@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import Float64Array
+from texvent.calibrate.estimates import Float64Array
 from texvent.calibrate.events_only.flicker_cycles import Bursts
 from texvent.calibrate.events_only.pixel_trains import BoolArray, Int64Array
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from texvent.cli.event_files.event_file_options import ReadingOptions, parse_time_range
+from texvent.cli.event_files.event_file_options import FileFactOptions, parse_time_range
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -37,7 +37,7 @@ metric says what it does not see. docs/metrics.md gives definitions and the self
 
 
 @dataclass(frozen=True, kw_only=True)
-class CompareOptions(ReadingOptions):
+class CompareOptions(FileFactOptions):
     """Files to compare, and metrics."""
 
     positional: ClassVar[tuple[str, ...]] = ("files",)
@@ -66,7 +66,7 @@ class CompareOptions(ReadingOptions):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Comparison:
+class ScoredFiles:
     """Recordings and their scores."""
 
     paths: Sequence[Path]
@@ -97,7 +97,7 @@ def run(arguments: Sequence[str]) -> int:
     return 0
 
 
-def _compare(options: CompareOptions) -> Comparison:
+def _compare(options: CompareOptions) -> ScoredFiles:
     metrics, left_out = _choose_metrics(options)
     names = _names(options.files[:-1])
     *judged, reference = _streams(options)
@@ -107,7 +107,7 @@ def _compare(options: CompareOptions) -> Comparison:
             name: compare(events, reference, metrics, progress=progress)
             for name, events in predicted.items()
         }
-    return Comparison(
+    return ScoredFiles(
         paths=options.files,
         predicted=predicted,
         reference=reference,
@@ -176,7 +176,7 @@ def _streams(options: CompareOptions) -> list[EventStream]:
     return cut
 
 
-def _document(found: Comparison) -> dict[str, Any]:
+def _document(found: ScoredFiles) -> dict[str, Any]:
     """Document for `--json`: for one candidate its scores, for several a list of them."""
     *judged, reference = found.paths
     every = [
@@ -194,7 +194,7 @@ def _document(found: Comparison) -> dict[str, Any]:
     }
 
 
-def _show(console: Console, found: Comparison) -> None:
+def _show(console: Console, found: ScoredFiles) -> None:
     """Values of all candidates, blind spots, controls, and what was left out."""
     titles = ["value"] if len(found.predicted) == 1 else list(map(escape, found.predicted))
     table = Table("metric", *titles, "unit", "good", box=None, pad_edge=False)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from texvent._registry import FILTERS
-from texvent.cli.event_files.event_file_options import ReadingOptions, keep_time_range
+from texvent.cli.event_files.event_file_options import FileFactOptions, keep_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -50,12 +50,12 @@ SIDE_FILES = ("triggers", "imu")
 
 
 @dataclass(frozen=True, kw_only=True)
-class ConvertOptions(ReadingOptions):
+class ConvertOptions(FileFactOptions):
     """Input, edits and output."""
 
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
     short_flags: ClassVar[Mapping[str, str]] = {
-        **ReadingOptions.short_flags,
+        **FileFactOptions.short_flags,
         **{"out": "-o", "crop": "--roi", "quiet": "-q"},
     }
     outputs: ClassVar[tuple[str, ...]] = ("to", "out", "frames", *SIDE_FILES)

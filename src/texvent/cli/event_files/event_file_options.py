@@ -14,15 +14,15 @@ from texvent.frames import MICROSECONDS
 from texvent.io.files import open_events
 from texvent.io.input_checks import refuse_missing
 from texvent.io.reading import TimeUnit
+from texvent.options.time_range import END_OF_TIME_US
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
-from texvent.time_range import END_OF_TIME_US
 from texvent.transform.edits import keep_time
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReadingOptions:
+class FileFactOptions:
     """Facts that a file does not state, and which of its recordings is meant."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"stream": "--topic --group"}
@@ -57,7 +57,7 @@ class ReadingOptions:
 
 
 @dataclass(frozen=True, kw_only=True)
-class EventFileOptions(ReadingOptions):
+class EventFileOptions(FileFactOptions):
     """Event file to read."""
 
     positional: ClassVar[tuple[str, ...]] = ("path",)

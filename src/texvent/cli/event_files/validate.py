@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
-from texvent.cli.event_files.event_file_options import EventFileOptions, ReadingOptions
+from texvent.cli.event_files.event_file_options import EventFileOptions, FileFactOptions
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import warn
@@ -32,7 +32,7 @@ NO_CHECKSUMS = "none: the format cannot notice events that were changed by damag
 class ValidateOptions(EventFileOptions):
     """File to check, and form of the report."""
 
-    short_flags: ClassVar[Mapping[str, str]] = {**ReadingOptions.short_flags, "quiet": "-q"}
+    short_flags: ClassVar[Mapping[str, str]] = {**FileFactOptions.short_flags, "quiet": "-q"}
 
     json: bool = False
     """Print JSON instead of lines."""

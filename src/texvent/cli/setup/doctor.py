@@ -33,7 +33,7 @@ MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml", "tomli-w": "tomli_
 
 
 @dataclass(frozen=True)
-class Finding:
+class ReportLine:
     """One line of the report."""
 
     name: str
@@ -60,9 +60,9 @@ def run(arguments: Sequence[str]) -> int:
     return 0 if all(finding.is_fine for finding in findings) else 1
 
 
-def examine() -> list[Finding]:
+def examine() -> list[ReportLine]:
     """Everything worth knowing about this installation."""
-    findings = [_python(), Finding("texvent", True, full_version())]
+    findings = [_python(), ReportLine("texvent", True, full_version())]
     findings += [_package(name) for name in _required("")]
     findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
     findings += [_kernels()]
@@ -82,28 +82,28 @@ def _required(extra: str) -> list[str]:
     return names
 
 
-def _python() -> Finding:
+def _python() -> ReportLine:
     is_fine = sys.version_info >= (3, 11)
     state = f"{platform.python_version()} on {platform.system()} {platform.machine()}"
-    return Finding("Python", is_fine, state, "" if is_fine else "install Python 3.11 or newer")
+    return ReportLine("Python", is_fine, state, "" if is_fine else "install Python 3.11 or newer")
 
 
-def _package(name: str) -> Finding:
+def _package(name: str) -> ReportLine:
     try:
         version = metadata.version(name)
         importlib.import_module(MODULES.get(name, name.replace("-", "_")))
     except ImportError as error:
-        return Finding(name, False, f"cannot be imported: {error}", f"pip install {name}")
-    return Finding(name, True, version)
+        return ReportLine(name, False, f"cannot be imported: {error}", f"pip install {name}")
+    return ReportLine(name, True, version)
 
 
-def _extra(name: str) -> Finding:
+def _extra(name: str) -> ReportLine:
     """Row of an optional part, with how to install it."""
     missing = [package for package in _required(name) if not _is_installed(package)]
     if not missing:
-        return Finding(f"[{name}]", True, "here")
+        return ReportLine(f"[{name}]", True, "here")
     state = f"not here: {', '.join(missing)}"
-    return Finding(f"[{name}]", True, state, f"pip install 'texvent[{name}]'")
+    return ReportLine(f"[{name}]", True, state, f"pip install 'texvent[{name}]'")
 
 
 def _is_installed(package: str) -> bool:
@@ -114,39 +114,39 @@ def _is_installed(package: str) -> bool:
     return True
 
 
-def _encoder() -> Finding:
+def _encoder() -> ReportLine:
     """Whether videos can be written: some builds of FFmpeg have no H.264 encoder."""
     try:
         av = importlib.import_module("av")
         av.codec.Codec("libx264", "w")
     except ImportError:
-        return Finding("H.264 encoder", False, "PyAV is missing", "pip install av")
+        return ReportLine("H.264 encoder", False, "PyAV is missing", "pip install av")
     except ValueError:
         remedy = "pip install --force-reinstall --only-binary :all: av"
-        return Finding("H.264 encoder", False, "PyAV was built without libx264", remedy)
-    return Finding("H.264 encoder", True, "libx264")
+        return ReportLine("H.264 encoder", False, "PyAV was built without libx264", remedy)
+    return ReportLine("H.264 encoder", True, "libx264")
 
 
-def _processors() -> Finding:
+def _processors() -> ReportLine:
     size = machine_bytes()
     memory = "memory unknown" if size is None else f"{size / 2**30:.0f} GB memory"
-    return Finding("processors", True, f"{os.cpu_count()} cores, {memory}")
+    return ReportLine("processors", True, f"{os.cpu_count()} cores, {memory}")
 
 
-def _kernels() -> Finding:
+def _kernels() -> ReportLine:
     """Folder of compiled functions."""
     folder = kernel_folder()
     if folder is None or folder.is_relative_to(tempfile.gettempdir()):
         remedy = "name a folder that can be written with NUMBA_CACHE_DIR"
         state = "kept nowhere" if folder is None else f"kept in {folder.parent} for now"
-        return Finding("compiled functions", True, state, remedy)
+        return ReportLine("compiled functions", True, state, remedy)
     state = "beside the package" if folder.name == "__pycache__" else f"in {folder.parent}"
-    return Finding("compiled functions", True, f"kept {state}")
+    return ReportLine("compiled functions", True, f"kept {state}")
 
 
-def _folder(name: str, path: Path) -> Finding:
+def _folder(name: str, path: Path) -> ReportLine:
     free = shutil.disk_usage(path).free / 2**30
     if not os.access(path, os.W_OK):
-        return Finding(name, False, f"{path} is not writable", "go to another folder, or use -o")
+        return ReportLine(name, False, f"{path} is not writable", "go to another folder, or use -o")
     is_fine = free > 0.1
-    return Finding(name, is_fine, f"{free:.1f} GB free", "" if is_fine else "free some space")
+    return ReportLine(name, is_fine, f"{free:.1f} GB free", "" if is_fine else "free some space")

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from texvent.capture.open import open_frames
 from texvent.cli.options import parse_configs
-from texvent.cli.simulation.web import PageOptions, serve
+from texvent.cli.simulation.web import AddressOptions, serve
 from texvent.config import CaptureConfig
 from texvent.errors import OutputError
 from texvent.web.live import LiveEvents
@@ -56,7 +56,7 @@ class LiveOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Serve until the page is closed, Ctrl-C or SIGTERM; returns the exit code."""
-    groups = {"camera": LiveOptions(), "page": PageOptions()}
+    groups = {"camera": LiveOptions(), "page": AddressOptions()}
     options, page = parse_configs(arguments, groups, prog="texvent live", description=DESCRIPTION)
     frames = open_frames(options.source, CaptureConfig())
     live = LiveEvents(frames, {name: getattr(options, name) for name in OF_THE_CAMERA})

@@ -27,7 +27,7 @@ LEAD = """<!doctype html><meta name="referrer" content="no-referrer">
 
 
 @dataclass(frozen=True, kw_only=True)
-class PageOptions:
+class AddressOptions:
     """Address at which the page is served."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
@@ -50,12 +50,12 @@ class PageOptions:
 def run(arguments: Sequence[str]) -> int:
     """Serve until Ctrl-C or SIGTERM; returns the exit code."""
     (options,) = parse_configs(
-        arguments, {"page": PageOptions()}, prog="texvent app", description=DESCRIPTION
+        arguments, {"page": AddressOptions()}, prog="texvent app", description=DESCRIPTION
     )
     return serve(JobServer(port=options.port), options)
 
 
-def serve(server: PageServer, options: PageOptions) -> int:
+def serve(server: PageServer, options: AddressOptions) -> int:
     """Show a page until Ctrl-C, SIGTERM, or the page needs it no more; returns the exit code."""
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())

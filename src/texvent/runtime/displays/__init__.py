@@ -1,1 +1,1 @@
-"""Displays of progress: in a terminal, in a notebook."""
+"""Displays: progress in terminals and notebooks, values in notebooks."""

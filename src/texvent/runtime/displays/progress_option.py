@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import TypeAlias
 
-from texvent.runtime.displays.notebook_progress import NotebookProgress, is_notebook
+from texvent.runtime.displays.notebooks import NotebookProgress, is_notebook
 from texvent.runtime.progress import NoProgress, Progress
 
 ProgressCallback: TypeAlias = Callable[[int, int | None, str], object]

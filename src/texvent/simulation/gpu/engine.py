@@ -17,7 +17,7 @@ from texvent.events import EventStream
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulation.esim.config import EsimConfig
-from texvent.simulation.esim.gpu.pixels import EsimPixels
+from texvent.simulation.esim.gpu.pixels import EsimGpuPixels
 from texvent.simulation.gpu.intervals import Clock, Span
 from texvent.simulation.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
 from texvent.simulation.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
@@ -109,7 +109,7 @@ _MAX_WORD = 2**63
 
 
 @dataclass(eq=False)
-class _Clips:
+class _ClipStates:
     """State of a batch of clips from one call to the next."""
 
     size: SensorSize
@@ -161,7 +161,7 @@ class GpuSimulator:
 
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""
-        self._clips: _Clips | None = None
+        self._clips: _ClipStates | None = None
 
     def step(self, frames: Tensor, times_us: Any, is_source: Any = None) -> EventBatch:
         """Events between the last frame of the call before and the last of these.
@@ -196,16 +196,16 @@ class GpuSimulator:
         self._clips = clips
         return events
 
-    def _begin(self, frames: Tensor) -> _Clips:
+    def _begin(self, frames: Tensor) -> _ClipStates:
         """State of clips like these, before their first frame."""
         check_device(frames.device)
         count, _, height, width = frames.shape
         seeds = _seeds_of(self._seed, count)
         pixels = _make_pixels(self.config, count)
         pixels.begin(frames[:, 0])
-        return _Clips(checked_size(width, height), Clock(count), seeds, pixels, None)
+        return _ClipStates(checked_size(width, height), Clock(count), seeds, pixels, None)
 
-    def _advance(self, clips: _Clips, frames: Tensor, span: Span) -> EventBatch:
+    def _advance(self, clips: _ClipStates, frames: Tensor, span: Span) -> EventBatch:
         frames = _rows_in_place(frames)
         if clips.previous is None:
             first, frames = frames[:, 0].clone(), frames[:, 1:]
@@ -232,7 +232,7 @@ class GpuSimulator:
         return EventBatch(x, y, t, p, label, clip_offsets, clips.size, found.host_ends[rows])
 
     def _call(
-        self, clips: _Clips, first: Tensor, frames: Tensor, span: Span
+        self, clips: _ClipStates, first: Tensor, frames: Tensor, span: Span
     ) -> tuple[Call, NoiseRules | None]:
         """The call as the kernels see it, and its noise."""
         size, strides = clips.size, frames.stride()
@@ -266,7 +266,7 @@ def _make_pixels(config: object, clips: int) -> GpuPixels[Any]:
     check_supported(config)
     if isinstance(config, TexventConfig):
         return TexventPixels(config, clips)
-    return EsimPixels(cast("EsimConfig", config))
+    return EsimGpuPixels(cast("EsimConfig", config))
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
@@ -293,7 +293,7 @@ def _check_frames(torch: Any, frames: Any) -> None:
         raise InputError(f"frames must be uint8 or float32; got {frames.dtype}")
 
 
-def _check_alike(clips: _Clips, frames: Tensor) -> None:
+def _check_alike(clips: _ClipStates, frames: Tensor) -> None:
     """Refuse frames of other clips than those seen."""
     if clips.previous is None:
         return
@@ -318,7 +318,7 @@ def _of_one_type(first: Tensor, frames: Tensor) -> tuple[Tensor, Tensor]:
     return first, frames
 
 
-def _no_events(clips: _Clips, frames: Tensor) -> EventBatch:
+def _no_events(clips: _ClipStates, frames: Tensor) -> EventBatch:
     """The empty batch of the first frame of clips."""
     torch = require("torch", extra=EXTRA)
     count, device = len(frames), frames.device

@@ -58,8 +58,8 @@ from texvent.simulation.physical.lanes import (
     N_PIXEL,
     Float64Array,
     Int64Array,
+    LaneMemory,
     Uint64Array,
-    Work,
     leave_lanes,
 )
 
@@ -95,7 +95,7 @@ _NOISE = np.uint64(NOISE)
 
 @jit(error_model="numpy")
 def advance_lanes(
-    work: Work,
+    work: LaneMemory,
     size: int,
     state: CircuitState,
     optics: Optics,

@@ -69,7 +69,7 @@ class PixelBlock(NamedTuple):
     active: NDArray[np.int64]
 
 
-class Work(NamedTuple):
+class LaneMemory(NamedTuple):
     """Memory for the lanes."""
 
     lanes: Float64Array
@@ -102,9 +102,9 @@ def new_block() -> PixelBlock:
 
 
 @jit
-def new_work() -> Work:
+def new_work() -> LaneMemory:
     """Uninitialised memory."""
-    return Work(
+    return LaneMemory(
         np.empty((LANE_ROWS, LANES)),
         np.empty((4, LANES), np.int64),
         np.empty((STEP_ROWS, LANES)),
@@ -117,7 +117,7 @@ def new_work() -> Work:
 
 @jit
 def load_lanes(
-    work: Work,
+    work: LaneMemory,
     n: int,
     where: tuple[int, int, int],
     block: PixelBlock,

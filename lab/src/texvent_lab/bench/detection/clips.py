@@ -30,7 +30,7 @@ NOTE_FILE = "texvent-export.json"
 
 
 @dataclass(frozen=True, eq=False)
-class Clip:
+class BoxedClip:
     """Histograms of successive windows, and the boxes at their ends, in cells of some pixels."""
 
     key: str
@@ -46,7 +46,7 @@ class Clip:
     @classmethod
     def of(
         cls, key: str, histograms: Sequence[NDArray[np.uint8]], boxes: Sequence[NDArray[np.void]]
-    ) -> Clip:
+    ) -> BoxedClip:
         """A clip of dense histograms, [channels, height, width] each."""
         places, counts, size = [], [], histograms[0].size
         for number, one in enumerate(histograms):
@@ -58,12 +58,14 @@ class Clip:
         shape = (len(histograms), channels, height, width)
         return cls(key, shape, np.concatenate(places), np.concatenate(counts), tuple(boxes))
 
-    def part(self, first: int, count: int) -> Clip:
+    def part(self, first: int, count: int) -> BoxedClip:
         """`count` windows from number `first` on, or as many as there are."""
         boxes, size = self.boxes[first : first + count], int(np.prod(self.shape[1:]))
         start, stop = np.searchsorted(self.places, [first * size, (first + count) * size])
         places = self.places[start:stop] - first * size
-        return Clip(self.key, (len(boxes), *self.shape[1:]), places, self.counts[start:stop], boxes)
+        return BoxedClip(
+            self.key, (len(boxes), *self.shape[1:]), places, self.counts[start:stop], boxes
+        )
 
     @property
     def learnable(self) -> list[int]:
@@ -94,7 +96,7 @@ def read_classes(folder: Path) -> tuple[str, ...]:
     return classes
 
 
-def read_clips(folder: Path, split: str, binning: int) -> list[Clip]:
+def read_clips(folder: Path, split: str, binning: int) -> list[BoxedClip]:
     """All clips of a split, in the order of their names, in cells of `binning` pixels a side.
 
     Raises:
@@ -110,7 +112,7 @@ def read_clips(folder: Path, split: str, binning: int) -> list[Clip]:
     return [_read(source_type, path, binning) for path in paths]
 
 
-def _read(source_type: Any, path: Path, binning: int) -> Clip:
+def _read(source_type: Any, path: Path, binning: int) -> BoxedClip:
     source = source_type(path, REPRESENTATION, downsample_by_2=False)
     try:
         count = source.window_count()
@@ -119,7 +121,7 @@ def _read(source_type: Any, path: Path, binning: int) -> Clip:
     except (OSError, ValueError, KeyError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
     boxes = [scale(one, 1 / binning) for one in mark_resting([_as_boxes(one) for one in rows])]
-    return Clip.of(path.name, [bin_pixels(one, binning) for one in histograms], boxes)
+    return BoxedClip.of(path.name, [bin_pixels(one, binning) for one in histograms], boxes)
 
 
 def bin_pixels(histogram: NDArray[np.uint8], binning: int) -> NDArray[np.uint8]:
@@ -176,7 +178,7 @@ def _edges(box: NDArray[np.void]) -> NDArray[np.float64]:
     return np.array([x, y, x + w, y + h])
 
 
-def dense(clips: Sequence[Clip], device: Any) -> Tensor:
+def dense(clips: Sequence[BoxedClip], device: Any) -> Tensor:
     """Histograms of clips of one size, [clips, windows, channels, height, width] uint8.
 
     Shorter clips end with empty windows.

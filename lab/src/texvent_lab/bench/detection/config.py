@@ -11,7 +11,7 @@ from texvent.errors import ConfigError
 from texvent_lab.train.schedule import Schedule, TrainingConfig
 
 if TYPE_CHECKING:
-    from texvent_lab.train.task import Task
+    from texvent_lab.train.task import TrainingTask
 
 EXTRA = "texvent-lab[detection]"
 """Extra that brings evlib, pycocotools and torch."""
@@ -66,7 +66,7 @@ class DetectionConfig(TrainingConfig):
     flip_x: bool = True
     """Mirror half of the training clips left to right."""
 
-    def make_task(self) -> Task:
+    def make_task(self) -> TrainingTask:
         """See `TrainingConfig`."""
         if self.data.folder is None:
             raise ConfigError(

@@ -27,7 +27,7 @@ MOST_DETECTIONS = 100
 """Detections of a class in a frame that count, the most certain first; COCO's number."""
 
 
-class Estimate(NamedTuple):
+class PrecisionEstimate(NamedTuple):
     """A score and its interval; NaN without a counted box."""
 
     value: float
@@ -59,7 +59,7 @@ def bootstrap(
     block: int = 10,
     samples: int = 1000,
     seed: int = 0,
-) -> dict[str, Estimate]:
+) -> dict[str, PrecisionEstimate]:
     """Average precision by class, and their mean as `ALL`, with 95 % intervals.
 
     Blocks of consecutive frames are drawn with replacement, with their boxes and detections, until
@@ -104,7 +104,7 @@ def bootstrap(
             evaluator.evalImgs = list(matches[:, frames].ravel())
             scores[number] = _accumulate(evaluator)
     return {
-        name: Estimate(value, *_interval(column), column)
+        name: PrecisionEstimate(value, *_interval(column), column)
         for name, value, column in zip((*classes, ALL), values, scores.T, strict=True)
     }
 

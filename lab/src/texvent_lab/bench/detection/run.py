@@ -39,7 +39,12 @@ from texvent.runtime.progress import NO_PROGRESS
 from texvent_lab.bench.detection.clips import bin_pixels, read_clips, scale
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData
 from texvent_lab.bench.detection.labels import IGNORED, read_street_labels
-from texvent_lab.bench.detection.precision import ALL, Estimate, average_precision, bootstrap
+from texvent_lab.bench.detection.precision import (
+    ALL,
+    PrecisionEstimate,
+    average_precision,
+    bootstrap,
+)
 from texvent_lab.bench.detection.results import ArmScore, DetectionReport
 from texvent_lab.bench.detection.task import (
     as_boxes,
@@ -279,7 +284,7 @@ def score_street(
     }
 
 
-def _ends(scores: Mapping[str, Estimate]) -> dict[str, dict[str, float]]:
+def _ends(scores: Mapping[str, PrecisionEstimate]) -> dict[str, dict[str, float]]:
     ends = ("value", "low", "high")
     return {name: {end: getattr(one, end) for end in ends} for name, one in scores.items()}
 

@@ -24,7 +24,7 @@ from texvent.networks.weight_files import STATE, Tensor
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.detection.clips import (
     WINDOW_US,
-    Clip,
+    BoxedClip,
     dense,
     read_classes,
     read_clips,
@@ -46,7 +46,7 @@ CLIP_US = 10_000_000
 NUMBER, FLIP, FIRST, LEARNED = "number", "flip", "first", "learned"
 
 
-def identity_of(clips: Sequence[Clip]) -> str:
+def identity_of(clips: Sequence[BoxedClip]) -> str:
     """Number of clips, and a digest of their names and contents."""
     found = hashlib.sha256()
     for one in clips:
@@ -61,7 +61,7 @@ def identity_of(clips: Sequence[Clip]) -> str:
 class DrawnClips:
     """Training clips by number; see `MakeSample`."""
 
-    clips: Sequence[Clip]
+    clips: Sequence[BoxedClip]
     length: int
     windows: int
     flips: bool
@@ -96,7 +96,7 @@ class DetectionTask:
     score: ClassVar[str] = "AP50"
 
     def __init__(
-        self, config: DetectionConfig, classes: tuple[str, ...], clips: list[Clip]
+        self, config: DetectionConfig, classes: tuple[str, ...], clips: list[BoxedClip]
     ) -> None:
         """A task of clips that are scored, and learned until `batches` reads those for that."""
         self._config, self.classes = config, classes
@@ -104,16 +104,16 @@ class DetectionTask:
 
     @property
     def identity(self) -> str:
-        """See `Task`."""
+        """See `TrainingTask`."""
         return identity_of(self._validation)
 
     def make_network(self) -> Any:
-        """See `Task`."""
+        """See `TrainingTask`."""
         size = self._validation[0].shape[-2:]
         return make_detector(len(self.classes), size, self._config.seed)
 
     def batches(self, *, workers: int) -> Batches:
-        """See `Task`."""
+        """See `TrainingTask`."""
         data, schedule = self._config.data, self._config.schedule
         found = read_clips(Path(data.folder or ""), data.split, data.binning)
         self._clips = [one for one in found if one.learnable]
@@ -167,7 +167,7 @@ class DetectionTask:
         return {STATE: tensors, CLASSES: list(self.classes), BINNING: self._config.data.binning}
 
     def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
-        """See `Task`."""
+        """See `TrainingTask`."""
         found, binning = tuple(content.get(CLASSES, ())), self._config.data.binning
         if (found, content.get(BINNING)) != (self.classes, binning):
             raise FileFormatError(
@@ -230,7 +230,7 @@ def run_head(
     return found
 
 
-def targets(clip: Clip, window: int, flip: bool) -> NDArray[np.float32]:
+def targets(clip: BoxedClip, window: int, flip: bool) -> NDArray[np.float32]:
     """Boxes of a window that count, [n, 5]: class, x and y of the middle, width, height."""
     boxes = clip.boxes[window]
     boxes = boxes[boxes["class_confidence"] == COUNTED]
@@ -249,7 +249,7 @@ def _padded(boxes: Sequence[NDArray[np.float32]]) -> Tensor:
 
 
 def detect_clips(
-    network: Any, clips: Sequence[Clip], device: Any, *, batch: int = 8
+    network: Any, clips: Sequence[BoxedClip], device: Any, *, batch: int = 8
 ) -> NDArray[np.void]:
     """Detections in all windows with boxes, `BOX_RECORD` on the clock of `join_boxes`."""
     found = []

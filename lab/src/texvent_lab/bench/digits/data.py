@@ -120,7 +120,7 @@ PARTS = ("Train", "Test")
 """Folders of the published data set."""
 
 
-class Recording(NamedTuple):
+class DigitRecording(NamedTuple):
     """Events of a digit."""
 
     events: EventStream
@@ -128,7 +128,7 @@ class Recording(NamedTuple):
     label: int
 
 
-def read_recordings(folder: Path, numbers: Sequence[int]) -> list[Recording]:
+def read_recordings(folder: Path, numbers: Sequence[int]) -> list[DigitRecording]:
     """N-MNIST's recordings by their numbers.
 
     Args:
@@ -142,7 +142,7 @@ def read_recordings(folder: Path, numbers: Sequence[int]) -> list[Recording]:
     return [_read(folder, number) for number in numbers]
 
 
-def _read(folder: Path, number: int) -> Recording:
+def _read(folder: Path, number: int) -> DigitRecording:
     is_test = number > FIRST_TEST
     part = folder / PARTS[is_test]
     name = f"{number - FIRST_TEST if is_test else number:05d}.bin"
@@ -150,7 +150,7 @@ def _read(folder: Path, number: int) -> Recording:
         path = part / str(label) / name
         if path.is_file():
             found = open_events(path, format="atis", size=SIZE).collect()
-            return Recording(EventStream(found.x, found.y, found.t, 1 - found.p, SIZE), label)
+            return DigitRecording(EventStream(found.x, found.y, found.t, 1 - found.p, SIZE), label)
     raise InputError(
         f"there is no {name} in the folders 0..9 of {part}; give the folder of N-MNIST's unpacked "
         "Train and Test"

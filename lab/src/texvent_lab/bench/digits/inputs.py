@@ -15,7 +15,7 @@ from texvent.capture.camera_path.motion import DURATION_US
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.represent.named import represent_window
-from texvent_lab.bench.digits.data import Recording
+from texvent_lab.bench.digits.data import DigitRecording
 from texvent_lab.bench.digits.sheet import DigitSheet
 
 WINDOW_US = (0, DURATION_US)
@@ -88,7 +88,7 @@ def join_inputs(parts: Sequence[InputSet]) -> InputSet:
     )
 
 
-def represent_recordings(recordings: Sequence[Recording]) -> InputSet:
+def represent_recordings(recordings: Sequence[DigitRecording]) -> InputSet:
     """The images of recordings."""
     images, counts = zip(*(represent_all(one.events) for one in recordings), strict=True)
     return InputSet(

@@ -34,7 +34,7 @@ WAY_OPTIONS: Mapping[Way, Mapping[str, Any]] = {
 
 
 @dataclass(frozen=True)
-class Arm:
+class DigitsArm:
     """A pixel model with options."""
 
     name: str
@@ -56,21 +56,21 @@ class Arm:
 
 
 _PAPER = {"simulator": "texvent", "preset": "paper"}
-ARMS: tuple[Arm, ...] = (
-    Arm("texvent accurate", {"simulator": "texvent", "preset": "accurate"}),
-    Arm("texvent paper", _PAPER),
-    Arm("physical", {"simulator": "physical"}),
-    Arm("esim", {"simulator": "esim"}),
-    Arm("v2e", {"simulator": "v2e"}),
-    Arm("v2e noisy", {"simulator": "v2e", "preset": "noisy"}),
-    Arm("voltmeter", {"simulator": "voltmeter"}),
-    Arm("senpi", {"simulator": "senpi"}),
-    Arm("E1: no balance", {**_PAPER, "balance": 0.001}),
-    Arm("E4: no cache", {**_PAPER, "cache": "none"}),
-    Arm("E9: no noise", {**_PAPER, "noise": "none"}),
-    Arm("E12: random times", {**_PAPER, "timestamp_rule": "random"}),
-    Arm("E6: no interpolation", _PAPER, ways=("frames",)),
-    Arm(
+ARMS: tuple[DigitsArm, ...] = (
+    DigitsArm("texvent accurate", {"simulator": "texvent", "preset": "accurate"}),
+    DigitsArm("texvent paper", _PAPER),
+    DigitsArm("physical", {"simulator": "physical"}),
+    DigitsArm("esim", {"simulator": "esim"}),
+    DigitsArm("v2e", {"simulator": "v2e"}),
+    DigitsArm("v2e noisy", {"simulator": "v2e", "preset": "noisy"}),
+    DigitsArm("voltmeter", {"simulator": "voltmeter"}),
+    DigitsArm("senpi", {"simulator": "senpi"}),
+    DigitsArm("E1: no balance", {**_PAPER, "balance": 0.001}),
+    DigitsArm("E4: no cache", {**_PAPER, "cache": "none"}),
+    DigitsArm("E9: no noise", {**_PAPER, "noise": "none"}),
+    DigitsArm("E12: random times", {**_PAPER, "timestamp_rule": "random"}),
+    DigitsArm("E6: no interpolation", _PAPER, ways=("frames",)),
+    DigitsArm(
         "frame difference",
         {**_PAPER, "cache": "none", "noise": "none", "timestamp_rule": "end"},
         ways=("frames",),
@@ -80,7 +80,7 @@ ARMS: tuple[Arm, ...] = (
 model: an event where ln(30 + I) of two frames differs by the threshold, at the later frame."""
 
 
-def find_arm(name: str) -> Arm:
+def find_arm(name: str) -> DigitsArm:
     """The arm called `name`.
 
     Raises:

@@ -30,7 +30,13 @@ from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
 from texvent.settings.resolution import Settings
 from texvent.simulation.model_options import contrast_threshold_of
-from texvent_lab.bench.digits.data import FIRST_TEST, Mnist, Recording, read_mnist, read_recordings
+from texvent_lab.bench.digits.data import (
+    FIRST_TEST,
+    DigitRecording,
+    Mnist,
+    read_mnist,
+    read_recordings,
+)
 from texvent_lab.bench.digits.inputs import (
     REPRESENTATIONS,
     InputSet,
@@ -186,7 +192,7 @@ def open_run(plan: DigitsPlan) -> Run:
     return run
 
 
-def _bytes(recording: Recording) -> bytes:
+def _bytes(recording: DigitRecording) -> bytes:
     events = recording.events
     columns = (events.x, events.y, events.t, events.p)
     return b"".join(one.tobytes() for one in columns) + bytes([recording.label])

@@ -20,7 +20,7 @@ from texvent_lab.train.classification.config import (
     ClassData,
     ClassificationConfig,
     ClassNetwork,
-    Source,
+    LabelledSource,
 )
 from texvent_lab.train.reconstruction.config import (
     ExtraClips,
@@ -113,12 +113,12 @@ def _training(config: PaperConfig, network: str, simulated: str | None) -> Class
         slice_events=30_000,
         image_size=config.image_size,
     )
-    extra = Source()
+    extra = LabelledSource()
     if simulated is not None:
         classes = [one for one in (folder / RECORDED).iterdir() if one.is_dir()]
         recorded = sum(1 for one in classes for _ in one.iterdir())
         each = max(round(SHARE * recorded / max(len(classes), 1)), 1)
-        extra = Source(recordings=folder, split=simulated, sensor=SENSOR, per_class=each)
+        extra = LabelledSource(recordings=folder, split=simulated, sensor=SENSOR, per_class=each)
     return ClassificationConfig(
         data=data,
         extra=extra,

@@ -26,7 +26,7 @@ THREADS = "TEXVENT_NUM_THREADS"
 
 
 @dataclass(frozen=True)
-class Plan:
+class KernelPlan:
     """Sizes, densities, frames, steps and models."""
 
     frames: int
@@ -38,11 +38,11 @@ class Plan:
     densities: tuple[float, ...] = DENSITIES
 
 
-QUICK = Plan(
+QUICK = KernelPlan(
     frames=16, steps=24, models=("texvent", "esim"), sizes=SIZES[:1], densities=DENSITIES[2:3]
 )
 """One event per pixel and frame (the paper preset), and several."""
-FULL = Plan(
+FULL = KernelPlan(
     frames=48, steps=96, models=("texvent", "esim", "v2e", "voltmeter", "senpi", "physical")
 )
 
@@ -61,7 +61,7 @@ def one_thread_per_frame() -> Iterator[None]:
             os.environ[THREADS] = before
 
 
-class Run:
+class WarmSimulator:
     """One simulator on one endless clip, warmed up."""
 
     def __init__(self, model: str, frames: Bytes) -> None:
@@ -82,7 +82,7 @@ class Run:
         self.events += len(self.simulator.step(next(self._frames)))
 
 
-def measure_kernels(plan: Plan) -> list[dict[str, Any]]:
+def measure_kernels(plan: KernelPlan) -> list[dict[str, Any]]:
     """A row per model, size, density and way of working.
 
     "clip" is one thread, frame by frame; "clips" two threads, each with a clip of its own.
@@ -92,7 +92,7 @@ def measure_kernels(plan: Plan) -> list[dict[str, Any]]:
         frames = jumping_pixels(size, density, plan.frames)
         for model in plan.models:
             with one_thread_per_frame():
-                one = Run(model, frames)
+                one = WarmSimulator(model, frames)
                 ways = {"clip": quartiles(one.steps(plan.steps), scale=1e3)}
                 ways["clips"] = _in_two_threads(model, frames, plan.steps)
             events = one.events / plan.steps
@@ -109,7 +109,7 @@ def measure_kernels(plan: Plan) -> list[dict[str, Any]]:
 
 def _in_two_threads(model: str, frames: Bytes, steps: int) -> dict[str, Any]:
     """Milliseconds per frame of two clips at once: elapsed time over frames of both."""
-    runs = [Run(model, frames) for _ in range(2)]
+    runs = [WarmSimulator(model, frames) for _ in range(2)]
     chunks, per_chunk = 6, max(1, steps // 6)
     with ThreadPoolExecutor(len(runs)) as pool:
 

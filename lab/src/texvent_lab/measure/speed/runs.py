@@ -16,8 +16,8 @@ from typing import Any
 import av
 import numpy as np
 
+from texvent.api.event_camera import EventCamera
 from texvent.capture.open import open_frames
-from texvent.event_camera import EventCamera
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
 from texvent.runtime.background_writer import BackgroundWriter

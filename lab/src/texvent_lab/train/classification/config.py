@@ -19,7 +19,7 @@ PREFIX = "torchvision:"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Source:
+class LabelledSource:
     """Labelled samples: a data set, or folders of recordings."""
 
     folder: Path | None = None
@@ -56,7 +56,7 @@ class Source:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClassData(Source):
+class ClassData(LabelledSource):
     """Labelled samples, and what is made of them."""
 
     validation_split: str = "test"
@@ -125,14 +125,14 @@ class ClassificationConfig(TrainingConfig):
     """Weights that training begins with, of the same network; its last layer begins anew where
     they are of other classes. None: random ones."""
     data: ClassData = field(default_factory=ClassData)
-    extra: Source = field(default_factory=Source)
+    extra: LabelledSource = field(default_factory=LabelledSource)
     """More samples to train on, of the same classes."""
     network: ClassNetwork = field(default_factory=ClassNetwork)
     augmentation: Augmentation = field(default_factory=Augmentation)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.extra != Source() and not self.extra.is_given:
+        if self.extra != LabelledSource() and not self.extra.is_given:
             raise ConfigError(
                 "[extra] has no samples; give folder or recordings in it, or leave it out"
             )

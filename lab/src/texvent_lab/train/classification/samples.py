@@ -13,7 +13,11 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.edits import flip, reverse_time, shift, start_at_zero
-from texvent_lab.train.classification.config import Augmentation, ClassificationConfig, Source
+from texvent_lab.train.classification.config import (
+    Augmentation,
+    ClassificationConfig,
+    LabelledSource,
+)
 from texvent_lab.train.classification.sources import DataSetSamples, RecordedSamples
 
 
@@ -176,7 +180,7 @@ def open_training(config: ClassificationConfig, validation: ChosenSamples) -> Ch
     return chosen
 
 
-def _open(source: Source, split: str) -> LabelledSamples:
+def _open(source: LabelledSource, split: str) -> LabelledSamples:
     samples: LabelledSamples
     if source.folder is not None:
         samples = DataSetSamples(source, split)

@@ -11,13 +11,13 @@ from texvent.events import EventStream
 from texvent.io.files import event_extensions, load
 from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize, as_size
-from texvent_lab.train.classification.config import Source
+from texvent_lab.train.classification.config import LabelledSource
 
 
 class DataSetSamples:
     """A split of a data set; see `LabelledSamples`."""
 
-    def __init__(self, source: Source, split: str) -> None:
+    def __init__(self, source: LabelledSource, split: str) -> None:
         """Open it.
 
         Raises:
@@ -54,7 +54,7 @@ class DataSetSamples:
 class RecordedSamples:
     """A split of recordings; see `LabelledSamples`."""
 
-    def __init__(self, source: Source, split: str) -> None:
+    def __init__(self, source: LabelledSource, split: str) -> None:
         """List the files; none is read.
 
         Raises:

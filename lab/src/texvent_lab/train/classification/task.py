@@ -101,13 +101,13 @@ class ClassificationTask:
 
     @property
     def identity(self) -> str:
-        """See `Task`."""
+        """See `TrainingTask`."""
         begin = self._config.start_from
         weights = [] if begin is None else [f"from {str(fingerprint(str(begin)))[:12]}"]
         return ", ".join([self._examples(self._validation).identity, *weights])
 
     def make_network(self) -> Any:
-        """See `Task`."""
+        """See `TrainingTask`."""
         wanted = self._config.network
         channels, *shape = self._shape
         kind, given = NETWORKS.get(wanted.name), {}
@@ -125,12 +125,12 @@ class ClassificationTask:
         return network
 
     def batches(self, *, workers: int) -> Batches:
-        """See `Task`."""
+        """See `TrainingTask`."""
         samples = open_training(self._config, self._validation)
         return self._batches(samples, self._config.augmentation, workers, shuffle=True)
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
-        """See `Task`."""
+        """See `TrainingTask`."""
         return _cross_entropy(network(batch[IMAGE].to(device)), batch[CLASS].to(device))
 
     def validate(
@@ -167,12 +167,12 @@ class ClassificationTask:
         return {**scores, "validation loss": float(np.mean(predictions["loss"]))}
 
     def published(self, network: Any) -> Mapping[str, Any]:
-        """See `Task`."""
+        """See `TrainingTask`."""
         tensors = {name: one.detach().cpu() for name, one in network.tensors.items()}
         return {"state_dict": tensors, CLASSES: self._classes}
 
     def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
-        """See `Task`."""
+        """See `TrainingTask`."""
         known = content.get(CLASSES, self._classes)
         if known != self._classes:
             raise FileFormatError(

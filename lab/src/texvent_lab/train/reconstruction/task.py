@@ -75,7 +75,7 @@ class ReconstructionTask:
 
     @property
     def identity(self) -> str:
-        """See `Task`."""
+        """See `TrainingTask`."""
         return self._validation.identity
 
     @functools.cached_property
@@ -87,11 +87,11 @@ class ReconstructionTask:
         return SequenceLoss(options, weights)
 
     def make_network(self) -> Any:
-        """See `Task`."""
+        """See `TrainingTask`."""
         return new_network(self._published, self._config.seed)
 
     def batches(self, *, workers: int) -> Batches:
-        """See `Task`."""
+        """See `TrainingTask`."""
         config, published = self._config, self._published
         has_flow = config.loss.consistency and config.extra.specification is None
         targets: list[Target] = ["frame", "flow"] if has_flow else ["frame"]
@@ -123,7 +123,7 @@ class ReconstructionTask:
             )
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
-        """See `Task`."""
+        """See `TrainingTask`."""
         images = network(batch[VOXELS].to(device)).float()
         flow = batch[FLOW].to(device) if FLOW in batch else None
         return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
@@ -152,11 +152,11 @@ class ReconstructionTask:
         return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}, {}
 
     def published(self, network: Any) -> Mapping[str, Any]:
-        """See `Task`."""
+        """See `TrainingTask`."""
         return {STATE: {name: one.cpu() for name, one in self._tensors(network).items()}}
 
     def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
-        """See `Task`."""
+        """See `TrainingTask`."""
         network.read(content, path, self._published.where_from)
 
     def _tensors(self, network: Any) -> dict[str, Tensor]:

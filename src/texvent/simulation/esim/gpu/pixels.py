@@ -182,7 +182,7 @@ def crossing_share(first: tl.tensor, last: tl.tensor, level: tl.tensor) -> tl.te
     return tl.where(first < level, share, 0.0)
 
 
-class EsimPixels(GpuPixels[EsimConfig]):
+class EsimGpuPixels(GpuPixels[EsimConfig]):
     """The pixels of a batch of clips under ESIM."""
 
     def __init__(self, config: EsimConfig) -> None:

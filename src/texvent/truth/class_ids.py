@@ -18,7 +18,7 @@ FIRST_OTHER = 2001
 """Numbers of names that are no nouns of the embedded generator begin here."""
 
 
-_FILE = files("texvent") / "class_ids.toml"
+_FILE = files(__package__) / "class_ids.toml"
 _NAMES: list[str] = tomllib.loads(_FILE.read_text(encoding="utf-8"))["nouns"].split(",")
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {" ".join(name.split()): number for number, name in enumerate(_NAMES, start=1)}

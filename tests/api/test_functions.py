@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.api import compare
+from texvent.api.functions import compare
 from texvent.errors import InputError, TexventError
 
 PROMPT = "a red ball bounces"

@@ -1,12 +1,14 @@
-"""Progress in the kernel of a notebook, by nothing but IPython's display."""
+"""Notebooks: progress by nothing but IPython's display, and values that show themselves."""
 
 from __future__ import annotations
 
 import importlib
 import sys
 import time
+from collections.abc import Collection
 from typing import Any, Self
 
+from texvent._registry import load_object
 from texvent.errors import visible
 
 PATIENCE_SECONDS = 0.5
@@ -67,3 +69,16 @@ class NotebookProgress:
 
 def _display(bundle: dict[str, str], **options: Any) -> Any:
     return importlib.import_module("IPython.display").display(bundle, **options)
+
+
+class NotebookValue:
+    """Base of events, frames and streams: IPython asks for what to show in place of their text."""
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """Text and HTML of the value; the room of views makes the HTML, loaded when it is asked."""
+        bundle: dict[str, str] = load_object("texvent.view.notebook:mime_bundle")(
+            self, include, exclude
+        )
+        return bundle
