@@ -74,7 +74,7 @@ name = "cars"
 samples_per_shard = 1
 filters = { min_events = 1 }
 splits = { train = 0.5, val = 0.5 }
-options = { duration = 0.05, sensor = "32x24", samples = 1, interpolate = "none" }
+options = { duration = 0.1, sensor = "32x24", samples = 1, interpolate = "none" }
 sources = [{ prompts = ["a red car drives left", "a blue car drives right"], label = "car" }]
 variants = { esim = { simulator = "esim" } }
 """
