@@ -6,6 +6,7 @@ import itertools
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import texvent
@@ -63,7 +64,7 @@ def test_a_file_is_written_whatever_becomes_of_the_streams(folder, redirected):
 
 @pytest.mark.parametrize("redirected", ["2>/dev/full", "2>&-", ">&- 2>/dev/full"])
 def test_lost_progress_and_warnings_stop_no_run(folder, redirected):
-    words = "generate 'a wug and a ball' --duration 0.1 --sensor 16x12 -o a.h5 --previews none"
-    flat = "--interpolate none --simulator esim --samples 1"
-    assert shell(folder, f"{words} {flat}", redirected)[0] == 0
+    np.save(folder / "still.npy", np.full((3, 12, 16), 100, np.uint8))
+    words = "simulate still.npy --fps 20 -o a.h5 --previews none --interpolate none"
+    assert shell(folder, words, redirected)[0] == 0
     assert texvent.load(folder / "a.h5").size == (16, 12)
