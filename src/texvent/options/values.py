@@ -22,7 +22,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.options.arrays import as_number
 
 Config = TypeVar("Config")
-types_of = functools.cache(typing.get_type_hints)
+types_of: Callable[[type], dict[str, Any]] = functools.cache(typing.get_type_hints)
 """Types of a dataclass's fields by their names; Python compiles each anew whenever it is asked."""
 MAX_DIGITS = 100
 """Characters of a number; a Unix time in ns has 19."""
