@@ -20,6 +20,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
+from texvent.options.values import types_of
 from texvent.runtime.device_names import check_device_name
 
 IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | float | None, ...]]]
@@ -83,7 +84,7 @@ def check_choices(config: object) -> None:
     Raises:
         ConfigError: with the option's name, its value and what is allowed.
     """
-    for name, hint in typing.get_type_hints(type(config)).items():
+    for name, hint in types_of(type(config)).items():
         value, allowed = getattr(config, name), typing.get_args(hint)
         if typing.get_origin(hint) is Literal and value not in allowed:
             raise ConfigError(f"{name} is {shown(value)}; {suggest(value, allowed)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import sys
 import time
@@ -19,12 +20,18 @@ COMMAND = [sys.executable, "-m", "texvent.cli.app"]
 SMALL = ("--sensor", "64x48", "--interpolate", "none", "--noise", "none")
 
 
-@pytest.fixture
-def clip(folder):
-    """A video, as users have it beside their work."""
+@pytest.fixture(scope="module")
+def video(tmp_path_factory):
+    path = tmp_path_factory.mktemp("video") / "clip.avi"
     prompt = ("a red car drives left", "--duration", "0.3", "--sensor", "64x48", "--samples", "1")
-    assert run("generate", *prompt, "--video-only", "-o", "clip.avi") == 0
-    return Path("clip.avi")
+    assert run("generate", *prompt, "--video-only", "-o", path) == 0
+    return path
+
+
+@pytest.fixture
+def clip(folder, video):
+    """A video, as users have it beside their work."""
+    return Path(shutil.copy(video, "clip.avi"))
 
 
 def contents(folder: Path) -> dict[str, bytes]:

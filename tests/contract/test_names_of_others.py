@@ -34,7 +34,7 @@ def received(tmp_path_factory: pytest.TempPathFactory) -> Path:
         tmp_path_factory.mktemp("sent") / "set",
         splits={"train": 1.0},
         sources=[{"prompts": ["a red car drives left"], "label": "car"}],
-        options={"duration": 0.1, "sensor": "32x24"},
+        options={"duration": 0.1, "sensor": "32x24", "interpolate": "none"},
         variants={"paper": {}},
         truth=["boxes"],
     )

@@ -30,6 +30,7 @@ CARS: dict[str, Any] = {
     "options": {
         "duration": 0.1,
         "sensor": "32x24",
+        "interpolate": "none",
         "contrast_threshold": {"uniform": [0.1, 0.3]},
     },
     "sources": [

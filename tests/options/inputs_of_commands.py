@@ -120,7 +120,9 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
             for column in "xytp":
                 file[f"{name}/{column}"] = getattr(events, column)
     words = ["generate", "a red ball bounces", "--sensor", "16x12", "--duration", "0.2", "-q"]
-    assert main([*words, "--previews", "none", "-o", str(folder / "scene.h5")]) == 0
+    words += ["--samples", "1"]
+    flat = ["--previews", "none", "--interpolate", "none"]
+    assert main([*words, *flat, "-o", str(folder / "scene.h5")]) == 0
     assert main([*words, "--video-only", "-o", str(folder / "scene.avi")]) == 0
     noise = {"noise_curve": "128:2", "noise_scale": 1.0}
     config = PhysicalConfig(gamma=1.0, contrast_threshold=0.3, **noise)

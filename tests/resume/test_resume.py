@@ -34,12 +34,13 @@ def other_times() -> None:
 
 
 FLAT = ("--interpolate", "none", "--simulator", "esim")
+DRAFT = ("--samples", 1, *FLAT)
 VIDEOS = (
     *("batch", "clips/a.npy", "clips/b.npy", "-o", "out", "--timestamps", "times.txt"),
     *("--format", "atis", "--previews", "png", *FLAT),
 )
 PROMPTS = (
-    *("batch", "p.csv", "-o", "out", "--sensor", "16x12", "--duration", "0.05", *FLAT),
+    *("batch", "p.csv", "-o", "out", "--sensor", "16x12", "--duration", "0.05", *DRAFT),
     *("--format", "atis", "--previews", "png", "--truth", "depth,boxes"),
 )
 
@@ -73,7 +74,7 @@ name = "cars"
 samples_per_shard = 1
 filters = { min_events = 1 }
 splits = { train = 0.5, val = 0.5 }
-options = { duration = 0.1, sensor = "32x24", interpolate = "none" }
+options = { duration = 0.1, sensor = "32x24", samples = 1, interpolate = "none" }
 sources = [{ prompts = ["a red car drives left", "a blue car drives right"], label = "car" }]
 variants = { esim = { simulator = "esim" } }
 """

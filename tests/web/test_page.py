@@ -24,7 +24,8 @@ from texvent.web.job_page import Job, JobServer, page_html
 from texvent.web.server import CALL_BYTES, MOST_CONNECTIONS
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
-SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3"}
+SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3",
+         "simulator": "esim"}  # fmt: skip
 
 
 @pytest.fixture
@@ -63,7 +64,7 @@ def generate(page, prompt, **options):
 
 def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
     state, text = generate(page, "a wug and a red ball bounce")
-    options = {"duration": 0.1, "sensor": "48x36", "seed": 3}
+    options = {"duration": 0.1, "sensor": "48x36", "seed": 3, "simulator": "esim"}
     with pytest.warns(texvent.TexventWarning, match="wug"):
         whole = texvent.generate("a wug and a red ball bounce", **options)
     assert state == "done"

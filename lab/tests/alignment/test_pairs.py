@@ -71,7 +71,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     specification = (folder / "nt" / "specification.toml").read_text()
     specification = specification.replace("captions.jsonl", "one.jsonl")
     for name, size in (("whole", "640x480"), ("small", "32x24")):
-        own = specification.replace('"640x480" ', f'"{size}"\nduration = 0.1\ninterpolate = "none"')
+        draft = f'"{size}"\nduration = 0.1\ninterpolate = "none"\nsamples = 1'
+        own = specification.replace('"640x480" ', draft)
         (folder / "nt" / f"{name}.toml").write_text(f"filters = {{min_events = 0}}\n{own}")
         words = [str(folder / "nt" / f"{name}.toml"), "-o", str(folder / name), "--workers", "1"]
         assert main(["dataset", "make", *words, "-q"]) == 0

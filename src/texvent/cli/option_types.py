@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import functools
 import re
 import types
 import typing
@@ -11,12 +10,10 @@ from collections.abc import Iterable
 from typing import Any, Literal, NamedTuple
 
 from texvent.errors import shown
-from texvent.options.values import SCALARS, option_help, option_names
+from texvent.options.values import SCALARS, option_help, option_names, types_of
 
 REQUIRED: Any = object()
 """Default of a config field that the user must give."""
-_types_of = functools.cache(typing.get_type_hints)
-"""Types of a config's fields; Python compiles each anew whenever it is asked."""
 LONGEST_HELP = 120
 """Characters of an option's help that an error repeats."""
 
@@ -85,7 +82,7 @@ def declared_options(*configs: Any) -> Iterable[Option]:
     """The options of config instances, whose values are the defaults."""
     for config in configs:
         owner: type = type(config)
-        hints, texts = _types_of(owner), option_help(owner)
+        hints, texts = types_of(owner), option_help(owner)
         short = getattr(config, "short_flags", {})
         for name in option_names(owner):
             hint, is_optional = hints[name], type(None) in typing.get_args(hints[name])

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import typing
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
 from texvent._registry import Registry, suggest
 from texvent.errors import ConfigError, TexventError, shown
-from texvent.options.values import convert
+from texvent.options.values import convert, types_of
 
 WORDS = {"true": True, "false": False, "none": None}
 
@@ -36,7 +35,7 @@ def make_part(
             f"{registry.kind} {name!r} is {shown(part_type)}, no dataclass; the package that adds "
             "it must make it one, whose fields are its options"
         )
-    hints = typing.get_type_hints(part_type)
+    hints = types_of(part_type)
     allowed = tuple(field.name for field in dataclasses.fields(part_type) if field.init)
     values = {}
     for option, value in {**written, **options}.items():

@@ -22,6 +22,8 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.options.arrays import as_number
 
 Config = TypeVar("Config")
+types_of: Callable[[type], dict[str, Any]] = functools.cache(typing.get_type_hints)
+"""Types of a dataclass's fields by their names; Python compiles each anew whenever it is asked."""
 MAX_DIGITS = 100
 """Characters of a number; a Unix time in ns has 19."""
 _HUGE = r"[eE][+-]?[\d_]{4,}"
@@ -41,7 +43,7 @@ def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> C
     """
     config_type = type(config)
     names = option_names(config_type)
-    hints = typing.get_type_hints(config_type)
+    hints = types_of(config_type)
     converted: dict[str, Any] = {}
     for name, value in options.items():
         if name not in names:

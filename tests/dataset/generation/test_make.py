@@ -33,7 +33,7 @@ from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 from texvent_scenes.raycast.incremental import IncrementalRenderer
 
-SMALL = {"duration": 0.1, "sensor": "32x24"}
+SMALL = {"duration": 0.1, "sensor": "32x24", "interpolate": "none"}
 
 
 def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
@@ -41,7 +41,7 @@ def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
 
 
 def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> None:
-    recipe = recipe_of(store_videos=True)
+    recipe = recipe_of(store_videos=True, options={**SMALL, "samples": 1})
     make(recipe, tmp_path / "one")
     make(recipe, tmp_path / "pool", ProcessEngine(2))
     for part in (1, 2, 3):
@@ -116,7 +116,7 @@ def test_variants_that_share_frames_are_what_each_is_alone(
         "small": {"sensor": "16x12"},
     }
     few = {"sources": [{"prompts": ["a red car drives left"]}], "splits": {"train": 1.0},
-           "truth": ["boxes", "flow"]}  # fmt: skip
+           "truth": ["boxes", "flow"], "options": {**SMALL, "interpolate": "motion"}}  # fmt: skip
     make(recipe_of(**few, variants=variants), tmp_path / "all")
     if most_bytes > 40_000:
         assert len(rendered) == len(set(rendered)) > 0
@@ -127,7 +127,7 @@ def test_variants_that_share_frames_are_what_each_is_alone(
 
 
 def test_as_many_events_as_are_allowed_are_kept() -> None:
-    settings = resolve("generate", {**SMALL, "simulator": "esim"})
+    settings = resolve("generate", {**SMALL, "duration": 0.2, "simulator": "esim"})
     simulation = text_to_events("a red car drives left", settings)
     count = len(simulation.packets.collect())
     within = simulate_sample(SampleRun(simulation, Filters(max_events=count)))

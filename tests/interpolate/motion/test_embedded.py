@@ -65,11 +65,11 @@ def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, 
     monkeypatch.setattr(IncrementalRenderer, "_luma", count)
     streams, scene = {}, video(prompt)
     for interpolate in ("motion", "exact"):
-        options = {"interpolate": interpolate, "fixed_count": 15, "noise": "none"}
+        options = {"interpolate": interpolate, "fixed_count": 11, "noise": "none"}
         run = Simulation(video=scene, settings=resolve("generate", options))
         streams[interpolate] = run.packets.collect()
     assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.98
-    instants = 15 * (scene.frame_count - 1)
+    instants = 11 * (scene.frame_count - 1)
     assert sum(drawn) < most_drawn * instants
 
 
