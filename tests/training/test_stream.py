@@ -17,6 +17,8 @@ from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.frames import Video
 from texvent.represent.time_surface import time_surface
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.sensor import SensorSize
+from texvent.simulation.clips.pixels import ClipOutputs
 
 from .written import HEIGHT, STEP, WIDTH, Sliding, write_folders
 
@@ -220,6 +222,21 @@ def test_a_full_disk_costs_decoding_and_no_source(folder, tmp_path, monkeypatch)
         assert prints(take(stream, 6)) == expected
     assert len(told) == 1
     assert not stream.skipped
+
+
+def test_a_batch_that_does_not_fit_says_what_it_takes(folder, batches, monkeypatch):
+    one, outputs = batches[0], ClipOutputs(counts=True, latest=True)
+    arrays = one.first, one.frames, one.grids, one.counts, one.surfaces
+    assert outputs.count_bytes(3, 4, SensorSize(16, 12)) == sum(array.nbytes for array in arrays)
+
+    def refuse(*_):
+        raise torch.OutOfMemoryError("CUDA out of memory. Tried to allocate 3.00 GiB.")
+
+    stream = EventStream(folder, **SMALL)
+    monkeypatch.setattr(torch, "from_numpy", refuse)
+    said = r"batches of 3 clips of 5 frames of 16x12, whose arrays alone take \S+ GB, do not fit"
+    with pytest.raises(InputError, match=rf"{said} .*: 3\.00 GiB more .*smaller `batch`"):
+        take(stream, 1)
 
 
 def test_the_truth_of_a_clip_counts_as_memory():

@@ -7,7 +7,9 @@ import json
 import pytest
 
 from texvent.sensor import SensorSize
+from texvent.simulation.gpu.support import RunDevice
 from texvent_lab.measure import gpu
+from texvent_lab.measure.generated_video import Wan, measure_generated
 
 TINY = SensorSize(24, 16)
 
@@ -18,11 +20,16 @@ def test_every_figure_is_measured_and_stored():
     pytest.importorskip("triton")
     plan = gpu.GpuPlan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
-        copy_bytes=2**20, pair_sizes=(),
+        copy_bytes=2**20, pair_sizes=(), wan=None, seconds=1e6,
+        stream=gpu.stream.StreamPlan(batch=1, frames=2, side=8, bins=2, repeats=1, plain=1),
     )  # fmt: skip
-    document = json.loads(
-        json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))
-    )
+    saved: list[int] = []
+    device = "cuda" if torch.cuda.is_available() else "cpu"
+    document = gpu.measure(plan, device, lambda so_far: saved.append(len(json.dumps(so_far))))
+    document = json.loads(json.dumps(document))
+    assert saved == sorted(set(saved))
+    assert len(saved) == len(document["simulation"]) + len(document["stream"])
+    assert document["stream"][0]["stream_clips_per_hour"] > 0
     assert document["copy_gb_per_s"]["median"] > 0
     cases = [(row["model"], row["pixels"], row["batch"]) for row in document["simulation"]]
     assert ("paper", "uint8", 1) in cases
@@ -35,6 +42,25 @@ def test_every_figure_is_measured_and_stored():
             assert share > 0.1
     text = gpu.as_markdown(document)
     assert text.count("| paper |") == len(plan.densities) + len(plan.batches)
+
+
+@pytest.mark.torch
+@pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
+def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("triton")
+    pytest.importorskip("diffusers")
+    wan = Wan(
+        size=SensorSize(16, 16), frames=5, steps=1, heads=2, head_width=12, layers=1,
+        inner_width=32, text_width=32, decoder_width=4,
+    )  # fmt: skip
+    device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    rows = list(measure_generated(wan, RunDevice(device)))
+    assert [row["video"] for row in rows] == ["moving texture", "moving texture", "decoded noise"]
+    for row in rows:
+        assert (row["frames"], row["size"]) == (5, "16x16")
+        assert 0 < row["check_s"] < row["last_event_s"]
+        assert row["file_s"] > 0
 
 
 @pytest.mark.torch

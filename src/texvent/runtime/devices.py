@@ -128,26 +128,40 @@ def describe_device(device: Device) -> dict[str, str]:
 
 
 @contextlib.contextmanager
-def explain_device_memory(device: Device, size: object) -> Iterator[None]:
-    """Turn torch's failure of memory on a device into one line.
+def explain_device_memory(
+    device: Device,
+    size: object,
+    *,
+    subject: str = "frames of",
+    advice: str = "choose a smaller `sensor`",
+) -> Iterator[None]:
+    """Turn a failure of memory on a device into one line.
+
+    Args:
+        device: torch.device.
+        size: of the frames, or all that does not fit.
+        subject: stands before it.
+        advice: to do about it; on a GPU, device='cpu' is added.
 
     Raises:
-        InputError: it says how much frames of this size asked for, and how much there is.
+        InputError: it says how much was asked for, and how much there is.
     """
     try:
         yield
-    except RuntimeError as error:
-        # Others name memory too: "an illegal memory access".
-        if not re.search("out of memory|allocate memory", str(error)):
+    except (RuntimeError, MemoryError) as error:
+        # Others name memory too: "an illegal memory access". NumPy's is the host's.
+        is_other = isinstance(error, MemoryError) and device.type != "cpu"
+        if is_other or not re.search(
+            "out of memory|allocate memory|Unable to allocate", str(error)
+        ):
             raise
-        wanted = re.search(r"[Tt]ried to allocate ([\d.]+ \w+)", str(error))
+        wanted = re.search(r"(?:[Tt]ried|Unable) to allocate ([\d.]+ \w+)", str(error))
         facts = [f"{wanted[1]} more were wanted"] if wanted else []
-        advice = "choose a smaller `sensor`"
         if device.type == "cuda":
             facts.append(f"it has {total_bytes(device) / 1e9:.3g} GB, of which others may use some")
             advice += ", or device='cpu'"
         raise InputError(
-            f"frames of {size} do not fit into the memory of {device}: "
+            f"{subject} {size} do not fit into the memory of {device}: "
             + "; ".join([*facts, advice])
         ) from error
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -18,7 +19,7 @@ from texvent.errors import ConfigError, InputError, TexventError, few, one_line,
 from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.device_names import check_device_name
-from texvent.runtime.devices import find_gpu, triton_fault
+from texvent.runtime.devices import explain_device_memory, find_gpu, triton_fault
 from texvent.runtime.prefetch import prefetch
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.simulation.clips.pixels import (
@@ -222,7 +223,8 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         prepared = prefetch(self._prepare_all(own, world * workers), depth=AHEAD)
         try:
             for ready in prepared:
-                batch = self._simulate(ready)
+                with self._explain_memory():
+                    batch = self._simulate(ready)
                 # Of the worker too: the round at which worker 0 begins, for this one to go on here.
                 done = (ready.number - begin) // world + workers - worker
                 self._next = begin + done * world
@@ -325,6 +327,18 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             events=None if made.words is None else _events_of(made, self._plan.size),
             truth={name: self._truth_of(name, ready.cuts) for name in self._names},
             draws=draws,
+        )
+
+    def _explain_memory(self) -> AbstractContextManager[None]:
+        """Turn a failure of memory inside into one line."""
+        plan, count = self._plan, self.batch
+        needed = self._outputs.count_bytes(count, plan.intervals, plan.size) / 1e9
+        return explain_device_memory(
+            self._device,
+            f"{count} clips of {plan.intervals + 1} frames of {plan.size}, whose arrays alone take "
+            f"{needed:.3g} GB,",
+            subject="batches of",
+            advice="take a smaller `batch` or `size`, or fewer `frames` or `outputs`",
         )
 
     def _surfaces(self, latest: Tensor, times_us: Tensor) -> Tensor:

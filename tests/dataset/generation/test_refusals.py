@@ -46,6 +46,16 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.parametrize("device", ["gpu", "cuda:99"])
+def test_a_device_that_is_not_there_is_one_line_and_no_folder(
+    device: str, inputs: Path, tmp_path: Path
+) -> None:
+    done = make(inputs, tmp_path / "set", "--device", device)
+    assert done.returncode != 0
+    assert len(done.stderr.splitlines()) == 1
+    assert not (tmp_path / "set").exists()
+
+
 def make(
     inputs: Path, out: Path, *words: str, before: Callable[[], None] | None = None
 ) -> subprocess.CompletedProcess[str]:

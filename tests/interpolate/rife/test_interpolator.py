@@ -129,6 +129,18 @@ def test_a_layout_is_recognised_beside_a_teacher(files, tmp_path, layout):
     assert not any(name.startswith("block_tea") for name in network.state_dict())
 
 
+def test_a_network_is_loaded_once_and_again_where_its_file_is_another(files, stream, tmp_path):
+    path = tmp_path / "flownet.pkl"
+    config = InterpolateConfig(interpolate="rife", interpolator_weights=path)
+    networks = []
+    for name in ("4.6", "4.6", "4.25"):
+        if len(networks) != 1:
+            path.write_bytes(files[name].read_bytes())
+        networks.append(RifeInterpolator(config, stream)._network)
+    assert networks[0] is networks[1]
+    assert networks[2].layout.name == "4.25"
+
+
 def test_safetensors_hold_the_same_network(files, tmp_path):
     pytest.importorskip("safetensors")
     network = read_rife_weights(files["4.6"])

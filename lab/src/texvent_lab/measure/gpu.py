@@ -6,7 +6,9 @@ Whole calls as a user makes them: frames on the device → events on the device,
 wait for their number included. A few calls follow each other without another wait, as in a loop
 over batches. Warm-up calls, which compile the kernels, are not timed. The CPU's kernels see the
 first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole runs: frames in the
-host's memory → packets; they need its weights, else their rows are left out.
+host's memory → packets; they need its weights, else their rows are left out. Videos of a model go
+from its decoder to the last packet (`generated_video.py`), and training batches are those of
+`stream.py`. The file is written after every row; none is begun after `GpuPlan.seconds`.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ import itertools
 import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,11 +34,13 @@ from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation import gpu
-from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.esim.simulator import EsimConfig
 from texvent.simulation.gpu.launch import EXTRA
 from texvent.simulation.gpu.support import RunDevice
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
+from texvent_lab.measure import stream
+from texvent_lab.measure.generated_video import Wan, measure_generated
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
 HD = SensorSize(1280, 720)
@@ -63,18 +67,48 @@ class GpuPlan:
     pair_sizes: tuple[SensorSize, ...] = (SensorSize(640, 480), HD)
     pairs: int = 48
     """Pairs of a run with RIFE; the first half is not timed."""
+    wan: Wan | None = field(default_factory=Wan)
+    """Pipeline of a video model; None: none."""
+    stream: stream.StreamPlan | None = field(default_factory=stream.StreamPlan)
+    """Training batches; None: none."""
+    seconds: float = 300.0
+    """Time after which no row is begun."""
 
 
-def measure(plan: GpuPlan, device: str) -> dict[str, Any]:
-    """All figures, ready for JSON."""
+def measure(
+    plan: GpuPlan, device: str, save: Callable[[dict[str, Any]], None] = lambda document: None
+) -> dict[str, Any]:
+    """All figures, ready for JSON, those that matter most first.
+
+    Args:
+        plan: sizes and repeats.
+        device: of everything but decoding and files.
+        save: called with what there is after every row.
+    """
+    end_s = time.monotonic() + plan.seconds
     copy = measure_copy(plan, device)
-    return {
-        "schema": 1,
+    parts = {
+        "pairs": measure_pairs(plan, device),
+        "generated": () if plan.wan is None else measure_generated(plan.wan, _chosen(device)),
+        "stream": (stream.measure(one, device) for one in (plan.stream,) if one is not None),
+        "simulation": measure_simulation(plan, device, copy["median"]),
+    }
+    document: dict[str, Any] = {
+        "schema": 2,
         "environment": describe(device),
         "copy_gb_per_s": copy,
-        "simulation": list(measure_simulation(plan, device, copy["median"])),
-        "pairs": list(measure_pairs(plan, device)),
+        **{name: [] for name in parts},
     }
+    for name, rows in parts.items():
+        waiting = iter(rows)
+        while time.monotonic() < end_s and (row := next(waiting, None)) is not None:
+            document[name].append(row)
+            save(document)
+    return document
+
+
+def _chosen(device: str) -> RunDevice:
+    return RunDevice(find_gpu(device) or require("torch", extra=EXTRA).device(device))
 
 
 def measure_pairs(
@@ -92,7 +126,7 @@ def measure_pairs(
     except InputError as error:
         print(f"pairs with RIFE were left out: {error}", file=sys.stderr)
         return
-    chosen = RunDevice(find_gpu(device) or require("torch", extra=EXTRA).device(device))
+    chosen = _chosen(device)
     for size, preset in itertools.product(plan.pair_sizes, ("paper", "accurate")):
         video = moving_texture(size, plan.pairs + 1)
         options = {"preset": preset, "interpolate": "rife", "device": "cpu"}
@@ -275,6 +309,11 @@ def as_markdown(document: dict[str, Any]) -> str:
     names = ("preset", "size", "frames_between", "ms_per_pair", "levels_from_float32")
     pairs = [tuple(str(row[name]) for name in names) for row in document["pairs"]]
     lines.append(markdown_table(names, pairs))
+    of_videos = ("video", "interpolate", "frames_between", "events", "last_event_s", "file_s")
+    made = [tuple(str(row[name]) for name in of_videos) for row in document["generated"]]
+    lines.append(markdown_table(of_videos, made))
+    for row in document["stream"]:
+        lines += [f"{name}: {value}" for name, value in row.items()]
     return "\n".join(lines)
 
 
@@ -290,9 +329,12 @@ def main() -> int:
     if not require("torch", extra=EXTRA).cuda.is_available():
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
-    document = measure(GpuPlan(), "cuda")
-    if chosen.json is not None:
-        write_document(chosen.json, document, overwrite=True)
+
+    def save(document: dict[str, Any]) -> None:
+        if chosen.json is not None:
+            write_document(chosen.json, document, overwrite=True)
+
+    document = measure(GpuPlan(), "cuda", save)
     print(as_markdown(document))
     return 0
 

@@ -85,6 +85,7 @@ def run_make(arguments: Sequence[str]) -> int:
     )
     part = parse_part(options.shards)
     recipe, folder = _open(options)
+    recipe.check_device(options.device)
     begin(recipe, folder)
     work = find_work(
         recipe, folder, part=part, retry_failed=options.retry_failed, device=options.device

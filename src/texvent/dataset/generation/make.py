@@ -90,10 +90,9 @@ def find_work(
         device: of the pixel model and networks; "auto": that of the specification.
 
     Raises:
-        ConfigError: there is no such part, or no such device.
+        ConfigError: there is no such part.
         FileFormatError: the record of a shard is damaged.
     """
-    recipe.check_device(device)
     which, parts = part
     work = Work(summary=attrgetter("statuses"))
     together: dict[Any, list[Shard]] = {}
@@ -195,6 +194,7 @@ def make(
     if not isinstance(specification, Specification):
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
+    recipe.check_device(device)
     begin(recipe, folder)
     work = find_work(recipe, folder, retry_failed=retry_failed, device=device)
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -26,11 +26,13 @@ from texvent.runtime.devices import Device, explain_device_memory, to_device
 from texvent.transfer import WHITE, Transfer
 
 if TYPE_CHECKING:
-    from texvent.interpolate.rife.network import IntermediateFlow
+    from texvent.interpolate.rife.network import IntermediateFlow, RifeNetwork
 
 BYTES_PER_PIXEL = {True: 100, False: 1_000}
 """About what one intermediate frame takes while it is drawn, for each pixel: by a motion that the
 frames share, and with the network run anew."""
+KEPT = 4
+"""Networks that later runs of the process find loaded, by file and device."""
 DRAWN_BYTES = 2 << 30
 """Frames are drawn in one batch on a GPU; so much memory for it, at most."""
 
@@ -70,15 +72,12 @@ class RifeInterpolator:
         torch = import_torch()
         self._device = torch.device("cpu") if device is None else device
         self._path = find_rife_weights(config.interpolator_weights)
-        network = read_rife_weights(self._path)
+        state = self._path.stat()
         with explain_device_memory(self._device, stream.size):
-            self._network = network.to(self._device)
+            self._network, self._run = _load(
+                self._path, self._device, (state.st_ino, state.st_size, state.st_mtime_ns)
+            )
         self._is_shared = config.rife_flow == "once"
-        self._run: Callable[..., IntermediateFlow] = self._network
-        if self._device.type == "cuda":
-            from texvent.interpolate.rife.recorded import RecordedNetwork  # needs torch
-
-            self._run = RecordedNetwork(self._network)
 
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
@@ -166,6 +165,20 @@ class RifeInterpolator:
         flows = motion.flow[:, :2], motion.flow[:, 2:]
         first, second = (warp(*one) for one in zip(images, flows, strict=True))
         return (second + (first - second) * weight)[:, 0]
+
+
+@lru_cache(maxsize=KEPT)
+def _load(
+    path: Path, device: Device, state: object
+) -> tuple[RifeNetwork, Callable[..., IntermediateFlow]]:
+    """The network of a file on a device, and how it is run there for a pair."""
+    del state  # only so that another file under that path is read again
+    network = read_rife_weights(path).to(device)
+    if device.type != "cuda":
+        return network, network
+    from texvent.interpolate.rife.recorded import RecordedNetwork  # needs torch
+
+    return network, RecordedNetwork(network)
 
 
 @dataclass(frozen=True, eq=False)

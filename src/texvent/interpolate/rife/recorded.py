@@ -1,15 +1,19 @@
 """RIFE's network on a GPU: float16, all of its launches recorded once per size and then replayed.
 
 At the sizes of video the network waits for launches, not for arithmetic. Needs torch to import.
+Runs in several threads may share a network: they take turns.
 """
 
 from __future__ import annotations
 
+import threading
 from typing import Any, NamedTuple
 
 from texvent.interpolate.rife.network import IntermediateFlow, RifeNetwork, torch
 from texvent.networks.weight_files import Tensor
 
+_one_records = threading.Lock()
+"""Before it records, torch waits for the device, which CUDA refuses during another recording."""
 WARM_UPS = 3
 """Runs before recording, in which libraries choose and set up what they need."""
 
@@ -32,10 +36,11 @@ class RecordedNetwork:
     def __init__(self, network: RifeNetwork) -> None:
         self._network = network
         self._recording: _Recording | None = None
+        self._turn = threading.Lock()
 
     def __call__(self, first: Tensor, second: Tensor) -> IntermediateFlow:
         """The motion at the middle of a pair; arguments as of `RifeNetwork.forward`."""
-        with torch.cuda.device(first.device):
+        with self._turn, torch.cuda.device(first.device):
             recording = self._recording
             if recording is None or recording.images[0].shape != first.shape:
                 self._recording = None  # frees the memory of the other size first
@@ -56,7 +61,7 @@ class RecordedNetwork:
         torch.cuda.current_stream().wait_stream(aside)
         graph = torch.cuda.CUDAGraph()
         # Other threads go on: only this thread's calls must be ones that can be recorded.
-        with torch.cuda.graph(graph, capture_error_mode="thread_local"):
+        with _one_records, torch.cuda.graph(graph, capture_error_mode="thread_local"):
             motion = self._run(images)
         return _Recording(graph, images, motion)
 

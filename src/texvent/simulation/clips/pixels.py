@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range, check_whole
 from texvent.errors import InputError
+from texvent.sensor import SensorSize
 from texvent.simulation.random.draws import Purpose
 
 Float64Array = NDArray[np.float64]
@@ -98,6 +99,12 @@ class ClipOutputs:
     def __post_init__(self) -> None:
         check_whole("bins", self.bins, 1, 64)
         check_whole("intervals_per_window", self.intervals_per_window, 1, 1024)
+
+    def count_bytes(self, clips: int, intervals: int, size: SensorSize) -> int:
+        """Bytes of the frames of a batch and of its arrays; making them takes more."""
+        windows = intervals // self.intervals_per_window
+        of_window = 4 * self.bins * self.grids + 8 * self.counts + 8 * self.latest
+        return clips * size.width * size.height * (intervals + 1 + windows * of_window)
 
 
 class ClipArrays(NamedTuple):
