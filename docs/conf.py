@@ -127,7 +127,7 @@ CHILDREN = {
     "digits": ["results/digits", "results/digits-all"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
-    "datasets": ["datasets-load"],
+    "datasets": ["datasets-load", "spiking"],
     "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],
     "site/architecture": ["design"],
 }

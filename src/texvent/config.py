@@ -121,8 +121,8 @@ class RunConfig:
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
-    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e,
-    voltmeter or senpi."""
+    """Pixel model, which turns brightness into events: texvent, physical, esim, v2e, voltmeter or
+    senpi."""
     preset: str = "accurate"
     """Set of simulator options; --help run lists them. Single options override it. Without
     simulator it is that of the one that has the preset."""

@@ -1,12 +1,13 @@
 """Every snippet in README.md and docs/ runs: Python blocks, and `$ texvent` lines of consoles.
 
 A page's blocks run in order, in one namespace, in an empty folder; then once more, as a reader who
-pastes them again runs them. A block that cannot run in a
-test (it needs a camera, a download or minutes) is fenced as `text`.
+pastes them again runs them. A block that needs one of `LIBRARIES` runs where that is installed; one
+that cannot run in a test (it needs a camera, a download or minutes) is fenced as `text`.
 """
 
 import re
 import shlex
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,9 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 KEEPS_NOTHING = ("dataset plan",)
 """Commands that simulate and keep nothing: the second time, they would be as the first time."""
 
+LIBRARIES = ("torch", "tonic", "snntorch", "norse", "spikingjelly")
+"""Packages that texvent does not need; torch is there in `make test-torch`."""
+IMPORTS = re.compile(rf"^\s*(?:import|from) ({'|'.join(LIBRARIES)})\b", re.MULTILINE)
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -39,12 +43,25 @@ def test_snippets_run_twice(page, tmp_path, monkeypatch, capsys):
     run_page(page, capsys, left_out=KEEPS_NOTHING)
 
 
+@pytest.mark.torch
+@pytest.mark.parametrize(
+    "page",
+    [page for page in PAGES if any(IMPORTS.search(text) for _, text in blocks(page))],
+    ids=lambda page: str(page.relative_to(ROOT)),
+)
+def test_snippets_that_need_torch_run_twice(page, tmp_path, monkeypatch, capsys):
+    pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+    test_snippets_run_twice(page, tmp_path, monkeypatch, capsys)
+
+
 def run_page(
     page: Path, capsys: pytest.CaptureFixture[str], *, left_out: tuple[str, ...] = ()
 ) -> None:
     namespace: dict[str, object] = {"__name__": "snippet"}
     for language, text in blocks(page):
         if language == "python":
+            if not all(map(find_spec, IMPORTS.findall(text))):
+                continue
             exec(compile(text, f"{page.name} snippet", "exec"), namespace)
             continue
         for line in text.splitlines():

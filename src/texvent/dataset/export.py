@@ -17,6 +17,7 @@ from texvent.dataset.generation.shard_files import SampleRecord
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import (
     check_layout,
+    class_numbers,
     doubts_of,
     find_classes,
     find_recipe,
@@ -29,6 +30,7 @@ from texvent.dataset.layouts.frames import clip_frames
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.layouts.prophesee import GEN1, MEGAPIXEL
 from texvent.dataset.layouts.rvt import RVT
+from texvent.dataset.layouts.spiking import DVS_GESTURE, N_MNIST
 from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import ConfigError, OutputError, one_line, shown
@@ -41,6 +43,8 @@ LAYOUTS: Mapping[str, Layout] = {
     "hdf5": HDF5,
     "n-imagenet": N_IMAGENET,
     "n-caltech101": N_CALTECH101,
+    "n-mnist": N_MNIST,
+    "dvs-gesture": DVS_GESTURE,
     "gen1": GEN1,
     "1mpx": MEGAPIXEL,
     "rvt": RVT,
@@ -136,15 +140,18 @@ def export(
 def _samples(
     dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList, recipe: Recipe | None
 ) -> Iterator[LayoutSample]:
+    numbers = class_numbers(dataset.labels)
     for shard in dataset.shards(variant):
         for sample in shard.samples:
-            yield _layout_sample(shard, sample, layout, classes, recipe)
+            number = numbers.get(sample.label or "", 0)
+            yield _layout_sample(shard, sample, layout, number, classes, recipe)
 
 
 def _layout_sample(
     shard: StoredShard,
     sample: SampleRecord,
     layout: Layout,
+    number: int,
     classes: ClassList,
     recipe: Recipe | None,
 ) -> LayoutSample:
@@ -158,7 +165,11 @@ def _layout_sample(
         key=sample.key,
         split=split,
         place=layout.place.format(
-            split=split, folder=layout.folders.get(split, split), label=label, key=sample.key
+            split=split,
+            folder=layout.folders.get(split, split),
+            label=label,
+            number=number,
+            key=sample.key,
         ),
         size=files.size,
         start_us=sample.start_us,
@@ -198,6 +209,7 @@ def _begin(
         FileFormatError: its note is damaged.
     """
     first = LAYOUTS[layout].first_class
+    numbers = class_numbers(dataset.labels) if LAYOUTS[layout].numbers_classes else {}
     note = {
         "texvent_version": full_version(),
         "layout": layout,
@@ -205,7 +217,10 @@ def _begin(
         "variant": variant,
         "identity": dataset.identity,
         "classes": list(classes.names),
-        "class_numbers": {name: first + one for name, one in classes.numbers.items()},
+        "class_numbers": {
+            **{name: first + one for name, one in classes.numbers.items()},
+            **numbers,
+        },
     }
     try:
         before = read_note(folder / NOTE_FILE, remedy=REMEDY)

@@ -62,10 +62,11 @@ class NMnistCodec(BlockCodec):
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Records begin at once."""
-        return write_records(part, b"", _encode)
+        return write_records(part, b"", encode_records)
 
 
-def _encode(columns: Columns) -> bytes:
+def encode_records(columns: Columns) -> bytes:
+    """Events as five bytes each: x, y, then p in the top bit and the time, µs, in 23 bits."""
     t = columns["t"].astype(np.uint32)
     records = np.empty((len(t), EVENT_BYTES), dtype=np.uint8)
     records[:, 0] = columns["x"]

@@ -13,6 +13,7 @@ import cv2
 import h5py
 import numpy as np
 import yaml
+from numpy.lib import recfunctions as structured
 
 Box = tuple[float, ...]
 """t (µs), x, y, w, h (pixels), class from 0, track."""
@@ -54,6 +55,45 @@ def read_n_caltech101(folder: Path) -> Iterator[tuple[str, Read]]:
             events = {"x": raw[:, 0], "y": raw[:, 1], "t": t, "p": raw[:, 2] >> 7}
             assert place.startswith("Caltech101/")
             yield Path(place).stem, Read(listed.stem, Path(place).parent.name, events)
+
+
+def read_n_mnist(folder: Path) -> Iterator[tuple[str, Read]]:
+    """As tonic reads both folders; and the same events as SpikingJelly reads them."""
+    for name, path, number in _numbered(folder, "NMNIST/T*/*/*.bin", -2):
+        raw = np.fromfile(path, np.uint8).reshape(-1, 5).astype(np.int64)
+        t = (raw[:, 2] & 127) << 16 | raw[:, 3] << 8 | raw[:, 4]
+        events = {"x": raw[:, 0], "y": raw[:, 1], "t": t, "p": raw[:, 2] >> 7}
+        split = path.parts[-3].lower()
+        _same_in_events_np(folder / "events_np" / split / str(number) / f"{path.stem}.npz", events)
+        yield path.stem, Read(split, name, events)
+
+
+def read_dvs_gesture(folder: Path) -> Iterator[tuple[str, Read]]:
+    """As tonic reads folders of users; and the same events as SpikingJelly reads them."""
+    for name, path, number in _numbered(folder, "DVSGesture/ibmGesture*/*/*.npy", -1):
+        user, key = path.parent.name.split("_", 1)
+        assert int(user[4:]) == 0
+        rows = np.load(path)
+        rows[:, 3] *= 1000
+        kind = np.dtype([("x", np.int16), ("y", np.int16), ("p", bool), ("t", np.int64)])
+        events = structured.unstructured_to_structured(rows, kind)
+        split = path.parts[-3].removeprefix("ibmGesture").lower()
+        _same_in_events_np(folder / "events_np" / split / str(number) / f"{key}.npz", events)
+        yield key, Read(split, name, events)
+
+
+def _numbered(folder: Path, pattern: str, place: int) -> Iterator[tuple[str, Path, int]]:
+    """Label, path and number of the class, which is a part of the path."""
+    numbers = json.loads((folder / "texvent-export.json").read_text())["class_numbers"]
+    for path in folder.glob(pattern):
+        number = int(Path(path.parts[place]).stem)
+        yield next(name for name, one in numbers.items() if one == number), path, number
+
+
+def _same_in_events_np(path: Path, events: Any) -> None:
+    stored = np.load(path)
+    for name in "txyp":
+        np.testing.assert_array_equal(stored[name], events[name])
 
 
 def read_prophesee(folder: Path) -> Iterator[tuple[str, Read]]:
@@ -150,6 +190,8 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Any]]]] = {
     "hdf5": read_hdf5,
     "n-imagenet": read_n_imagenet,
     "n-caltech101": read_n_caltech101,
+    "n-mnist": read_n_mnist,
+    "dvs-gesture": read_dvs_gesture,
     "gen1": read_prophesee,
     "1mpx": read_prophesee,
     "rvt": read_rvt,

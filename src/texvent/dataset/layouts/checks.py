@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
@@ -37,6 +37,12 @@ def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str
             "sources a label, or export to hdf5"
         )
     _check_labels(dataset, layout)
+    numbers = class_numbers(dataset.labels) if layout.numbers_classes else {}
+    if layout.most_classes is not None and max(numbers.values(), default=0) >= layout.most_classes:
+        raise InputError(
+            f"layout {name} numbers {layout.most_classes} classes from 0, and {dataset.name} has "
+            f"{few(dataset.labels)}; make a data set of fewer classes, or choose another layout"
+        )
     for sample in _samples(dataset, variant):
         if layout.has_boxes and sample.boxes is None:
             raise InputError(
@@ -68,6 +74,18 @@ def folder_name(label: str) -> str:
     if not name or len(name.encode()) > MAX_NAME_BYTES:
         raise InputError(f"class {shown(label)} cannot name a folder; give it another name")
     return name
+
+
+def class_numbers(labels: Sequence[str]) -> dict[str, int]:
+    """Class → its number: what it says, where all are numbers, else its place.
+
+    Example:
+        >>> class_numbers(["3", "7"]), class_numbers(["cat", "dog"])
+        ({'3': 3, '7': 7}, {'cat': 0, 'dog': 1})
+    """
+    if all(label.isdecimal() and str(int(label)) == label for label in labels):
+        return {label: int(label) for label in labels}
+    return {label: place for place, label in enumerate(labels)}
 
 
 def _check_labels(dataset: StoredDataset, layout: Layout) -> None:
@@ -156,6 +174,9 @@ def doubts_of(
         "label.npy" in sample.members for sample in _samples(dataset, variant)
     ):
         doubts.append("it does not hold which events are noise")
+    if layout.numbers_classes:
+        numbered = class_numbers(dataset.labels).items()
+        doubts.append(f"its classes are {', '.join(f'{one} {name}' for name, one in numbered)}")
     splits: dict[str, list[str]] = {}
     for split in dataset.splits:
         splits.setdefault(layout.split_of(split), []).append(split)

@@ -61,7 +61,8 @@ class Layout:
     """Layout of an exported data set."""
 
     place: str
-    """Path of a sample in the exported folder, of its {split}, {folder}, {label} and {key}."""
+    """Path of a sample in the exported folder, of its {split}, {folder}, {label} and {key}; or of
+    the {number} of its label."""
     write: Write
     beside: Callable[[Path], Path] | None = None
     """Path of the second file of a sample, if there is one."""
@@ -83,13 +84,20 @@ class Layout:
     """Its classes of boxes, as `ClassList.parse` reads them; "": those of the data set."""
     first_class: int = 0
     """Number of the first class of boxes in its files."""
+    most_classes: int | None = None
+    """Most classes of samples that its readers tell apart, where these have numbers."""
     shortest_us: int = 0
     """Least duration of a sample, µs."""
 
     @property
     def needs_classes(self) -> bool:
-        """True if each class has a folder."""
-        return "{label}" in self.place
+        """True if each class has a folder, or a number."""
+        return "{label}" in self.place or self.numbers_classes
+
+    @property
+    def numbers_classes(self) -> bool:
+        """True if classes have numbers."""
+        return "{number}" in self.place
 
     def files_of(self, path: Path) -> list[Path]:
         """The files, or the folder, of a sample at a path."""
