@@ -44,7 +44,11 @@ from texvent_scenes.staging.tracks.choose_track import (
     orbit,
 )
 from texvent_scenes.staging.tracks.keys import Vector
-from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
+from texvent_scenes.staging.tracks.motion_plan import (
+    plan_motion,
+    raised,
+    with_heading,
+)
 from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
@@ -146,8 +150,13 @@ class ObjectPlacer:
         start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
         if said.position_m is not None:
             group.centre[:2] += np.subtract(said.position_m, start[:2])
-        if height_m is not None:
-            group.centre[2] += height_m - lowest_point(group.models[0]) - start[2]
+        if height_m is None:
+            return
+        lift = height_m - lowest_point(group.models[0]) - float(start[2])
+        if group.plan.start_m is None:
+            group.centre[2] += lift
+        else:  # it comes down to where it is, which may be a table
+            group.plan = raised(group.plan, lift)
 
     def _match_paces(self, group: ObjectGroup) -> None:
         """Give a follower, a companion or what is overtaken the pace of its partner."""

@@ -95,9 +95,9 @@ def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[
             unit = [new if each == old else each for each in unit]
     alone = {n for n in unit if unit.count(n) == 1}
     groups: dict[tuple[int, int], list[int]] = {}
-    for number, one in enumerate(actors):
-        own = unit[one.object_index]
-        # Copies of one object that nothing binds stand each by themselves.
+    for number, actor in enumerate(actors):
+        own = unit[actor.object_index]
+        # Copies of actor object that nothing binds stand each by themselves.
         groups.setdefault((own, number if own in alone else -1), []).append(number)
     return list(groups.values())
 

@@ -134,6 +134,15 @@ def with_heading(plan: MotionPlan, heading_deg: float | None) -> MotionPlan:
     return replace(plan, yaw=yaw, path=plan.path and replace(plan.path, yaw=yaw))
 
 
+def raised(plan: MotionPlan, by_m: float) -> MotionPlan:
+    """The plan of what comes down, from so much higher above the place where it lands."""
+    path, start_m = plan.path, max((plan.start_m or 0.0) + by_m, 0.0)
+    if path is not None:
+        x, y, z = path.start
+        path = replace(path, start=(x, y, max(z + by_m, 0.0)))
+    return replace(plan, start_m=start_m, path=path)
+
+
 def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
     """Motion kind that suits a noun: only hands rotate, other nouns spin; narrow ones topple."""
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:

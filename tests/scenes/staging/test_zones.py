@@ -1,0 +1,118 @@
+"""Bodies stand where their kind may be, none through another; what nobody holds is not strewn."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.staged import stage, thing
+
+from texvent_scenes.models.activities import HAND_NOUNS
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.staging.actors import Actor, seeded
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.placement.zones import zone_of
+from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.scenery import ViewClearance, scatter
+
+TIMES_S = np.linspace(0.0, 2.0, 9)
+STREETS = {
+    "oncoming": (thing("car", ("drive", "left")), thing("truck", ("drive", "right"))),
+    "stop": (thing("bus stop", ("stand",)), thing("bus", ("drive", "left")),
+             thing("man", ("stand",)), thing("dog", ("walk", "left"))),
+    "crossing": (thing("man", ("walk", "across")), thing("car", ("drive", "right")),
+                 thing("woman", ("walk", "across"))),
+    "parked": (thing("car", ("stand",)), thing("bench", ("stand",)), thing("man", ("wave",)),
+               thing("car", ("drive", "left"))),
+    "standing": (thing("taxi", ("stand",)), thing("fire hydrant", ("stand",))),
+}  # fmt: skip
+
+
+def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
+    seen = scene.environment(0.0)
+    x, y = seen.road_offset
+    return RoadLine(seen.road_angle, (float(x), float(y))), float(seen.road_half_width)
+
+
+def boxes(actor: Actor) -> np.ndarray:
+    """[instants, 2, 3] least and greatest corners."""
+    corners = np.array([actor.corners(t) for t in TIMES_S])
+    return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
+
+
+@pytest.mark.parametrize("place", ["city", "road"])
+@pytest.mark.parametrize("name", STREETS)
+def test_who_drives_has_a_lane_and_others_the_pavement_unless_they_cross(name, place):
+    for seed in range(3):
+        scene = stage(*STREETS[name], place=place, seed=seed)
+        road, half_m = road_of(scene)
+        for one in scene.actors:
+            across = road.across(np.vstack([one.corners(t)[:, :2] for t in TIMES_S]))
+            turn = one.track.at(1.0).yaw - road.angle
+            if zone_of(one.noun) == "road":
+                assert abs(math.sin(turn)) < 0.05
+                assert np.abs(across).max() < half_m + 0.05
+                if one.is_mover:  # traffic keeps to the right
+                    assert across.mean() * math.cos(turn) <= 1e-6 or len(STREETS[name]) == 1
+            elif one.goes_across:
+                assert abs(math.cos(turn)) < 0.05
+            else:
+                assert np.abs(across).min() >= half_m
+        for one, other in itertools.combinations(scene.actors, 2):
+            a, b = boxes(one), boxes(other)
+            apart = np.maximum(a[:, 0] - b[:, 1], b[:, 0] - a[:, 1]).max(axis=1)
+            assert apart.min() > -0.05, (one.noun.name, other.noun.name)
+
+
+@pytest.mark.parametrize("kind", ["stand", "drive"])
+def test_rails_lie_under_the_train_and_others_beside_them(kind):
+    scene = stage(thing("man", ("stand",)), thing("train", (kind,)), place="railway")
+    train = next(one for one in scene.actors if one.noun.name == "train")
+    x, y, _ = train.middle(0.0)
+    view = ViewClearance([scene.camera(0.0)], [], 9.0, None, RoadLine(1.0))
+    rule = next(one for one in PLACES["railway"].scenery if one.noun == "railway track")
+    (rails,) = scatter([rule], view, scene.actors, NOUNS, rng=seeded(0, "rails"))
+    line = RoadLine(rails.yaw, rails.position)
+    assert abs(line.across(np.array([[x, y]]))[0]) < 1e-6
+    assert abs(math.sin(rails.yaw - train.track.at(0.0).yaw)) < 1e-6
+    man = next(one for one in scene.actors if one.noun.name == "man")
+    assert np.abs(line.across(man.corners(1.0)[:, :2])).min() > 1.0
+
+
+@pytest.mark.parametrize("place", [name for name, one in PLACES.items() if one.has_shore])
+def test_what_stands_on_land_is_not_in_the_water(place):
+    for seed in range(2):
+        scene = stage(thing("pine", ("stand",), count=3), thing("man", ("walk", "left")),
+                      thing("house", ("stand",), placement="far"), place=place,
+                      seed=seed)  # fmt: skip
+        road, half_m = road_of(scene)
+        half_m = half_m if place == "river" else 0.0
+        for one in scene.actors:
+            assert road.across(one.corners(0.0)[:, :2]).max() < -half_m
+
+
+SMALL = sorted(nouns_with("in hand or on something") & NOUNS.keys())
+
+
+def test_what_nobody_has_is_not_strewn_about_and_is_said_to_be_missing():
+    scene = stage(thing("man", ("stand",)), *(SceneObject(noun) for noun in SMALL))
+    assert [one.noun.name for one in scene.actors] == ["man"]
+    for noun in SMALL:
+        assert any(line.startswith(f"the {noun} (") for line in scene.not_shown)
+    shown = stage(thing("man", ("stand",)), SceneObject("cup", position_m=(1.0, 0.0)),
+                  SceneObject("book", motions=(Motion("spin"),)))  # fmt: skip
+    assert [one.noun.name for one in shown.actors] == ["man", "cup", "book"]
+    assert not shown.not_shown
+
+
+@pytest.mark.parametrize("noun", sorted({*SMALL} - HAND_NOUNS)[::4])
+def test_a_person_with_a_small_thing_has_it(noun):
+    scene = stage(thing("man", ("walk", "left")), SceneObject(noun), relations=(("with", 0, 1),))
+    man, *things = scene.actors
+    for one in things:  # the body has clothes on
+        assert one.track.anchor is not None
+        gap = [np.linalg.norm(one.middle(t) - man.middle(t)) for t in TIMES_S]
+        assert max(gap) < 1.3
