@@ -376,6 +376,7 @@ class ProceduralGenerator:
             not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.violations))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
+            notes=(*said.notes, *scene.camera_path.notes),
         )
         scene = replace(scene, has_highlights=self.config.hdr)
         return scene, self._accepted(report), list_files(description, named)

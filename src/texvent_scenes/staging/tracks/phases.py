@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
 from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.protocol import Model, Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.keys import HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.track import Track, centred
@@ -41,6 +41,8 @@ _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 that the turn to another direction takes."""
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
+_RUNNING = 2.5
+"""Running over walking speed of nouns without a number for it."""
 _RAMP_S = 0.3
 _BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
@@ -100,6 +102,20 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
     )
 
 
+def usual_speed(noun: Noun, kind: str) -> float:
+    """Usual speed in a kind of motion, m/s: 1 of what usually stands."""
+    own = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    known = speeds_of(noun)
+    if kind in known:
+        return float(own * known[kind] / known.get(noun.motion, own))
+    return own * _RUNNING if kind == "run" and noun.motion == "walk" else own
+
+
+def speeds_of(noun: Noun) -> Mapping[str, float]:
+    """Kind of motion → the usual speed that is known of it, m/s."""
+    return trait_value("speeds", noun.name) or {}
+
+
 def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
     is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
@@ -112,7 +128,7 @@ def build_path(
     model: Model,
     *,
     yaw: float,
-    usual_m_s: float,
+    stated_m_s: float | None,
     duration_s: float,
 ) -> Track:
     """The path of several motions, its box centred over (0, 0).
@@ -122,12 +138,12 @@ def build_path(
         noun: the object.
         model: its model, for its size.
         yaw: where it heads at first, radians.
-        usual_m_s: speed at pace 1, m/s.
+        stated_m_s: speed at pace 1 that takes the place of usual ones, m/s.
         duration_s: length of the clip, s.
     """
     phases = schedule(motions, duration_s)
-    usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
-    builder = _KeyBuilder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
+    builder = _KeyBuilder(noun, model, stated_m_s, yaw, is_single=len(phases) == 1)
+    builder.hurry(phases)
     for phase in phases:
         builder.add(phase)
     first = replace(builder.keys[0], activity=builder.keys[1].activity)
@@ -135,25 +151,10 @@ def build_path(
         (0.0, 0.0, builder.initial_height),
         yaw,
         (first, *builder.keys[1:]),
-        usual_speed_m_s=usual_m_s,
+        usual_speed_m_s=builder.usual(motions[0]),
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
     )
     return centred(path, duration_s)
-
-
-def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
-    """A usual speed at which every turn is a quarter circle of a plausible radius."""
-    needed = usual_m_s
-    radius = max(least_radius(model, noun), 0.3 * model.length)
-    for phase in phases:
-        motion = phase.motion
-        if motion.speed_m_s is not None:
-            continue
-        if motion.kind == "turn" or motion.direction == "around":
-            turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
-            angle = math.pi if motion.direction == "around" else QUARTER
-            needed = max(needed, radius * angle / turning)
-    return min(needed, MOST_HASTE * usual_m_s)
 
 
 def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
@@ -179,9 +180,17 @@ class _KeyBuilder:
     """Collects keys, the first without duration; knows heading and height at the last one."""
 
     def __init__(
-        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
+        self,
+        noun: Noun,
+        model: Model,
+        stated_m_s: float | None,
+        yaw: float,
+        *,
+        is_single: bool,
     ) -> None:
-        self._noun, self._model, self._usual = noun, model, usual_m_s
+        """For a body that heads there at first."""
+        self._noun, self._model = noun, model
+        self._stated_m_s, self._haste = stated_m_s, 1.0
         self._is_single = is_single
         self._is_free = noun.habitat in ("air", "water")
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
@@ -225,9 +234,26 @@ class _KeyBuilder:
         self._height += key.climb_m_s * span
         self.keys.append(key)
 
+    def usual(self, motion: Motion) -> float:
+        """Speed at pace 1, m/s."""
+        own = self._stated_m_s
+        return self._haste * (usual_speed(self._noun, motion.kind) if own is None else own)
+
+    def hurry(self, phases: Sequence[Phase]) -> None:
+        """Raise the speed until every turn is a quarter circle of a plausible radius."""
+        haste, radius = 1.0, max(least_radius(self._model, self._noun), 0.3 * self._model.length)
+        for phase in phases:
+            motion = phase.motion
+            is_turn = motion.kind == "turn" or motion.direction == "around"
+            if is_turn and motion.speed_m_s is None:
+                turning_s = phase.duration_s * (_TURN_SHARE if self._is_single else 0.8)
+                angle = math.pi if motion.direction == "around" else QUARTER
+                haste = max(haste, radius * angle / turning_s / max(self.usual(motion), 0.01))
+        self._haste = min(haste, MOST_HASTE)
+
     def _speed(self, motion: Motion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
-        speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
+        speed = self.usual(motion) * motion.pace if motion.speed_m_s is None else motion.speed_m_s
         if motion.kind == "turn" and not self._is_mobile:
             return 0.0
         is_back = motion.direction == "backward" or motion.kind == "reverse"
@@ -238,7 +264,7 @@ class _KeyBuilder:
             return None
         if motion.speed_m_s is not None:
             return speed * motion.end_pace / max(motion.pace, 1e-6)
-        return math.copysign(self._usual * motion.end_pace, speed)
+        return math.copysign(self.usual(motion) * motion.end_pace, speed)
 
     def _travel(self, motion: Motion, span: float) -> None:
         """Along segments, straight or turning, at the end of which it may change its speed."""
@@ -295,7 +321,10 @@ class _KeyBuilder:
             self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
             return
         size = max(self._model.length, self._model.height)
-        climb = min(max(self._usual, 0.3 * size), size) * motion.pace
+        climb = self.usual(motion)
+        if motion.kind not in speeds_of(self._noun):
+            climb = min(max(climb, 0.3 * size), size)
+        climb *= motion.pace
         if not is_up and self._is_single:
             self.initial_height = climb * 0.85 * span
             climb = -climb
