@@ -20,6 +20,8 @@ _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
 _ORBIT_SIZES = 1.3
 """Least radius of a circle around nothing, in sizes of who goes along it."""
+_ORBIT_HASTE = 1.5
+"""Most multiple of its usual speed at which a body goes round something large in the clip."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Ground motions for which "up and down" means back and forth."""
 _BOB = (Term("z", 0.04, 0.4, 1.0),)
@@ -112,9 +114,9 @@ def orbit_radius(plan: MotionPlan, size_m: float) -> float:
 
 
 def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Track:
-    """Once round a point in the clip, but no faster than usual, from that share of the round on."""
+    """Once round a point in the clip, or as far as it gets, from that share of the round on."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
-    rate = min(rate, plan.speed_m_s / radius_m)
+    rate = min(rate, _ORBIT_HASTE * plan.speed_m_s / radius_m)
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
     begin, (x, y, z) = 2.0 * math.pi * share, centre
