@@ -33,7 +33,7 @@ _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
-_FAST_FLYER_M_S = 4.0
+_FAST_FLYER_M_S = 9.0
 """Speed above which what flies is shown in the sky, far from the ground."""
 
 

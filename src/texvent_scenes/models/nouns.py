@@ -7,14 +7,15 @@ middle, except that what floats (`AFLOAT`) has it on the waterline: put it at th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from itertools import chain
 from types import MappingProxyType
 
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.people import person
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import list_data
+from texvent_scenes.models.tables import list_data, trait_values
 
 MOTIONS = frozenset(
     {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide",
@@ -27,9 +28,17 @@ MOTIONS = frozenset(
 machine, "stand" rest."""
 
 
+def _with_speed(nouns: Iterable[Noun]) -> tuple[Noun, ...]:
+    speeds = trait_values("speeds")
+    return tuple(
+        replace(one, speed_m_s=speeds[one.name][one.motion]) if one.name in speeds else one
+        for one in nouns
+    )
+
+
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *chain.from_iterable(map(read_nouns, list_data("people"))))}
-    | {file.name.removesuffix(".toml"): read_nouns(file)
+    {"people": _with_speed(chain(person.NOUNS, *map(read_nouns, list_data("people"))))}
+    | {file.name.removesuffix(".toml"): _with_speed(read_nouns(file))
        for file in chain(list_data("bodies"), list_data("nouns"))}
 )  # fmt: skip
 """Nouns by family, such as "vehicles": people, and the files of `data/bodies` and `data/nouns`."""

@@ -313,15 +313,18 @@ class Scene:
     def __add__(self, part: Part) -> Self:
         """The scene with one more object, effect or lamp, or with another camera, light or place.
 
+        Another light has the lamps of the one before as well.
+
         Raises:
             ConfigError: it is something else, or a field is wrong; the message is that of a file.
 
         Example:
             >>> scene = Scene()
             >>> scene += SceneObject("mug", position_m=(0, 0))
+            >>> scene += Lamp((0, 0, 3))
             >>> scene += Light("dusk")
-            >>> scene.objects[0].noun, scene.light.kind
-            ('mug', 'dusk')
+            >>> scene.objects[0].noun, scene.light.kind, len(scene.light.lamps)
+            ('mug', 'dusk', 1)
         """
         if type(part) not in _PLACES:
             names = [one.__name__ for one in _PLACES]
@@ -330,7 +333,10 @@ class Scene:
         data = plain_values(build_table(Scene, plain_values(self), "", {}))
         *way, name, is_list = _PLACES[type(part)]
         table = data.setdefault(way[0], {}) if way else data
-        table[name] = [*table.get(name, ()), plain_values(part)] if is_list else plain_values(part)
+        new = plain_values(part)
+        if isinstance(part, Light):  # the lamps that were added before stay
+            new["lamps"] = [*data.get("light", {}).get("lamps", ()), *new.get("lamps", ())]
+        table[name] = [*table.get(name, ()), new] if is_list else new
         return cast(Self, build_table(Scene, data, "", {}))
 
 

@@ -188,7 +188,7 @@ def _describe_view(
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
         place.road_m if has_strip else None, road, path.room_m,
-        has_shore=place.ground is Ground.LAKE,
+        has_shore=place.ground is Ground.LAKE, clip_s=duration_s,
     )  # fmt: skip
 
 

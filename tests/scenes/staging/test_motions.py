@@ -37,7 +37,9 @@ tracks = st.builds(
 
 def path_of(*sequence, noun="car", speed=4.0, duration_s=4.0):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
-    return build_path(sequence, NOUNS[noun], model, yaw=0.0, usual_m_s=speed, duration_s=duration_s)
+    return build_path(
+        sequence, NOUNS[noun], model, yaw=0.0, stated_m_s=speed, duration_s=duration_s
+    )
 
 
 def test_motions_share_the_clip_evenly_and_stated_times_are_kept():

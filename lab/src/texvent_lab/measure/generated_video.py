@@ -18,7 +18,7 @@ from typing import Any
 
 from texvent.errors import InputError, MissingDependencyError
 from texvent.extending import require
-from texvent.generation.video_config import GeneratedVideoConfig
+from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import MadeVideo, to_16_bits_there, write_video
 from texvent.interpolate.rife.weights import find_rife_weights

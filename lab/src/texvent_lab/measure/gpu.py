@@ -34,7 +34,7 @@ from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation import gpu
-from texvent.simulation.esim.simulator import EsimConfig
+from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.gpu.launch import EXTRA
 from texvent.simulation.gpu.support import RunDevice
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator

@@ -270,7 +270,7 @@ def _read_noun(name: str, row: Mapping[str, Any]) -> Noun:
         name,
         partial(build_person, KINDS[name]),
         "ground",
-        row.get("speed", 1.3),
+        0.0,
         row.get("motion", "walk"),
         tuple(row.get("names", ())),
         tuple(row.get("plurals", ())),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,17 +31,25 @@ from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.camera.subject import (
     ELEVATIONS,
     INSTANTS,
-    KEPT_TOGETHER,
     choose_angles,
     choose_main,
+    goes_in_depth,
     list_framing_choices,
 )
 
 _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""
-_TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
-"""Lengths of its own from which on an object is followed: usually, and in a close or medium shot.
-"""
+_NEAR_LENGTHS = 0.3
+"""Lengths of its own from which on an object is followed in a close or medium shot."""
+_STATIC, _ALONG, _LEAST_ALONG, _LEAST_GAIN = 0.33, 0.65, 0.13, 1.1
+"""Prominence of the subject from which on a camera that stays shows all its way; with which the
+camera goes along, and at least; and by how much a passage must raise it."""
+_WIDTHS_PER_S, _FILLED = 1.0, 0.75
+"""Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
+in which the subject moves."""
+_TOGETHER, _STRAIGHT = 0.6, 0.5
+"""Share of its way by which another one may get away from a subject that the camera goes along
+with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -64,7 +72,11 @@ class _Shooting:
 
     @property
     def times(self) -> Float64Array:
-        return np.linspace(0.0, self.path.duration_s, INSTANTS)
+        return np.linspace(*self.path.framed_s, INSTANTS)
+
+    def along(self, path: CameraTrack) -> _Shooting:
+        """The same on another path."""
+        return replace(self, path=path)
 
 
 def place_camera(
@@ -94,11 +106,12 @@ def place_camera(
     )  # fmt: skip
     shooting = _Shooting(description, actors, place, seed, aspect, path)
     if watched is not None:
-        path = replace(path, framing=_watch(shooting, watched))
+        path = _give_way(shooting, watched)
     framing = seen_through(path.framing, shot.field_of_view_deg, is_fixed=watched is None)
     path = replace(path, framing=framing)
     if watched is not None:
         path = _keep_in_view(path, watched, aspect)
+        path = replace(path, notes=tuple(_list_notes(path, watched, aspect)))
     return _keep_in_room(path, shooting, travel) if is_room(place) else path
 
 
@@ -120,8 +133,56 @@ def _surroundings_of(
     return Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
 
 
-def _watch(shooting: _Shooting, main: Actor) -> Framing:
-    """The widest framing that shows the objects with a large subject."""
+def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
+    """The camera that shows a subject of any speed large enough.
+
+    It stays and shows all the way; or goes along for a share of it, so that the subject crosses the
+    picture in the clip; or stays and shows a passage at mid clip.
+    """
+    path, reached = _watch(shooting, main)
+    middle_s = 0.5 * path.duration_s
+    copies = [one for one in shooting.actors if one.object_index == main.object_index]
+    size_m = max(main.size_m, float(np.ptp(corners_over(copies, [middle_s]), axis=0).max()))
+    places = [main.middle(float(time)) for time in shooting.times]
+    way_m = float(np.linalg.norm(np.ptp(places, axis=0)))
+    gone_m = float(np.linalg.norm(places[-1] - places[0]))
+    is_tied = path.tie is not None or shooting.description.camera.framing in ("close", "medium")
+    is_across = gone_m > max(_STRAIGHT * way_m, size_m) and not goes_in_depth(main)
+    if reached >= _STATIC or is_tied or not is_across:
+        return path
+    # Of what the image holds, the extent in metres times the prominence hardly changes.
+    held_m = (way_m + size_m) * reached
+    slow_m = (way_m + size_m) / (1.0 + _WIDTHS_PER_S * path.duration_s / _FILLED)
+    extent_m = max(held_m / _ALONG, slow_m)
+    if held_m >= _LEAST_ALONG * extent_m and _may_go_along(shooting, main):
+        tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
+        share = 1.0 - max(extent_m - size_m, 0.0) / way_m
+        return _watch(shooting.along(replace(path, tie=tie and replace(tie, share=share))), main)[0]
+    half_s = middle_s * max(held_m / _STATIC - size_m, 0.1 * size_m) / way_m
+    passage_s = middle_s - half_s, middle_s + half_s
+    near, enough = _watch(shooting.along(replace(path, passage_s=passage_s)), main)
+    return near if enough >= _LEAST_GAIN * reached else path
+
+
+def _may_go_along(shooting: _Shooting, main: Actor) -> bool:
+    """Whether the camera is free, and nothing that must be seen too is left behind."""
+    description, duration_s = shooting.description, shooting.path.duration_s
+    related = {
+        n for one in description.relations for n in (one.subject, *one.targets)
+        if main.object_index in (one.subject, *one.targets)
+    }  # fmt: skip
+    gone = main.middle(duration_s) - main.middle(0.0)
+    for one in shooting.actors:
+        behind = gone - (one.middle(duration_s) - one.middle(0.0))
+        goes = one.is_mover and description.objects[one.object_index].placement != "far"
+        is_left = np.linalg.norm(behind) > _TOGETHER * np.linalg.norm(gone)
+        if is_left and (goes or one.object_index in related):
+            return False
+    return not description.camera.moves
+
+
+def _watch(shooting: _Shooting, main: Actor) -> tuple[CameraTrack, float]:
+    """The path with the widest framing that shows a large subject, and its prominence there."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
     moves, times, place = shooting.path.moves, shooting.times, shooting.place
     azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
@@ -135,18 +196,20 @@ def _watch(shooting: _Shooting, main: Actor) -> Framing:
         views = zip(times, boxes, strict=True)
         return float(np.mean([measure_prominence(path.at(float(t)), b, aspect) for t, b in views]))
 
-    views = list_framing_choices(description, actors, main, moves, times)
+    views = list_framing_choices(description, actors, main, moves, shooting.path.tie, times)
     framings = [
         fit(one.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=one.fill,
             lift=lift)
         for one in views
     ]  # fmt: skip
-    return come_near(framings, prominence, [view.goal for view in views[1:]])
+    framing = come_near(framings, prominence, [view.goal for view in views[1:]])
+    return replace(shooting.path, framing=framing), prominence(framing)
 
 
 def _keep_in_view(path: CameraTrack, main: Actor, aspect: float) -> CameraTrack:
     """The path with smaller moves if the subject would leave the picture."""
-    for _ in range(_TRIES):
+    may_leave = any(one.move.kind in _LEAVING for one in path.moves)
+    for _ in range(_TRIES if may_leave else 0):
         if _is_visible(path, main, aspect):
             break
         damped = tuple(
@@ -162,10 +225,33 @@ def _keep_in_view(path: CameraTrack, main: Actor, aspect: float) -> CameraTrack:
 def _is_visible(path: CameraTrack, main: Actor, aspect: float) -> bool:
     """Whether the middle of the subject is in the picture for nearly all of the clip."""
     half = np.array([0.49, 0.49 * aspect])
-    times = np.linspace(0.0, path.duration_s, _CHECKS)
+    times = np.linspace(*path.framed_s, _CHECKS)
     seen = np.array([image_of(path.at(float(t)), main.middle(float(t))) for t in times])
     is_inside = np.all(np.abs(seen[:, :2]) < half, axis=1) & (seen[:, 2] > 0.0)
     return bool(is_inside.mean() >= _VISIBLE_SHARE)
+
+
+def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
+    """How the camera gives way to a subject that is fast, and how much of it is seen."""
+    if path.tie is not None and path.tie.share < 1.0:
+        gone = path.tie.displacement(path.duration_s) / path.duration_s
+        yield (
+            f"the {main.noun.name} is fast: the camera goes along at "
+            f"{float(np.linalg.norm(gone)):.2g} m/s, so that it stays in view"
+        )
+    if path.passage_s is None:
+        return
+    begin_s, end_s = path.passage_s
+    more_s = end_s - begin_s
+    times = np.linspace(max(begin_s - more_s, 0.0), min(end_s + more_s, path.duration_s), _CHECKS)
+    seen = np.array([image_of(path.at(float(t)), main.middle(float(t))) for t in times])
+    reach = 0.5 * main.size_m * path.framing.focal / np.maximum(seen[:, 2], 1e-3)
+    is_seen = np.all(np.abs(seen[:, :2]) < [0.5, 0.5 * aspect] + reach[:, None], axis=1)
+    first_s, last_s = times[is_seen][[0, -1]] if is_seen.any() else path.passage_s
+    yield (
+        f"the {main.noun.name} is fast: it crosses the view in {last_s - first_s:.2g} s, "
+        f"from {first_s:.2g} s on"
+    )
 
 
 def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | None) -> CameraTrack:
@@ -184,22 +270,14 @@ def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | N
 def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
 ) -> tuple[TimedMove, ...]:
-    """The moves that are said, each kind once at a time; else the subject is followed if fast."""
+    """The moves that are said, each kind once at a time; else a near shot follows its subject."""
     timed = time_moves(description.camera.moves, duration_s)
     said = {(one.move.kind, one.begin_s, one.end_s): one for one in timed}
-    if main is None or said or not main.is_mover:
+    is_near = description.camera.framing in ("close", "medium")
+    if main is None or said or not (main.is_mover and is_near) or goes_in_depth(main):
         return tuple(said.values())
-    has_landmark = any(
-        relation.kind in KEPT_TOGETHER and relation.subject == main.object_index
-        for relation in description.relations
-    )
-    motion = description.objects[main.object_index].motion
-    if has_landmark or (motion is not None and motion.direction in ("towards", "away")):
-        return ()
     span = max(main.model.length, main.model.height)
     displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
-    is_near = description.camera.framing in ("close", "medium")
-    least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
-    if displacement_m <= least * span:
+    if displacement_m <= _NEAR_LENGTHS * span:
         return ()
     return tuple(time_moves([CameraMove("follow")], duration_s))

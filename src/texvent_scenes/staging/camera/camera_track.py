@@ -154,6 +154,8 @@ class Tie:
     """Stretches of time in which it does, in order, s."""
     rises: bool = True
     """Whether it also rises and falls with it."""
+    share: float = 1.0
+    """Share of its displacement: below 1 the subject goes on through the picture."""
 
     @classmethod
     def of(cls, moves: Sequence[TimedMove], subject: Actor) -> Tie | None:
@@ -177,7 +179,7 @@ class Tie:
             now_s = min(max(time_s, begin_s), end_s)
             start = self.track.at(max(begin_s, 0.0)).position
             gone += np.subtract(self.track.at(now_s).position, start)
-        return gone * [1.0, 1.0, float(self.rises)]
+        return self.share * gone * [1.0, 1.0, float(self.rises)]
 
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
         """Points [n, 3], m, as the camera sees them, at the place of the start."""
@@ -199,6 +201,17 @@ class CameraTrack:
     """Half the side of the room it must stay in, m."""
     journey: Journey | None = None
     """The route of what travels."""
+    passage_s: tuple[float, float] | None = None
+    """Stretch of the clip in which a subject that is too fast crosses the picture, s; None: it is
+    in the picture all along."""
+
+    notes: tuple[str, ...] = ()
+    """Sentences on what is seen of a subject that is too fast."""
+
+    @property
+    def framed_s(self) -> tuple[float, float]:
+        """Stretch of the clip in which the subject must be in the picture, s."""
+        return self.passage_s or (0.0, self.duration_s)
 
     @cached_property
     def _terms(self) -> tuple[Term, ...]:

@@ -12,7 +12,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staging.actors import Actor, corners_over, seeded
+from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.camera.camera_track import Tie, TimedMove
 
 INSTANTS = 13
@@ -30,7 +30,7 @@ _GOALS = (1.0, 1.0, 0.9, 0.4)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
 """Prominence of the subject in a wide shot, relative to its usual one."""
-KEPT_TOGETHER = frozenset(
+_KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of"}
 )  # fmt: skip
@@ -64,6 +64,12 @@ def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
 
 
+def goes_in_depth(actor: Actor) -> bool:
+    """Whether it goes away from the camera or towards it, rather than across the picture."""
+    step = np.subtract(actor.track.at(0.5).position, actor.track.at(0.0).position)
+    return bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+
+
 def choose_angles(
     description: SceneDescription,
     main: Actor,
@@ -73,9 +79,7 @@ def choose_angles(
 ) -> tuple[float, float]:
     """Azimuth and elevation of the camera, radians."""
     wander = float(seeded(seed, "camera").uniform(-0.14, 0.14))
-    yaw = main.track.at(0.0).yaw
-    step = np.subtract(main.track.at(0.5).position, main.track.at(0.0).position)
-    is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+    yaw, is_in_depth = main.track.at(0.0).yaw, goes_in_depth(main)
     length = main.model.length  # all of a train or a ship from the side would be a thin line
     is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
     follows = any(one.move.kind == "follow" for one in moves)
@@ -132,11 +136,10 @@ class _Scope(NamedTuple):
 
 def list_framing_choices(
     description: SceneDescription, actors: Sequence[Actor], main: Actor,
-    moves: Sequence[TimedMove], times: Float64Array,
+    moves: Sequence[TimedMove], tie: Tie | None, times: Float64Array,
 ) -> list[FramingChoice]:  # fmt: skip
     """Choices of what the image holds, from all objects to the subject alone, at instants, s."""
-    shot, tie = description.camera, Tie.of(moves, main)
-    relations = description.relations
+    shot, relations = description.camera, description.relations
     passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
@@ -144,7 +147,7 @@ def list_framing_choices(
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
-        boxes = corners_over([main], times if tie is None else times[:1])
+        boxes = np.vstack([_box_at(main, time, tie) for time in map(float, times)])
         return [FramingChoice(_upper_part(main, boxes, framing), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(one.move.kind, _FILL) for one in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
@@ -155,7 +158,7 @@ def list_framing_choices(
         {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
     ]
     related = set().union(*tied) - {main.object_index}
-    landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
+    landmarks = {n for r in relations if r.kind in _KEPT_TOGETHER for n in r.targets}
     partners = [one for one in near if one.object_index in related - {main.object_index}]
     # A lighthouse and a swing only work where they are.
     goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
@@ -187,11 +190,16 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             points.append(_near_piece(actor, main, times, _PIECE * largest))
             continue
         for time in map(float, times):
-            box = actor.corners(time)
-            if actor.object_index in scope.cut:
-                box = _upper_part(actor, box, "medium")
-            points.append(box if scope.tie is None else scope.tie.relative(box, time))
+            box = _box_at(actor, time, scope.tie)
+            is_cut = actor.object_index in scope.cut
+            points.append(_upper_part(actor, box, "medium") if is_cut else box)
     return np.vstack(points)
+
+
+def _box_at(actor: Actor, time_s: float, tie: Tie | None) -> Float64Array:
+    """[8, 3] corners of its box as a camera sees them that is tied like this, m."""
+    box = actor.corners(time_s)
+    return box if tie is None else tie.relative(box, time_s)
 
 
 def _upper_part(actor: Actor, points: Float64Array, framing: str) -> Float64Array:

@@ -20,6 +20,7 @@ from texvent_scenes.staging.interactions.holding import (
     moving,
 )
 from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
+from texvent_scenes.staging.tracks.phases import speeds_of
 from texvent_scenes.staging.tracks.track import (
     BodyState,
     Term,
@@ -42,14 +43,12 @@ class Strike(NamedTuple):
 
 
 KICK, THROW = Strike(0.45, 0.45), Strike(0.35, 0.35, 6.0)
-_FLIGHT_M = 2.4
-"""Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
+_THROWN_M_S = 6.0
+"""Speed at which things fly off that have no usual one."""
 _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
-_LENGTHS = (1.0, 2.0)
-"""Least and most of its own length that a body covers before the contact."""
 _THIN, _ASLANT = 0.6, 0.55
 """Share of its width up to which what is hit has a front, and the way's angle to the picture then,
 rad."""
@@ -73,7 +72,7 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     middle_m = home.position[2] + 0.5 * model.height - thing.lift_m
     spot = ahead(point(tip), home.yaw, radius - inset, middle_m)
     start = BodyState(spot, home.yaw, pivot_m=thing.lift_m)
-    return subject, moving(thing, _fly_off(KICK, thing, start, home, (contact_s, duration_s)))
+    return subject, moving(thing, _fly_off(KICK, thing, start, home, contact_s))
 
 
 def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -83,7 +82,7 @@ def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     anchor = "right hand" if is_person(subject) else "mouth"
     held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
     start = state_of(held.at(release_s).to_world(), thing.lift_m)
-    flight = _fly_off(THROW, thing, start, subject.track.at(0.0), (release_s, duration_s))
+    flight = _fly_off(THROW, thing, start, subject.track.at(0.0), release_s)
     return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=release_s))
 
 
@@ -95,11 +94,10 @@ def _strike(subject: Actor, activity: str, act: Strike, duration_s: float) -> tu
 
 
 def _fly_off(
-    act: Strike, thing: Actor, start: BodyState, home: BodyState, times_s: tuple[float, float]
+    act: Strike, thing: Actor, start: BodyState, home: BodyState, contact_s: float
 ) -> Track:
-    """From a start to where the subject faces at home, between the contact and the clip's end."""
-    contact_s, end_s = times_s
-    speed = min(max(_FLIGHT_M / max(end_s - contact_s, 0.1), 1.5), 7.0)
+    """From a start to where the subject faces at home, after the contact."""
+    speed = float(speeds_of(thing.noun).get("throw", _THROWN_M_S))
     half = 0.5 * thing.model.height
     tumble = act.tumble_rad_s or speed / max(half, 0.05)
     flight = Key(1.0, speed, climb_m_s=act.loft * speed, ramp_s=0.0, restitution=0.55)
@@ -166,8 +164,7 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
 def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Track:
     """Along the ground to where it touches, and a little back."""
     length = actor.model.length
-    usual = actor.noun.speed_m_s or length / contact_s
-    speed = min(max(usual * contact_s, _LENGTHS[0] * length), _LENGTHS[1] * length) / contact_s
+    speed = actor.noun.speed_m_s or length / contact_s
     back = speed * _REBOUND.get(actor.noun.motion, 0.0)
     keys = (
         Key(0.0, speed),

@@ -22,7 +22,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
-from texvent_scenes.staging.tracks.choose_track import ORBIT_SIZES
+from texvent_scenes.staging.tracks.choose_track import orbit_radius
 from texvent_scenes.staging.tracks.keys import Vector
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
 from texvent_scenes.staging.tracks.track import sample_places
@@ -108,7 +108,7 @@ def half_extents_over_clip(
         return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
     if plan.motion.kind == "orbit":
-        travel = ORBIT_SIZES * size * np.array([1.0, 1.0, 0.0])
+        travel = orbit_radius(plan, size) * np.array([1.0, 1.0, 0.0])
     return np.asarray(half + spread + travel)
 
 

@@ -32,6 +32,8 @@ _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
 """Along a route: usually from one to the next, and least and most from the free strip."""
+_LEAST_STEPS, _FINER = 4, 25
+"""Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
 """Start of scenery before a route's beginning, and greatest number of pieces."""
 
@@ -53,6 +55,8 @@ class ViewClearance:
     """The route of a camera that travels."""
     has_shore: bool = False
     """Whether water lies to the left of the road's line."""
+    clip_s: float = 2.0
+    """Length of the clip, s."""
 
 
 @dataclass(frozen=True)
@@ -136,10 +140,10 @@ class _Scatterer:
         rows = [
             (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
             for one in actors
-            for time_s in np.linspace(0.0, 2.0, 5)
+            for time_s in _list_times(one, view.clip_s)
         ]
         self._bodies = np.array(rows, dtype=np.float64).reshape(-1, 3)
-        """[n, 3]: x, y and radius of the objects at some instants, m."""
+        """[n, 3]: x, y and radius of the objects all along their ways, m."""
 
     def _build(self, rule: Scenery, copy: int, scale: float = 1.0) -> Model:
         """A copy of a piece, with its own size and seed."""
@@ -260,6 +264,14 @@ class _Scatterer:
         if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):
             return False
         return not _hides(spot, radius, deep, view)
+
+
+def _list_times(actor: Actor, clip_s: float) -> Float64Array:
+    """Instants between which an object goes no further than its own length, as far as possible."""
+    few = np.linspace(0.0, clip_s, _LEAST_STEPS + 1)
+    steps = np.diff([actor.middle(float(time_s)) for time_s in few], axis=0)
+    lengths = float(np.linalg.norm(steps, axis=1).max()) / actor.size_m
+    return np.linspace(0.0, clip_s, _LEAST_STEPS * min(math.ceil(lengths) or 1, _FINER) + 1)
 
 
 def _axes(camera: PosedCamera) -> tuple[Float64Array, Float64Array]:

@@ -25,8 +25,10 @@ from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
-ORBIT_SIZES = 1.3
-"""Radius of a circle around nothing, in sizes of who goes along it."""
+_ORBIT_SIZES = 1.3
+"""Least radius of a circle around nothing, in sizes of who goes along it."""
+_ORBIT_HASTE = 1.5
+"""Most multiple of its usual speed at which a body goes round something large in the clip."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Ground motions for which "up and down" means back and forth."""
 
@@ -60,7 +62,9 @@ def choose_track(
         )
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == "orbit":
-        return orbit(plan, home, ORBIT_SIZES * max(model.length, model.width), phase / math.tau)
+        return orbit(
+            plan, home, orbit_radius(plan, max(model.length, model.width)), phase / math.tau
+        )
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
     if kind in PATH_KINDS:
@@ -81,11 +85,19 @@ def _tempo(pace: float, gain_per_s: float = 0.0) -> tuple[Term, ...]:
     return (Term("tempo", offset=pace - 1.0, drift=0.5 * gain_per_s),)
 
 
+def orbit_radius(plan: MotionPlan, size_m: float) -> float:
+    """Radius of a circle around nothing, m: once round in the clip at the usual speed."""
+    usual_m_s = plan.speed_m_s / max(plan.motion.pace, 0.1)
+    return max(_ORBIT_SIZES * size_m, usual_m_s * max(plan.duration_s, 2.0) / (2.0 * math.pi))
+
+
 def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Track:
-    """Once round a point in the clip, from that share of the round on."""
+    """Once round a point in the clip, or as far as it gets, from that share of the round on."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     if plan.motion.speed_m_s is not None:
         rate = plan.motion.speed_m_s / radius_m
+    else:
+        rate = min(rate, _ORBIT_HASTE * plan.speed_m_s / radius_m)
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
     begin, (x, y, z) = 2.0 * math.pi * share, centre
@@ -160,8 +172,8 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Track:
     height = min(max(3.0 * model.height, 0.8), 2.5) if plan.start_m is None else plan.start_m
     stated = plan.motion.speed_m_s
     is_still = kind == "bounce" and plan.motion.direction is None
-    along = 0.0 if is_still else 0.5 * plan.speed_m_s
-    along = along if stated is None else stated
+    along = plan.speed_m_s * (1.0 if kind == "throw" else 0.5) if stated is None else stated
+    along = 0.0 if is_still and stated is None else along
     place = ahead(home, plan.yaw, -0.5 * along * duration_s, floor + height)
     keys = (Key(0.0, along), Key(1.0, along, restitution=BOUNCY))
     return Track(place, plan.yaw, keys, floor_m=floor)

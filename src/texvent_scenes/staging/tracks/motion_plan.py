@@ -25,19 +25,10 @@ from texvent_scenes.staging.tracks.phases import (
     YAWS,
     build_path,
     needs_steering,
+    usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Track
 
-MAX_LENGTHS_PER_S = 0.95
-"""A usual speed is kept below this many of the object's own lengths per second, so that it stays
-in view and large; a speed stated in numbers is not."""
-MIN_LENGTHS_PER_S = 0.35
-"""A usual speed of small things is at least this many lengths per second: a snail gets on."""
-LEAST_SAILED = 0.15
-"""The same of ships, at 24 knots for 80 m: others are seen to rest."""
-SMALL_M = 2.5
-RUN_FACTOR = 2.2
-"""Running over walking speed."""
 FLAT, _WIDE = 0.62, 0.7
 """Objects whose length is below this share of their width show their front to the camera; the
 second is for what slides: a board, a mirror."""
@@ -107,7 +98,9 @@ def plan_motion(
     motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
     start_m = start_m if any(one.kind in COMING_DOWN for one in motions) else None
     motion, toss = motions[0], rng.random()
-    yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
+    yaw = _choose_yaw(motions, noun, model, toss)
+    stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
+    speed = usual_speed(noun, motion.kind) if stated is None else stated
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(noun, model, motion)
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
@@ -118,7 +111,7 @@ def plan_motion(
     )  # fmt: skip
     if needs_steering(motions):
         path = build_path(
-            motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s,
+            motions, noun, model, yaw=yaw, stated_m_s=stated, duration_s=duration_s,
             spin_axis=plan.spin_axis, start_m=start_m,
         )  # fmt: skip
         return replace(plan, yaw=path.yaw, path=path)
@@ -199,25 +192,6 @@ def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
         return True
     gesture = choose_gesture(noun, motion)
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
-
-
-def _choose_speed(motions: Sequence[Motion], noun: Noun, model: Model) -> float:
-    """Speed at pace 1, or as stated, m/s."""
-    motion = motions[0]
-    stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
-    if stated is not None:
-        return stated
-    speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
-    if motion.kind == "run" and noun.motion == "walk":
-        speed *= RUN_FACTOR
-    # What flies has no road to be compared with: slower, it can be shown larger.
-    most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
-    size = max(model.length, model.height)
-    if noun.motion == "sail":
-        speed = max(speed, LEAST_SAILED * size)
-    if size < SMALL_M and noun.speed_m_s > 0.0:
-        speed = max(speed, MIN_LENGTHS_PER_S * size)
-    return min(speed, most * size)
 
 
 def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
 from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.protocol import Model, Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.oscillations import between, oscillations
@@ -46,6 +46,8 @@ COMING_DOWN = frozenset({"fall", "bounce", "throw", "sink"})
 """Motions that begin at a height that is said, and lead to the ground."""
 BOUNCY = 0.82
 """Share of its upward speed that a bounce keeps."""
+_RUNNING = 2.5
+"""Running over walking speed of nouns without a number for it."""
 _RAMP_S = 0.3
 _BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
@@ -105,6 +107,20 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
     )
 
 
+def usual_speed(noun: Noun, kind: str) -> float:
+    """Usual speed in a kind of motion, m/s: 1 of what usually stands."""
+    own = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    known = speeds_of(noun)
+    if kind in known:
+        return float(own * known[kind] / known.get(noun.motion, own))
+    return own * _RUNNING if kind == "run" and noun.motion == "walk" else own
+
+
+def speeds_of(noun: Noun) -> Mapping[str, float]:
+    """Kind of motion → the usual speed that is known of it, m/s."""
+    return trait_value("speeds", noun.name) or {}
+
+
 def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
     is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
@@ -117,7 +133,7 @@ def build_path(
     model: Model,
     *,
     yaw: float,
-    usual_m_s: float,
+    stated_m_s: float | None,
     duration_s: float,
     spin_axis: str = "yaw",
     start_m: float | None = None,
@@ -129,20 +145,20 @@ def build_path(
         noun: the object.
         model: its model, for its size.
         yaw: where it heads at first, radians.
-        usual_m_s: speed at pace 1, m/s.
+        stated_m_s: speed at pace 1 that takes the place of usual ones, m/s.
         duration_s: length of the clip, s.
         spin_axis: channel of a spin.
         start_m: height above the ground from which it comes down, if it is said, m.
     """
     phases = schedule(motions, duration_s)
-    usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
     if start_m is None and motions[0].kind == "fall":
         spans = [one.duration_s for one in phases if one.motion.kind == "fall"]
         start_m = fallen_m(model, spans[0] if spans else duration_s)
     builder = _KeyBuilder(
-        noun, model, usual_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
+        noun, model, stated_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
         start_m=start_m,
     )  # fmt: skip
+    builder.hurry(phases)
     for phase in phases:
         builder.add(phase)
     first = replace(builder.keys[0], activity=builder.keys[1].activity)
@@ -151,7 +167,7 @@ def build_path(
         yaw,
         (first, *builder.keys[1:]),
         tuple(builder.terms),
-        usual_speed_m_s=usual_m_s,
+        usual_speed_m_s=builder.usual(motions[0]),
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
         pivot_m=builder.pivot_m,
     )
@@ -167,21 +183,6 @@ def fallen_m(model: Model, duration_s: float) -> float:
     """Usual height from which something falls, m."""
     height = 0.5 * GRAVITY_M_S2 * (0.45 * duration_s) ** 2
     return min(max(height, model.height), max(1.2 * model.height, 0.5))
-
-
-def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
-    """A usual speed at which every turn is a quarter circle of a plausible radius."""
-    needed = usual_m_s
-    radius = max(least_radius(model, noun), 0.3 * model.length)
-    for phase in phases:
-        motion = phase.motion
-        if motion.speed_m_s is not None:
-            continue
-        if motion.kind == "turn" or motion.direction == "around":
-            turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
-            angle = math.pi if motion.direction == "around" else QUARTER
-            needed = max(needed, radius * angle / turning)
-    return min(needed, MOST_HASTE * usual_m_s)
 
 
 def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
@@ -207,11 +208,13 @@ class _KeyBuilder:
     """Collects keys, the first without duration; knows heading and height at the last one."""
 
     def __init__(
-        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool,
+        self, noun: Noun, model: Model, stated_m_s: float | None, yaw: float, *, is_single: bool,
         spin_axis: str, start_m: float | None,
     ) -> None:  # fmt: skip
-        self._noun, self._model, self._usual = noun, model, usual_m_s
+        """For a body that heads there at first."""
+        self._noun, self._model = noun, model
         self._spin_axis, self._start_m = spin_axis, start_m
+        self._stated_m_s, self._haste = stated_m_s, 1.0
         self._is_single = is_single
         self._is_free = noun.habitat in ("air", "water")
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
@@ -273,9 +276,26 @@ class _KeyBuilder:
         self._height += key.climb_m_s * span
         self.keys.append(key)
 
+    def usual(self, motion: Motion) -> float:
+        """Speed at pace 1, m/s."""
+        own = self._stated_m_s
+        return self._haste * (usual_speed(self._noun, motion.kind) if own is None else own)
+
+    def hurry(self, phases: Sequence[Phase]) -> None:
+        """Raise the speed until every turn is a quarter circle of a plausible radius."""
+        haste, radius = 1.0, max(least_radius(self._model, self._noun), 0.3 * self._model.length)
+        for phase in phases:
+            motion = phase.motion
+            is_turn = motion.kind == "turn" or motion.direction == "around"
+            if is_turn and motion.speed_m_s is None:
+                turning_s = phase.duration_s * (_TURN_SHARE if self._is_single else 0.8)
+                angle = math.pi if motion.direction == "around" else QUARTER
+                haste = max(haste, radius * angle / turning_s / max(self.usual(motion), 0.01))
+        self._haste = min(haste, MOST_HASTE)
+
     def _speed(self, motion: Motion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
-        speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
+        speed = self.usual(motion) * motion.pace if motion.speed_m_s is None else motion.speed_m_s
         if motion.kind == "turn" and not self._is_mobile:
             return 0.0
         is_back = motion.direction == "backward" or motion.kind == "reverse"
@@ -286,7 +306,7 @@ class _KeyBuilder:
             return None
         if motion.speed_m_s is not None:
             return speed * motion.end_pace / max(motion.pace, 1e-6)
-        return math.copysign(self._usual * motion.end_pace, speed)
+        return math.copysign(self.usual(motion) * motion.end_pace, speed)
 
     def _travel(self, motion: Motion, span: float) -> None:
         """Along segments, straight or turning, at the end of which it may change its speed."""
@@ -343,7 +363,10 @@ class _KeyBuilder:
             self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
             return
         size = max(self._model.length, self._model.height)
-        climb = min(max(self._usual, 0.3 * size), size) * motion.pace
+        climb = self.usual(motion)
+        if motion.kind not in speeds_of(self._noun):
+            climb = min(max(climb, 0.3 * size), size)
+        climb *= motion.pace
         if motion.speed_m_s is not None:
             climb = motion.speed_m_s
         if self._start_m is not None and not is_up:

@@ -1,0 +1,120 @@
+"""Usual speeds: those of the table, whatever the camera must do to show them."""
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import DURATION_S, SIZE, in_image, middle, stage, thing
+
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import trait_values
+from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
+from texvent_scenes.staging.camera.framing import image_of, measure_prominence
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, usual_speed
+
+GOING = [one for one in NOUNS.values() if one.motion in PATH_KINDS]
+ASPECT = SIZE.height / SIZE.width
+TIMES = np.linspace(0.0, DURATION_S, 41)
+RIGHT = {"dog": "run", "car": "drive", "bird": "fly", "dart": "fly"}
+
+
+def goes(noun, *motion, **fields):
+    """One body on empty grass, which goes right at its usual speed unless more is said."""
+    said = motion or (NOUNS[noun].motion, "right")
+    return stage(SceneObject(noun, motions=(Motion(*said),)), **fields)
+
+
+def speeds_of(actor, times=TIMES):
+    """Its speed from instant to instant, by the places of its middle, m/s."""
+    steps = np.diff([middle(actor, float(time)) for time in times], axis=0)
+    return np.linalg.norm(steps, axis=1) / np.diff(times)
+
+
+def in_view(scene, times=TIMES):
+    """Whether the middle of the first body is in the picture at each instant."""
+    seen = [image_of(scene.camera(float(t)), middle(scene.actors[0], float(t))) for t in times]
+    x, y, depth = np.array(seen).T
+    return (np.abs(x) < 0.5) & (np.abs(y) < 0.5 * ASPECT) & (depth > 0.0)
+
+
+def test_every_noun_that_goes_has_a_speed_of_the_table():
+    assert {one.name for one in GOING} <= trait_values("speeds").keys() <= NOUNS.keys()
+    for name, speeds in trait_values("speeds").items():
+        assert NOUNS[name].speed_m_s == speeds[NOUNS[name].motion] > 0.0
+        assert {kind: usual_speed(NOUNS[name], kind) for kind in speeds} == pytest.approx(speeds)
+
+
+@for_every(GOING)
+def test_a_body_goes_at_its_usual_speed_and_is_large_enough_where_it_is_seen(noun):
+    scene = goes(noun.name)
+    (actor,) = scene.actors
+    assert np.median(speeds_of(actor, TIMES[::10])) == pytest.approx(noun.speed_m_s, rel=0.2)
+    boxes = actor.corners(0.5 * DURATION_S)[None]
+    camera = scene.camera(0.5 * DURATION_S)
+    assert measure_prominence(camera, boxes, ASPECT) > 0.1
+    path = scene.camera_path
+    assert np.all(in_view(scene, np.linspace(*path.framed_s, 5)))
+    assert (path.passage_s is None and (path.tie is None)) != bool(path.notes)
+
+
+@pytest.mark.parametrize("noun", RIGHT)
+def test_a_pace_or_a_stated_speed_changes_the_speed_and_not_the_view(noun):
+    kind, usual = RIGHT[noun], usual_speed(NOUNS[noun], RIGHT[noun])
+    for said, expected in (
+        ((kind, "right", 0.5), 0.5 * usual), ((kind, "right", 2.0), 2.0 * usual),
+        ((kind, "right", 1.0, None, 30.0), 30.0),
+    ):  # fmt: skip
+        scene = goes(noun, *said)
+        assert np.median(speeds_of(scene.actors[0])) == pytest.approx(expected, rel=0.05)
+        assert np.all(in_view(scene, np.linspace(*scene.camera_path.framed_s, 9)))
+
+
+def test_the_camera_stays_goes_along_or_shows_a_passage_as_the_speed_grows():
+    car, dog, dart = (goes(noun, RIGHT[noun], "right") for noun in ("car", "dog", "dart"))
+    for scene in (car, dart):
+        np.testing.assert_array_equal(scene.camera(0.0).position, scene.camera(2.0).position)
+    assert np.all(in_view(car))
+    first, last = (dog.camera(time).position[0] for time in (0.0, DURATION_S))
+    assert 0.0 < last - first < 2.0 * usual_speed(NOUNS["dog"], "run")
+    images = [in_image(dog, dog.actors[0], time).mean(axis=0)[0] for time in (0.0, DURATION_S)]
+    assert images[0] < 0.35
+    assert images[1] > 0.65
+    assert np.all(in_view(dog))
+    assert [len(scene.camera_path.notes) for scene in (car, dog, dart)] == [0, 1, 1]
+
+
+@pytest.mark.parametrize("reason", ["static camera", "landmark", "other way"])
+def test_a_camera_that_may_not_go_along_shows_a_passage_and_says_when(reason):
+    bird, fields = thing("bird", ("fly", "right")), {}
+    others = {
+        "landmark": (thing("tree", ("stand",)),),
+        "other way": (thing("bird", ("fly", "left")),),
+    }
+    if reason == "static camera":
+        fields["camera"] = Camera((CameraMove("static"),))
+    if reason == "landmark":
+        fields["relations"] = (("past", 0, 1),)
+    scene = stage(bird, *others.get(reason, ()), **fields)
+    np.testing.assert_array_equal(scene.camera(0.0).position, scene.camera(2.0).position)
+    (note,) = scene.camera_path.notes
+    words = note.split()
+    lasts, begins = float(words[words.index("in") + 1]), float(words[words.index("from") + 1])
+    fine = np.linspace(0.0, DURATION_S, 201)
+    seen = fine[in_view(scene, fine)]
+    assert seen[0] == pytest.approx(begins, abs=0.1)
+    assert seen[-1] - seen[0] == pytest.approx(lasts, abs=0.2)
+
+
+def test_a_close_shot_that_follows_late_shows_what_goes_before():
+    follow = Camera((CameraMove("follow", start_s=1.0),), framing="close")
+    scene = goes("man", "walk", "right", camera=follow)
+    assert np.all(in_view(scene))
+    assert np.all(
+        [np.all(np.abs(in_image(scene, scene.actors[0], t)[:, 0] - 0.5) < 0.55) for t in TIMES]
+    )
+
+
+def test_who_walks_and_then_runs_gets_faster():
+    scene = stage(thing("dog", ("walk", "right"), ("run", "right")))
+    slow, fast = (speeds_of(scene.actors[0], np.array(span)) for span in ((0.2, 0.6), (1.6, 1.9)))
+    assert slow == pytest.approx(usual_speed(NOUNS["dog"], "walk"), rel=0.05)
+    assert fast == pytest.approx(usual_speed(NOUNS["dog"], "run"), rel=0.05)
