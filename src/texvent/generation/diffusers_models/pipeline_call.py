@@ -11,6 +11,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
+from texvent.generation.diffusers_models.guardrail import PART
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.videos.stored_video import to_16_bits_there
 from texvent.runtime.progress import Progress
@@ -34,7 +35,7 @@ GUIDER = "guider"
 """Part in which some pipelines keep the guidance scale, instead of an argument of the call."""
 ON_STEP = "callback_on_step_end"
 FRAME_DIMENSIONS = 4
-"""Dimensions of one video, [F, 3, H, W]; most pipelines return a batch of them."""
+"""Dimensions of one video; most pipelines return a batch of them."""
 
 
 def call_pipeline(
@@ -83,7 +84,9 @@ def call_pipeline(
         arguments["image"] = _fitted_image(config.image, config, accepted)
     if ON_STEP in accepted:
         arguments[ON_STEP] = _reporter(progress)
-    arguments |= {"output_type": "pt", "generator": generator}
+    # A guardrail looks at arrays of the host, which diffusers cannot make of bfloat16 tensors.
+    is_on_host = getattr(pipe, PART, None) is not None
+    arguments |= {"output_type": "np" if is_on_host else "pt", "generator": generator}
     with _guided(pipe, config.guidance):
         return _run(pipe, arguments)
 
@@ -177,7 +180,8 @@ def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
     try:
         output = pipe(**arguments, return_dict=False)[0]
         output = output[0] if output.ndim > FRAME_DIMENSIONS else output
-        return to_16_bits_there(output.movedim(1, 3))
+        is_tensor = isinstance(output, torch.Tensor)
+        return to_16_bits_there(output.movedim(1, 3) if is_tensor else torch.from_numpy(output))
     except ValueError as error:
         raise ConfigError(
             f"{type(pipe).__name__} refuses the options: {one_line(error)}"
