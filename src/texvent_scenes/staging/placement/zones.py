@@ -97,7 +97,7 @@ def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[
     groups: dict[tuple[int, int], list[int]] = {}
     for number, actor in enumerate(actors):
         own = unit[actor.object_index]
-        # Copies of actor object that nothing binds stand each by themselves.
+        # Copies of one object that nothing binds stand each by themselves.
         groups.setdefault((own, number if own in alone else -1), []).append(number)
     return list(groups.values())
 
