@@ -48,7 +48,7 @@ CPU_WARM_UP = 3
 
 
 @dataclass(frozen=True)
-class GpuPlan:
+class Plan:
     """Sizes, densities and repeats of the measurement."""
 
     size: SensorSize = HD
@@ -65,7 +65,7 @@ class GpuPlan:
     """Pairs of a run with RIFE; the first half is not timed."""
 
 
-def measure(plan: GpuPlan, device: str) -> dict[str, Any]:
+def measure(plan: Plan, device: str) -> dict[str, Any]:
     """All figures, ready for JSON."""
     copy = measure_copy(plan, device)
     return {
@@ -77,9 +77,7 @@ def measure(plan: GpuPlan, device: str) -> dict[str, Any]:
     }
 
 
-def measure_pairs(
-    plan: GpuPlan, device: str, weights: Path | None = None
-) -> Iterator[dict[str, Any]]:
+def measure_pairs(plan: Plan, device: str, weights: Path | None = None) -> Iterator[dict[str, Any]]:
     """Milliseconds per pair of source frames with RIFE, by size and preset, and its precision.
 
     Args:
@@ -146,7 +144,7 @@ def describe(device: str) -> dict[str, Any]:
     return {**facts, "device": "CPU, Triton's interpreter"}
 
 
-def measure_copy(plan: GpuPlan, device: str) -> dict[str, Any]:
+def measure_copy(plan: Plan, device: str) -> dict[str, Any]:
     """GB/s of a copy within the device's memory, bytes read and written."""
     torch = require("torch", extra=EXTRA)
     source = torch.empty(plan.copy_bytes, dtype=torch.uint8, device=device)
@@ -155,7 +153,7 @@ def measure_copy(plan: GpuPlan, device: str) -> dict[str, Any]:
     return quartiles([2 * plan.copy_bytes / 1e9 / one for one in times])
 
 
-def measure_simulation(plan: GpuPlan, device: str, copy: float) -> Iterator[dict[str, Any]]:
+def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[str, Any]]:
     """Microseconds per frame: by density, by batch, and of the other kinds."""
     usual = plan.batches[len(plan.batches) // 2]
     cases: list[tuple[str, str, float, int]] = []
@@ -185,7 +183,7 @@ def measure_simulation(plan: GpuPlan, device: str, copy: float) -> Iterator[dict
         }
 
 
-def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) -> dict[str, Any]:
+def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> dict[str, Any]:
     """Microseconds per frame of the CPU's kernels, frames in its memory."""
     simulator = SIMULATORS.load("esim" if isinstance(config, EsimConfig) else "texvent")(config)
     clip = frames[0].cpu().numpy()
@@ -200,7 +198,7 @@ def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) 
     return quartiles(times, scale=1e6)
 
 
-def make_clips(plan: GpuPlan, density: float, batch: int, pixels: str, device: str) -> Any:
+def make_clips(plan: Plan, density: float, batch: int, pixels: str, device: str) -> Any:
     """[B, T, H, W] in which about `density` of the pixels change level in every frame."""
     torch = require("torch", extra=EXTRA)
     generator = torch.Generator(device).manual_seed(0)
@@ -223,7 +221,7 @@ def _config(model: str) -> TexventConfig | EsimConfig:
 class _Clips:
     """A simulator that gets the same frames again and again, later every time."""
 
-    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) -> None:
+    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> None:
         self.config = config
         self._simulator = gpu.GpuSimulator(config)
         self._frames = frames
@@ -290,7 +288,7 @@ def main() -> int:
     if not require("torch", extra=EXTRA).cuda.is_available():
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
-    document = measure(GpuPlan(), "cuda")
+    document = measure(Plan(), "cuda")
     if chosen.json is not None:
         write_document(chosen.json, document, overwrite=True)
     print(as_markdown(document))
