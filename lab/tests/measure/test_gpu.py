@@ -18,7 +18,7 @@ TINY = SensorSize(24, 16)
 def test_every_figure_is_measured_and_stored():
     torch = pytest.importorskip("torch")
     pytest.importorskip("triton")
-    plan = gpu.GpuPlan(
+    plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
         copy_bytes=2**20, pair_sizes=(), wan=None, seconds=1e6,
         stream=gpu.stream.StreamPlan(batch=1, frames=2, side=8, bins=2, repeats=1, plain=1),
@@ -72,7 +72,7 @@ def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):
     from texvent.interpolate.rife.network import RIFE_4_0
 
     weights = save_published(torch, RIFE_4_0, tmp_path / "rife.pkl")
-    plan = gpu.GpuPlan(pair_sizes=(TINY,), pairs=2)
+    plan = gpu.Plan(pair_sizes=(TINY,), pairs=2)
     is_gpu = torch.cuda.is_available()
     rows = list(gpu.measure_pairs(plan, "cuda" if is_gpu else "cpu", weights))
     assert [(row["size"], row["preset"]) for row in rows] == [

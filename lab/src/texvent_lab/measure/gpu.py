@@ -8,7 +8,7 @@ over batches. Warm-up calls, which compile the kernels, are not timed. The CPU's
 first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole runs: frames in the
 host's memory → packets; they need its weights, else their rows are left out. Videos of a model go
 from its decoder to the last packet (`generated_video.py`), and training batches are those of
-`stream.py`. The file is written after every row; none is begun after `GpuPlan.seconds`.
+`stream.py`. The file is written after every row; none is begun after `Plan.seconds`.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ CPU_WARM_UP = 3
 
 
 @dataclass(frozen=True)
-class GpuPlan:
+class Plan:
     """Sizes, densities and repeats of the measurement."""
 
     size: SensorSize = HD
@@ -76,7 +76,7 @@ class GpuPlan:
 
 
 def measure(
-    plan: GpuPlan, device: str, save: Callable[[dict[str, Any]], None] = lambda document: None
+    plan: Plan, device: str, save: Callable[[dict[str, Any]], None] = lambda document: None
 ) -> dict[str, Any]:
     """All figures, ready for JSON, those that matter most first.
 
@@ -111,9 +111,7 @@ def _chosen(device: str) -> RunDevice:
     return RunDevice(find_gpu(device) or require("torch", extra=EXTRA).device(device))
 
 
-def measure_pairs(
-    plan: GpuPlan, device: str, weights: Path | None = None
-) -> Iterator[dict[str, Any]]:
+def measure_pairs(plan: Plan, device: str, weights: Path | None = None) -> Iterator[dict[str, Any]]:
     """Milliseconds per pair of source frames with RIFE, by size and preset, and its precision.
 
     Args:
@@ -180,7 +178,7 @@ def describe(device: str) -> dict[str, Any]:
     return {**facts, "device": "CPU, Triton's interpreter"}
 
 
-def measure_copy(plan: GpuPlan, device: str) -> dict[str, Any]:
+def measure_copy(plan: Plan, device: str) -> dict[str, Any]:
     """GB/s of a copy within the device's memory, bytes read and written."""
     torch = require("torch", extra=EXTRA)
     source = torch.empty(plan.copy_bytes, dtype=torch.uint8, device=device)
@@ -189,7 +187,7 @@ def measure_copy(plan: GpuPlan, device: str) -> dict[str, Any]:
     return quartiles([2 * plan.copy_bytes / 1e9 / one for one in times])
 
 
-def measure_simulation(plan: GpuPlan, device: str, copy: float) -> Iterator[dict[str, Any]]:
+def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[str, Any]]:
     """Microseconds per frame: by density, by batch, and of the other kinds."""
     usual = plan.batches[len(plan.batches) // 2]
     cases: list[tuple[str, str, float, int]] = []
@@ -219,7 +217,7 @@ def measure_simulation(plan: GpuPlan, device: str, copy: float) -> Iterator[dict
         }
 
 
-def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) -> dict[str, Any]:
+def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> dict[str, Any]:
     """Microseconds per frame of the CPU's kernels, frames in its memory."""
     simulator = SIMULATORS.load("esim" if isinstance(config, EsimConfig) else "texvent")(config)
     clip = frames[0].cpu().numpy()
@@ -234,7 +232,7 @@ def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) 
     return quartiles(times, scale=1e6)
 
 
-def make_clips(plan: GpuPlan, density: float, batch: int, pixels: str, device: str) -> Any:
+def make_clips(plan: Plan, density: float, batch: int, pixels: str, device: str) -> Any:
     """[B, T, H, W] in which about `density` of the pixels change level in every frame."""
     torch = require("torch", extra=EXTRA)
     generator = torch.Generator(device).manual_seed(0)
@@ -257,7 +255,7 @@ def _config(model: str) -> TexventConfig | EsimConfig:
 class _Clips:
     """A simulator that gets the same frames again and again, later every time."""
 
-    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: GpuPlan) -> None:
+    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> None:
         self.config = config
         self._simulator = gpu.GpuSimulator(config)
         self._frames = frames
@@ -334,7 +332,7 @@ def main() -> int:
         if chosen.json is not None:
             write_document(chosen.json, document, overwrite=True)
 
-    document = measure(GpuPlan(), "cuda", save)
+    document = measure(Plan(), "cuda", save)
     print(as_markdown(document))
     return 0
 
