@@ -110,8 +110,7 @@ class _Body:
         if motion.kind in RESTS:
             shorter = (*one.motions[:number], *one.motions[number + 1 :])
             return self.differ(one, replace(one, motions=shorter))
-        rest = replace(one, motions=_with(one, number, kind="stand").motions)
-        return self.differ(one, rest)
+        return self.differ(one, _with(one, number, kind="stand", direction=None))
 
 
 def _is_apart(one: Actor, other: Actor) -> Callable[[float], bool]:

@@ -137,8 +137,10 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
     du = u * _STAR_CELLS - i - (0.3 + 0.4 * lattice(int(i), int(j), face + 6))
     dv = v * _STAR_CELLS - j - (0.3 + 0.4 * lattice(int(i), int(j), face + 12))
     width = max(0.7 * pixel, 0.0012) * _STAR_CELLS
+    if width >= 0.5:  # wider than its cell, of which the edges would be seen
+        return 0.0
     brightness = 0.06 + 2.0 * ((0.35 - chance) / 0.35) ** 4
-    return brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
+    return detail_fade(width) * brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
 
 
 @jit(error_model="numpy", inner=True)

@@ -235,9 +235,11 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
     """How the camera gives way to a subject that is fast, and how much of it is seen."""
     if path.tie is not None and path.tie.share < 1.0:
         gone = path.tie.displacement(path.duration_s) / path.duration_s
+        speed_m_s = float(np.linalg.norm(gone))
+        figure = f"{speed_m_s:.2g}" if speed_m_s < 10.0 else f"{speed_m_s:.0f}"
         yield (
-            f"the {main.noun.name} is fast: the camera goes along at "
-            f"{float(np.linalg.norm(gone)):.2g} m/s, so that it stays in view"
+            f"the {main.noun.name} is fast: the camera goes along at {figure} m/s, so that it "
+            "stays in view"
         )
     if path.passage_s is None:
         return

@@ -15,6 +15,7 @@ from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
@@ -57,7 +58,18 @@ def settle_motions(
             settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
+    for one in relations:
+        if one.kind == "on" and objects[one.targets[0]].noun in nouns_with("across a road"):
+            objects[one.subject] = _across(objects[one.subject])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _across(said: SceneObject) -> SceneObject:
+    """Who goes over a crosswalk crosses the road, where no other way is said."""
+    first = said.motions[0] if said.motions else None
+    if first is None or first.kind not in PATH_KINDS or first.direction is not None:
+        return said
+    return replace(said, motions=(replace(first, direction="across"), *said.motions[1:]))
 
 
 def _in_hand(

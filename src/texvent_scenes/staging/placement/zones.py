@@ -79,7 +79,7 @@ def keep_to_zones(
     if any(zone_of(one.noun) == "rails" for one in actors):
         work.clear_rails()
     if place.has_road and any(zone_of(one.noun) == "road" for one in actors):
-        work.use_lanes(0.5 * place.road_m)
+        work.use_lanes(0.5 * place.road_m, find_road(description, place, work.actors, 0.0))
         road = find_road(description, place, work.actors, 0.0)
         work.lead_across(road)
         work.clear_strip(road, place.road_m)
@@ -133,8 +133,11 @@ class _Zones:
         x, y, _ = train.middle(0.0)
         self.clear_strip(RoadLine(train.track.at(0.0).yaw, (float(x), float(y))), _RAILS_M)
 
-    def use_lanes(self, lane_m: float) -> None:
-        """Vehicles at rest stand along the road; what goes the other way has the other lane."""
+    def use_lanes(self, lane_m: float, road: RoadLine) -> None:
+        """Vehicles at rest stand along the road; what goes the other way has the other lane.
+
+        Where something comes towards them, those that go the same way do so one behind the other.
+        """
         drivers = [n for n in self._turned if self._zone(n) == "road"]
         goers = [n for n in drivers if self.actors[n].is_mover]
         first = next(iter(goers), next(iter(drivers), None))
@@ -142,21 +145,50 @@ class _Zones:
             return
         angle = self.actors[first].track.at(0.0).yaw if first in goers else 0.0
         if first not in goers:
-            angle = math.pi if math.cos(self.actors[first].track.yaw) < 0.0 else 0.0
+            is_back = math.cos(self.actors[first].track.yaw - road.angle) < 0.0
+            angle = road.angle + (math.pi if is_back else 0.0)
         home = self.actors[first].middle(0.0)
         line = RoadLine(angle, (float(home[0]), float(home[1])))
-        left = np.array([-math.sin(angle), math.cos(angle)])
-        for number in drivers:
+        along = np.array([math.cos(angle), math.sin(angle)])
+        left = np.array([-along[1], along[0]])
+        turns = {number: self.actors[number].track.at(0.0).yaw - angle for number in drivers}
+        has_oncoming = any(math.cos(turn) < -_PARALLEL for turn in turns.values())
+        behind_m = 0.0
+        for number, turn in turns.items():
             one = self.actors[number]
-            turn = one.track.at(0.0).yaw - angle
             if not one.is_mover and one.track.is_resting:
                 yaw = angle if math.cos(turn) >= 0.0 else angle + math.pi
                 self._move(number, np.zeros(2), yaw)
+                if number in self._free:
+                    self._wait(number, road, lane_m)
             elif abs(math.sin(turn)) > _PARALLEL or one.track.terms:
                 continue
             if number in self._free and number != first and math.cos(turn) < 0.0:
                 across = float(line.across(np.array([one.middle(0.0)[:2]]))[0])
                 self._move(number, (2.0 * lane_m - across) * left)
+            elif number in self._free and number != first and has_oncoming and one.is_mover:
+                behind_m += one.size_m + 2.0 * _CLEAR_M
+                self._move(number, home[:2] - one.middle(0.0)[:2] - behind_m * along)
+
+    def _wait(self, number: int, road: RoadLine, lane_m: float) -> None:
+        """A vehicle at rest waits for those who cross, facing them, behind others that wait."""
+        crossers = [one for one in self.actors if one.goes_across]
+        if not crossers:
+            return
+        away = road.angle + (0.0 if math.sin(road.angle) >= 0.0 else math.pi)
+        along = np.array([math.cos(away), math.sin(away)])
+        waiting = [one for one in self.actors[:number] if self._rests_on_road(one)]
+        ways = [one.middle(time)[:2] for one in (*crossers, *waiting) for time in self._times]
+        ends = [0.5 * one.size_m for one in waiting]
+        one = self.actors[number]
+        ahead_m = max(float((way - road.offset) @ along) for way in ways) + sum(ends[-1:])
+        goal = np.array(road.offset) + lane_m * np.array([-along[1], along[0]])
+        goal += (ahead_m + 0.5 * one.size_m + 2.0 * _CLEAR_M) * along
+        self._move(number, goal - one.middle(0.0)[:2], away + math.pi)
+
+    @staticmethod
+    def _rests_on_road(one: Actor) -> bool:
+        return zone_of(one.noun) == "road" and not one.is_mover
 
     def clear_strip(self, line: RoadLine, half_m: float) -> None:
         """Things that belong beside a road or rails stand there, on the far side."""
@@ -190,7 +222,9 @@ class _Zones:
     def lead_across(self, line: RoadLine) -> None:
         """Those who cross do so at right angles, beyond where vehicles come."""
         along = np.array([math.cos(line.angle), math.sin(line.angle)])
-        driven = [one for one in self.actors if zone_of(one.noun) == "road"]
+        driven = [one for one in self.actors if zone_of(one.noun) == "road" and one.is_mover]
+        if not driven:
+            return
         corners = np.vstack([one.corners(time)[:, :2] for one in driven for time in self._times])
         free_m = float(((corners - line.offset) @ along).max()) + _CLEAR_M
         for number in sorted(self._free):

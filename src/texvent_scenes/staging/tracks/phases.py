@@ -279,7 +279,7 @@ class _KeyBuilder:
     def usual(self, motion: Motion) -> float:
         """Speed at pace 1, m/s."""
         own = self._stated_m_s
-        return self._haste * (usual_speed(self._noun, motion.kind) if own is None else own)
+        return self._haste * usual_speed(self._noun, motion.kind) if own is None else own
 
     def hurry(self, phases: Sequence[Phase]) -> None:
         """Raise the speed until every turn is a quarter circle of a plausible radius."""
