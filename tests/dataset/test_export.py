@@ -64,7 +64,7 @@ def traffic(tmp_path_factory: pytest.TempPathFactory) -> Path:
         splits={"train": 0.67, "valid": 0.33},
         sources=[{"prompts": ["a red taxi drives left past a man", "a bus stands"], "label": "car"},
                  {"prompts": ["a tree"], "split": "train", "label": "tree"}],
-        options={"duration": 0.15, "sensor": "64x48"},
+        options={"duration": 0.15, "sensor": "64x48", "point_spread": 0},
         variants={"paper": {}},
         truth=["boxes"],
     )  # fmt: skip

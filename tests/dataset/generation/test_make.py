@@ -127,7 +127,9 @@ def test_variants_that_share_frames_are_what_each_is_alone(
 
 
 def test_as_many_events_as_are_allowed_are_kept() -> None:
-    settings = resolve("generate", {**SMALL, "duration": 0.2, "simulator": "esim"})
+    settings = resolve(
+        "generate", {**SMALL, "duration": 0.2, "simulator": "esim", "point_spread": 0}
+    )
     simulation = text_to_events("a red car drives left", settings)
     count = len(simulation.packets.collect())
     within = simulate_sample(SampleRun(simulation, Filters(max_events=count)))
