@@ -78,6 +78,8 @@ def call_pipeline(
     for name in RATE_ARGUMENTS:
         if name in accepted:
             arguments[name] = int(fps) if fps.denominator == 1 else float(fps)
+    if config.guidance != model.guidance:
+        arguments.pop("guidance_scale_2", None)  # follows the first, unless it is given
     if SOUND in accepted:
         arguments[SOUND] = False
     if config.image is not None:
@@ -182,6 +184,8 @@ def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
         output = output[0] if output.ndim > FRAME_DIMENSIONS else output
         is_tensor = isinstance(output, torch.Tensor)
         return to_16_bits_there(output.movedim(1, 3) if is_tensor else torch.from_numpy(output))
+    except TexventError:  # some are ValueErrors
+        raise
     except ValueError as error:
         raise ConfigError(
             f"{type(pipe).__name__} refuses the options: {one_line(error)}"
