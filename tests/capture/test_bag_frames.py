@@ -127,10 +127,16 @@ def test_images_that_cannot_be_used_are_refused(tmp_path: Path, second: Any, sai
         frames(bag(tmp_path, 2, {"/camera": (IMAGE, sent)}))
 
 
-def test_depth_and_bags_without_images_are_refused(tmp_path: Path) -> None:
-    depth = [compressed(1, TIMES_US[0], PICTURE, "16UC1; compressedDepth png")]
+@pytest.mark.parametrize(
+    "form", ["16UC1; compressedDepth png", "16UC1; png compressed ", "32FC1; tiff compressed "]
+)
+def test_compressed_depth_is_refused(tmp_path: Path, form: str) -> None:
+    depth = [compressed(1, TIMES_US[0], PICTURE, form)]
     with pytest.raises(FileFormatError, match="an image is of depth"):
         frames(bag(tmp_path, 1, {"/depth": (COMPRESSED, depth)}))
+
+
+def test_bags_without_images_are_refused(tmp_path: Path) -> None:
     types = types_of(2)
     text = types.types["std_msgs/msg/String"]("{}")
     path = bag(tmp_path, 2, {"/texvent": ("std_msgs/msg/String", [text])})

@@ -34,6 +34,7 @@ ENCODINGS: Mapping[str, tuple[str, int, slice]] = {
 }
 """Encoding → type of its values, their number per pixel, and those of them that are red, green and
 blue, or grey. 16UC1 is not among them: in bags it is depth, mostly."""
+DEPTH = ("16UC1", "32FC1")
 BAYER = {"rggb": "BG", "bggr": "RG", "gbrg": "GR", "grbg": "GB"}
 """Pattern of a Bayer encoding such as bayer_rggb8, by its first two rows → OpenCV's name of it, by
 the second pixel of the second row."""
@@ -104,7 +105,7 @@ def _decompressed(fields: MessageFields) -> PixelArray:
     import cv2
 
     form = fields.text().decode("latin-1")
-    if "compressedDepth" in form:
+    if "compressedDepth" in form or form.startswith(DEPTH):
         raise FileFormatError(f"an image is of depth ({shown(form)}); choose a topic of pictures")
     flags = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH | cv2.IMREAD_IGNORE_ORIENTATION
     pixels = decode_bytes(bytes(fields.data()), f"of a message ({shown(form)})", flags)
