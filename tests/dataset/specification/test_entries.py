@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.capture.recorded_frames import DSEC_EVENTS, DSEC_IMAGES, IMAGES, TIMES
 from texvent.dataset.specification.entries import are_videos, read_samples
 from texvent.errors import InputError, TexventWarning
 
@@ -121,6 +123,44 @@ def test_mistakes_are_named(
     with pytest.raises(InputError, match=why) as caught:
         read_samples(sources, seed=0)
     assert "secret" not in str(caught.value)
+
+
+def test_a_recording_is_one_entry_alone_and_among_others(tmp_path: Path) -> None:
+    bag = "rosbag2_bagfile_information:\n"
+    recordings: dict[str, tuple[str, ...]] = {
+        "bag": ("metadata.yaml", "a.db3", "a.npy"),
+        "dsec": (DSEC_EVENTS, f"{DSEC_IMAGES}/0.png", "a.npy"),
+        "evreal": (IMAGES, TIMES, "events_xy.npy"),
+    }
+    others = {"frames": ("images/0.png", "masks/0.png", "images.txt"), "imgs": ("0.png",)}
+    for name, files in {**recordings, **others}.items():
+        for file in files:
+            path = tmp_path / ("set" if name in recordings else "others") / name / file
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(bag if file == "metadata.yaml" else "")
+    found = read_samples([tmp_path / "set"], seed=0)
+    assert [one.video for one in found] == [tmp_path / "set" / name for name in recordings]
+    for place in [*(tmp_path / "set" / name for name in recordings), tmp_path / "others/imgs"]:
+        assert [one.video for one in read_samples([place], seed=0)] == [place]
+    with pytest.warns(TexventWarning, match="images and folders of images"):
+        (one,) = read_samples([tmp_path / "others/frames"], seed=0)
+    assert one.video == tmp_path / "others/frames"
+
+
+def test_a_picture_beside_the_videos_of_a_class_hides_none_and_patterns_find_each_kind(
+    tmp_path: Path,
+) -> None:
+    for place in ("cat/a.mp4", "cat/poster.png", "dog/b.mp4", "bird/0.png"):
+        (tmp_path / place).parent.mkdir(exist_ok=True)
+        (tmp_path / place).touch()
+    videos = [tmp_path / "cat/a.mp4", tmp_path / "dog/b.mp4"]
+    with pytest.warns(TexventWarning, match="folders of videos are taken alone") as warned:
+        assert [one.video for one in read_samples([tmp_path], seed=0)] == videos
+    of_videos, of_folders = re.findall(r"'([^']*)'", str(warned[0].message))
+    assert [one.video for one in read_samples([of_videos], seed=0)] == videos
+    with pytest.warns(TexventWarning, match="cat/? holds videos and images"):
+        found = {one.video for one in read_samples([of_folders], seed=0)}
+    assert found == {*videos, tmp_path / "bird"}
 
 
 @pytest.mark.parametrize("places", [("a.mp4", "b/0.png"), ("a.mp4", "0.png"), ("0.png", "b/0.png")])

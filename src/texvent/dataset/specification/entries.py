@@ -11,6 +11,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from texvent.capture.image_folder import INNER_FOLDERS
+from texvent.capture.recorded_frames import is_dsec, is_evreal
 from texvent.dataset.specification.list_files import (
     LIST_EXTENSIONS,
     ListEntry,
@@ -19,11 +21,19 @@ from texvent.dataset.specification.list_files import (
 )
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.generation.subjects import scenes
+from texvent.io.ros.bag_kind import is_bag
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.runtime.identity import derived_seed, digest
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""
+PATTERNS = {
+    "videos": "*.mp4",
+    "recordings": "*/",
+    "folders of videos": "*/*.mp4",
+    "folders of images": "*/",
+}
+"""What a folder holds → pattern of it alone."""
 ID_DIGITS = 8
 
 
@@ -103,14 +113,24 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
 
 
 def _folder_entries(folder: Path) -> Iterator[ListEntry]:
-    """The videos in a folder, or itself if it holds images, or what the folders in it hold."""
+    """A recording, or the videos in a folder, or itself if it holds images, or what those in it are.
+
+    Folders of images are those that hold no video: a picture beside videos is none of their frames.
+    """
+    if _is_recording(folder):
+        yield ListEntry(where=str(folder), video=folder)
+        return
     inside = _visible(folder)
-    folders = _folders(inside)
+    inner = [path for path in _folders(inside) if path.name in INNER_FOLDERS and _has_images(path)]
+    folders = [path for path in _folders(inside) if path not in inner]
+    recordings = [path for path in folders if _is_recording(path)]
+    videos = {path: _videos(_visible(path)) for path in folders if path not in recordings}
     kinds = {
         "videos": _videos(inside),
-        "images": [folder] if _holds_images(inside) else [],
-        "folders of images": [path for path in folders if _holds_images(path.iterdir())],
-        "folders of videos": [video for path in folders for video in _videos(_visible(path))],
+        "images": [folder] if inner or _holds_images(inside) else [],
+        "recordings": recordings,
+        "folders of videos": [video for of_one in videos.values() for video in of_one],
+        "folders of images": [path for path in videos if not videos[path] and _has_images(path)],
     }
     found = [kind for kind, paths in kinds.items() if paths]
     if not found:
@@ -121,10 +141,21 @@ def _folder_entries(folder: Path) -> Iterator[ListEntry]:
     for path in kinds[found[0]]:
         yield ListEntry(where=str(path), video=path)
     if found[1:]:
+        patterns = [f"'{folder}/{PATTERNS[kind]}'" for kind in found if kind in PATTERNS]
         warn(
             f"{folder} holds {' and '.join(found)}, of which the {found[0]} are taken alone; name "
-            f"each kind by a pattern, such as '{folder}/*.mp4' or '{folder}/*/'"
+            f"each kind by a pattern, such as {' or '.join(patterns)}"
         )
+
+
+def _is_recording(folder: Path) -> bool:
+    return is_evreal(folder) or is_dsec(folder) or is_bag(folder)
+
+
+def _has_images(folder: Path) -> bool:
+    """Whether the folder or its usual sub-folder holds images."""
+    inner = (folder / name for name in INNER_FOLDERS)
+    return any(_holds_images(_visible(one)) for one in _folders([folder, *inner]))
 
 
 def _folder_stills(folder: Path) -> Iterator[ListEntry]:
