@@ -45,6 +45,8 @@ class FrameFlow:
         unknown = np.full((2, *shape), np.nan, np.float32)
         if len(times) < 2 or start_us < times[0] or stop_us > times[-1]:
             return unknown
+        if start_us == stop_us:
+            return np.zeros_like(unknown)
         places = np.indices(shape, np.float64)
         x, y = places[1], places[0]
         step = int(np.searchsorted(times, start_us, "right")) - 1
