@@ -107,6 +107,14 @@ def test_one_topic_of_several_is_chosen_raw_or_compressed(tmp_path: Path, versio
         frames(tmp_path / "clip.npy", topic="left", fps=50)
 
 
+def test_a_topic_without_messages_is_no_choice(tmp_path: Path) -> None:
+    sent = [image(2, t_us, PICTURE, "rgb8") for t_us in TIMES_US]
+    path = bag(tmp_path, 2, {"/dead": (IMAGE, []), "/camera": (IMAGE, sent)})
+    assert len(frames(path)) == len(TIMES_US)
+    with pytest.raises(FileFormatError, match="/dead has no message"):
+        frames(path, topic="dead")
+
+
 PICTURE = PICTURES[0].astype(np.uint8)
 DAMAGED = image(2, TIMES_US[1], PICTURE, "rgb8")
 DAMAGED.height = 40
@@ -118,6 +126,7 @@ DAMAGED.height = 40
         (image(2, TIMES_US[1], PICTURE, "yuv422"), "encoded as 'yuv422'; texvent reads mono8"),
         (image(2, TIMES_US[1], PICTURE[:2], "rgb8"), "is 6x2, the first 6x4"),
         (image(2, TIMES_US[0], PICTURE, "rgb8"), r"has the stamp .* give the frame rate, --fps"),
+        (image(2, TIMES_US[0] - 9, PICTURE, "rgb8"), "order of the recording is not that of the s"),
         (DAMAGED, "an image of 6x40 rgb8 has"),
     ],
 )

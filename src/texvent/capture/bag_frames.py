@@ -79,9 +79,14 @@ class BagFrames(FrameSource):
                     continue
                 t_us = image_stamp_ns(data, bag.version) // NS
                 if last_us is not None and t_us <= last_us:
+                    advice = (
+                        "that of the one before; give the frame rate, --fps"
+                        if t_us == last_us
+                        else f"before {last_us} of the one before: the order of the recording is "
+                        "not that of the stamps; sort the bag by them"
+                    )
                     raise InputError(
-                        f"image {index} of {self._topic} has the stamp {t_us} µs, not after that "
-                        f"of the one before, {last_us}; give the frame rate, --fps"
+                        f"image {index} of {self._topic} has the stamp {t_us} µs, {advice}"
                     )
                 last_us = t_us
                 yield Frame(pixels, t_us)
@@ -109,6 +114,9 @@ def _choose_topic(path: Path, connections: Sequence[Any], wanted: str | None) ->
             f"{path} holds no images ({' or '.join(IMAGE_MESSAGES)}), but {kinds}; texvent render, "
             "view, convert and info take events"
         )
+    if wanted is None:  # topics without messages are no choice
+        sent = {str(one.topic) for one in connections if one.msgcount}
+        topics = [topic for topic in topics if topic in sent] or topics[:1]
     if wanted is None and len(topics) > 1:
         raise InputError(
             f"{path} has images on {len(topics)} topics: {', '.join(topics)}; choose one as topic "
