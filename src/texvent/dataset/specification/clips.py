@@ -55,6 +55,7 @@ class Clips:
         """
         self._seed = specification.seed
         self._repeats = specification.repeats
+        self._shares = specification.splits
         self._items = _share_out(specification, items)
         shards = sum(-(-count // specification.samples_per_shard) for count in self.counts.values())
         if shards > MOST_SHARDS:
@@ -83,10 +84,10 @@ class Clips:
         }
 
     def lacking(self) -> dict[str, list[str]]:
-        """Split → the classes that it lacks, of those that are shared out over all splits."""
+        """Split with a share → the classes that it lacks, of those that are shared out."""
         every = itertools.chain.from_iterable(self._items.values())
         shared = {one.label for one in every if one.split is None and one.label is not None}
-        counts = self.class_counts.items()
+        counts = ((split, has) for split, has in self.class_counts.items() if self._shares[split])
         return {split: lacks for split, has in counts if (lacks := sorted(shared - has.keys()))}
 
     def clip(self, split: str, number: int) -> Clip:

@@ -113,7 +113,7 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
 
 
 def _folder_entries(folder: Path) -> Iterator[ListEntry]:
-    """A recording, or the videos in a folder, or itself if it holds images, or what those in it are.
+    """A recording, the videos in a folder, itself if it holds images, or those of its folders.
 
     Folders of images are those that hold no video: a picture beside videos is none of their frames.
     """
