@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import shutil
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from texvent.cli.dataset.stored import _print_counts
 from texvent.dataset.generation.shard_files import FAILED, read_record, write_record
 from texvent.dataset.statistics import DatasetStatistics, quantiles, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
@@ -67,3 +69,16 @@ def test_a_shard_of_another_set_is_not_counted(copied: Path) -> None:
         own = copied / "esim" / f"train-000000{suffix}"
         shutil.copy(own, own.with_stem("train-000007"))
     assert DatasetStatistics.of(StoredDataset.open(copied)).total.samples == 9
+
+
+def test_the_first_sensors_are_named_where_there_are_any(
+    cars: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    dataset = StoredDataset.open(cars)
+    for count in (0, 1, 12, 14):
+        statistics = DatasetStatistics.of(dataset)
+        statistics.total.sensors = Counter({f"{10 + side}x8": 1 for side in range(count)})
+        _print_counts(dataset, statistics)
+        told = capsys.readouterr().out
+        assert ("sensors:" in told, told.count("x8 1")) == (count > 0, min(count, 12))
+        assert (" and 2 more\n" in told) == (count == 14)

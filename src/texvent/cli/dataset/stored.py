@@ -34,7 +34,7 @@ from texvent.prompt_report import ranked
 from texvent.runtime.file_names import inside
 from texvent.runtime.threads import count_threads
 
-MOST_LINES = 20
+MOST_LINES, MOST_SENSORS = 20, 12
 WIDTH = 110
 """Width of the table of counts, which has ten columns, also where there is no terminal."""
 TITLES = {
@@ -161,8 +161,10 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
     for split, has in counts.items() if is_whole else ():
         if lacks := [label for label in dataset.labels if label not in has]:
             console.print(escape(f"warning  {split} has no {few(lacks)}"))
-    sensors = "; ".join(f"{name} {count:,}" for name, count in ranked(total.sensors))
-    console.print(f"sensors: {sensors}")
+    sensors = [f"{name} {count:,}" for name, count in ranked(total.sensors)]
+    if sensors:
+        more = f" and {len(sensors) - MOST_SENSORS} more" if len(sensors) > MOST_SENSORS else ""
+        console.print(escape(f"sensors: {'; '.join(sensors[:MOST_SENSORS])}{more}"))
     for line in summary_lines(total, dataset.box_classes):
         console.print(escape(line))
     console.print(
