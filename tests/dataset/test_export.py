@@ -154,6 +154,27 @@ def test_what_a_layout_cannot_hold_is_refused_at_the_door(
     assert not out.exists()
 
 
+def test_classes_with_numbers_need_no_folder_names_and_large_numbers_give_way_to_places(
+    tmp_path: Path,
+) -> None:
+    for labels, numbers in ((("A", "a"), (0, 1)), (("10", "11"), (0, 1)), (("3", "7"), (3, 7))):
+        name = "".join(labels)
+        made = make_set(
+            tmp_path / name,
+            splits={"train": 1.0},
+            sources=[{"prompts": ["a red car drives left"], "label": one} for one in labels],
+            options={"duration": 0.1, "sensor": "32x24", "interpolate": "none"},
+            variants={"esim": {"simulator": "esim"}},
+        )
+        out = tmp_path / f"{name}-exported"
+        done = export(StoredDataset.open(made), "n-mnist", out)
+        pairs = zip(numbers, labels, strict=True)
+        assert f"its classes are {', '.join(f'{n} {one}' for n, one in pairs)}" in done.doubts
+        assert sorted(int(one.name) for one in (out / "NMNIST/Train").iterdir()) == [*numbers]
+    with pytest.raises(InputError, match="classes 'A' and 'a' would share the folder"):
+        export(StoredDataset.open(tmp_path / "Aa"), "n-imagenet", tmp_path / "no")
+
+
 def test_frames_that_cannot_be_made_again_are_said(traffic: Path, tmp_path: Path) -> None:
     copy = shutil.copytree(traffic, tmp_path / "copy")
     (copy / "items.jsonl").unlink()

@@ -140,7 +140,7 @@ def export(
 def _samples(
     dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList, recipe: Recipe | None
 ) -> Iterator[LayoutSample]:
-    numbers = class_numbers(dataset.labels)
+    numbers = class_numbers(dataset.labels, layout.most_classes)
     for shard in dataset.shards(variant):
         for sample in shard.samples:
             number = numbers.get(sample.label or "", 0)
@@ -156,7 +156,7 @@ def _layout_sample(
     recipe: Recipe | None,
 ) -> LayoutSample:
     split, files = layout.split_of(shard.record.split), shard.files(sample)
-    label = folder_name(sample.label or "") if layout.needs_classes else ""
+    label = folder_name(sample.label or "") if layout.names_classes else ""
     boxes, instants = np.empty(0, BOX_RECORD), np.empty(0, np.int64)
     if layout.has_boxes:
         truth = files.truth()
@@ -208,8 +208,9 @@ def _begin(
         OutputError: it is of something else.
         FileFormatError: its note is damaged.
     """
-    first = LAYOUTS[layout].first_class
-    numbers = class_numbers(dataset.labels) if LAYOUTS[layout].numbers_classes else {}
+    kind = LAYOUTS[layout]
+    first, labels = kind.first_class, dataset.labels if kind.numbers_classes else ()
+    numbers = class_numbers(labels, kind.most_classes)
     note = {
         "texvent_version": full_version(),
         "layout": layout,

@@ -37,11 +37,10 @@ def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str
             "sources a label, or export to hdf5"
         )
     _check_labels(dataset, layout)
-    numbers = class_numbers(dataset.labels) if layout.numbers_classes else {}
-    if layout.most_classes is not None and max(numbers.values(), default=0) >= layout.most_classes:
+    if layout.most_classes is not None and len(dataset.labels) > layout.most_classes:
         raise InputError(
-            f"layout {name} numbers {layout.most_classes} classes from 0, and {dataset.name} has "
-            f"{few(dataset.labels)}; make a data set of fewer classes, or choose another layout"
+            f"layout {name} holds {layout.most_classes} classes, and {dataset.name} has "
+            f"{len(dataset.labels)}; make a data set of fewer classes, or choose another layout"
         )
     for sample in _samples(dataset, variant):
         if layout.has_boxes and sample.boxes is None:
@@ -76,21 +75,23 @@ def folder_name(label: str) -> str:
     return name
 
 
-def class_numbers(labels: Sequence[str]) -> dict[str, int]:
-    """Class → its number: what it says, where all are numbers, else its place.
+def class_numbers(labels: Sequence[str], most: int | None = None) -> dict[str, int]:
+    """Class → its number: what it says, where all are numbers below `most`, else its place.
 
     Example:
-        >>> class_numbers(["3", "7"]), class_numbers(["cat", "dog"])
-        ({'3': 3, '7': 7}, {'cat': 0, 'dog': 1})
+        >>> class_numbers(["3", "7"]), class_numbers(["3", "7"], 5), class_numbers(["cat", "dog"])
+        ({'3': 3, '7': 7}, {'3': 0, '7': 1}, {'cat': 0, 'dog': 1})
     """
     if all(label.isdecimal() and str(int(label)) == label for label in labels):
-        return {label: int(label) for label in labels}
+        numbers = {label: int(label) for label in labels}
+        if most is None or all(number < most for number in numbers.values()):
+            return numbers
     return {label: place for place, label in enumerate(labels)}
 
 
 def _check_labels(dataset: StoredDataset, layout: Layout) -> None:
     names: dict[str, str] = {}
-    for label in dataset.labels if layout.needs_classes else ():
+    for label in dataset.labels if layout.names_classes else ():
         # Some file systems do not tell A from a.
         other = names.setdefault(folder_name(label).casefold(), label)
         if other != label:
@@ -175,7 +176,7 @@ def doubts_of(
     ):
         doubts.append("it does not hold which events are noise")
     if layout.numbers_classes:
-        numbered = class_numbers(dataset.labels).items()
+        numbered = class_numbers(dataset.labels, layout.most_classes).items()
         doubts.append(f"its classes are {', '.join(f'{one} {name}' for name, one in numbered)}")
     splits: dict[str, list[str]] = {}
     for split in dataset.splits:

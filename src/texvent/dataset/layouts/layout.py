@@ -92,7 +92,12 @@ class Layout:
     @property
     def needs_classes(self) -> bool:
         """True if each class has a folder, or a number."""
-        return "{label}" in self.place or self.numbers_classes
+        return self.names_classes or self.numbers_classes
+
+    @property
+    def names_classes(self) -> bool:
+        """True if each class has a folder."""
+        return "{label}" in self.place
 
     @property
     def numbers_classes(self) -> bool:
