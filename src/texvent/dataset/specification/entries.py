@@ -33,7 +33,7 @@ PATTERNS = {
     "folders of videos": "*/*.mp4",
     "folders of images": "*/",
 }
-"""What a folder holds → pattern of it alone."""
+"""Kind of content of a folder → pattern of it alone."""
 ID_DIGITS = 8
 
 
