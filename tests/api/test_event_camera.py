@@ -11,7 +11,7 @@ import texvent
 from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.events import EventStream
 
-PENDULUM = Path(__file__).parents[1] / "docs" / "examples" / "plot_17_pendulum.py"
+PENDULUM = Path(__file__).parents[2] / "docs" / "examples" / "plot_17_pendulum.py"
 FRAMES = np.random.default_rng(7).integers(0, 256, (4, 12, 16), dtype=np.uint8)
 TIMES = [0, 20_000, 40_000, 70_000]
 

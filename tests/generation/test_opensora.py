@@ -14,6 +14,7 @@ import pytest
 from texvent.errors import TexventError
 from texvent.generation.opensora import (
     CONFIGS,
+    IMAGE_WEIGHTS,
     SCRIPT,
     WEIGHTS,
     OpenSoraConfig,
@@ -80,7 +81,7 @@ def root(tmp_path, monkeypatch):
     """A checkout as `git clone` and the weights' download leave it, with a small torchrun."""
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     folder = tmp_path / "Open-Sora"
-    for path in (SCRIPT, CONFIGS / "256px.py", CONFIGS / "t2i2v_256px.py", WEIGHTS):
+    for path in (SCRIPT, CONFIGS / "256px.py", CONFIGS / "t2i2v_256px.py", WEIGHTS, *IMAGE_WEIGHTS):
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text("")
     program(folder / ".venv/bin/torchrun", TORCHRUN)
@@ -112,8 +113,8 @@ def test_seeds_differ_and_seed_zero_is_a_seed(root):
     assert (next(iter(first)).pixels != next(iter(second)).pixels).any()
 
 
-def test_the_video_starts_from_an_image_of_its_own_unless_told_not_to(root):
-    first, direct = (build(image_first=way).generate(PROMPT) for way in (True, False))
+def test_the_video_starts_from_an_image_where_it_is_asked_for(root):
+    first, direct = (build(**way).generate(PROMPT) for way in ({"image_first": True}, {}))
     assert (next(iter(first)).pixels != next(iter(direct)).pixels).any()
     assert first.path != direct.path
 
@@ -139,6 +140,14 @@ def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why
     monkeypatch.setenv("PATH", "/nonexistent")
     with pytest.raises(TexventError, match=why):
         build().generate(PROMPT)
+
+
+@pytest.mark.parametrize("remove", IMAGE_WEIGHTS)
+def test_weights_of_the_image_are_needed_only_with_an_image(root, remove):
+    (root / remove).unlink()
+    with pytest.raises(TexventError, match=f"{remove.name} are missing"):
+        build(image_first=True).generate(PROMPT)
+    build().generate(PROMPT)
 
 
 def test_stopping_ends_the_program_and_its_children(tmp_path):

@@ -6,18 +6,19 @@ import json
 
 import pytest
 
-from texvent.sensor import SensorSize
-from texvent.simulation.gpu.support import RunDevice
-from texvent_lab.measure import gpu
-from texvent_lab.measure.generated_video import Wan, measure_generated
+torch = pytest.importorskip("torch")
+pytest.importorskip("triton")
 
+from texvent.sensor import SensorSize  # noqa: E402
+from texvent.simulation.gpu.support import RunDevice  # noqa: E402
+from texvent_lab.measure import gpu  # noqa: E402
+from texvent_lab.measure.generated_video import Wan, measure_generated  # noqa: E402
+
+pytestmark = pytest.mark.torch
 TINY = SensorSize(24, 16)
 
 
-@pytest.mark.torch
 def test_every_figure_is_measured_and_stored():
-    torch = pytest.importorskip("torch")
-    pytest.importorskip("triton")
     plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
         copy_bytes=2**20, pair_sizes=(), wan=None, seconds=1e6,
@@ -44,11 +45,8 @@ def test_every_figure_is_measured_and_stored():
     assert text.count("| paper |") == len(plan.densities) + len(plan.batches)
 
 
-@pytest.mark.torch
 @pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
 def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
-    torch = pytest.importorskip("torch")
-    pytest.importorskip("triton")
     pytest.importorskip("diffusers")
     wan = Wan(
         size=SensorSize(16, 16), frames=5, steps=1, heads=2, head_width=12, layers=1,
@@ -63,10 +61,7 @@ def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
         assert row["file_s"] > 0
 
 
-@pytest.mark.torch
 def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):
-    torch = pytest.importorskip("torch")
-    pytest.importorskip("triton")
     from tests.interpolate.rife.rife_files import save_published
 
     from texvent.interpolate.rife.network import RIFE_4_0

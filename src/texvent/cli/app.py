@@ -19,7 +19,7 @@ from texvent.cli.standard_streams import (
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs
 from texvent.runtime.interrupts import clean_up, has_threads, raise_interrupted
-from texvent.runtime.side_work import finish_side_work
+from texvent.runtime.side_work import finishing_side_work
 
 COMMANDS = {
     "generate": (
@@ -122,10 +122,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:
-        with raise_interrupted(until_exit=is_process), protected_inputs(), one_line_warnings():
-            code = _dispatch(words)
-            finish_side_work()
-            return code
+        with (
+            raise_interrupted(until_exit=is_process),
+            protected_inputs(),
+            one_line_warnings(),
+            finishing_side_work(),
+        ):
+            return _dispatch(words)
     except TexventError as error:
         say(f"error: {with_flags(str(error))}")
         return error.exit_code

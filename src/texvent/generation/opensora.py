@@ -39,6 +39,8 @@ SCRIPT = Path("scripts/diffusion/inference.py")
 CONFIGS = Path("configs/diffusion/inference")
 WEIGHTS = Path("ckpts/Open_Sora_v2.safetensors")
 """The last of the files that its configs load, in its own folder."""
+IMAGE_WEIGHTS = (Path("ckpts/flux1-dev.safetensors"), Path("ckpts/flux1-dev-ae.safetensors"))
+"""Further ones where an image comes first."""
 LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
 SEED_MODULUS = 2**31 - 2
 MP4 = ".mp4"
@@ -62,8 +64,9 @@ class OpenSoraConfig(GeneratedVideoConfig):
     """Denoising steps."""
     guidance: float = 7.5
     """Strength with which the prompt is followed."""
-    image_first: bool = True
-    """Make an image and the video from it, as its README recommends, instead of the video alone."""
+    image_first: bool = False
+    """Make an image and the video from it, as its README recommends, instead of the video alone.
+    The image model, FLUX.1 [dev], has a non-commercial licence."""
 
     @property
     def program(self) -> Path:
@@ -89,7 +92,10 @@ class OpenSoraGenerator:
     config_type: ClassVar[type] = OpenSoraConfig
     default_interpolate: ClassVar[str] = "flow"
     default_sensor: ClassVar[str | None] = None
-    licence: ClassVar[str] = "Apache-2.0; its decoder: Tencent Hunyuan Community License ?"
+    licence: ClassVar[str] = (
+        "Apache-2.0; its decoder: Tencent Hunyuan Community License ?; with image_first: "
+        "FLUX.1 [dev] Non-Commercial License of Black Forest Labs ?"
+    )
 
     def __init__(
         self, config: OpenSoraConfig, *, seed: int = 0, size: SensorSize | None = None
@@ -99,7 +105,7 @@ class OpenSoraGenerator:
         self.seed = seed
 
     @classmethod
-    def find_missing(cls) -> str | None:
+    def find_missing(cls, *, image_first: bool = False) -> str | None:
         """The first missing piece of the installation, and what to do; None if it is complete."""
         root = _root()
         if root is None or not (root / SCRIPT).is_file():
@@ -113,11 +119,12 @@ class OpenSoraGenerator:
                 f"no torchrun in {root}/.venv, {root}/venv or on the PATH; activate Open-Sora's "
                 "environment, or link it as .venv of the checkout"
             )
-        if not (root / WEIGHTS).exists():
-            return (
-                f"the weights {root / WEIGHTS} are missing; in {root} run: hf download "
-                "hpcai-tech/Open-Sora-v2 --local-dir ./ckpts"
-            )
+        for path in (WEIGHTS, *(IMAGE_WEIGHTS if image_first else ())):
+            if not (root / path).exists():
+                return (
+                    f"the weights {root / path} are missing; in {root} run: hf download "
+                    "hpcai-tech/Open-Sora-v2 --local-dir ./ckpts"
+                )
         return None
 
     def generate(self, prompt: str, *, progress: Progress | None = None) -> FinishedVideo:
@@ -141,7 +148,7 @@ class OpenSoraGenerator:
         config = self.config
         if VideoCache(is_kept=config.reuse_video).has(self._key(prompt, self.seed), MP4):
             return None
-        state = self.find_missing() or "it is ready"
+        state = self.find_missing(image_first=self.config.image_first) or "it is ready"
         return (
             f"the video is not made yet: Open-Sora would make it ({config.frames} frames, "
             f"{config.steps} steps, {config.height}px); {state}"
@@ -168,7 +175,7 @@ class OpenSoraGenerator:
         if cache.has(key, MP4):
             progress.announce(f"this video was generated before: {path}")
             return open_stored(path, fps, origin)
-        missing = self.find_missing()
+        missing = self.find_missing(image_first=self.config.image_first)
         if missing is not None:
             raise TexventError(missing)
         with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:

@@ -138,6 +138,7 @@ class GeneratorOptions(TypedDict, total=False):
     frames: int | None
     steps: int | None
     guidance: float | None
+    image_first: bool | None
     width: int | None
     negative_prompt: str | None
     image: str | Path | None

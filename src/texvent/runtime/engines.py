@@ -17,7 +17,7 @@ from typing import Any, Protocol
 
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError
 from texvent.runtime.interrupts import clean_up, raise_interrupted
-from texvent.runtime.side_work import finish_side_work
+from texvent.runtime.side_work import finishing_side_work
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
@@ -80,13 +80,12 @@ def attempt(task: Task) -> Outcome:
         ConfigError, OutputError, MissingDependencyError: what all tasks would meet.
     """
     try:
-        return Outcome(task, task.run())
+        with finishing_side_work():  # an idle process of a pool is ended without a word
+            return Outcome(task, task.run())
     except ENDING_ALL:
         raise
     except TexventError as error:
         return Outcome(task, failure=" ".join(str(error).split()))
-    finally:
-        finish_side_work()  # an idle process of a pool is ended without a word
 
 
 class SerialEngine:

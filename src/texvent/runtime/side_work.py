@@ -1,20 +1,24 @@
 """Work beside a run, such as keeping what it has made for the next one.
 
-It ends before a command or a task of an engine does. Where the process is asked to end, it has some
-seconds; what it writes through `io.atomic` is then whole or not there.
+It ends before a command or a task of an engine does, or else with the process. Where the process
+is interrupted, it has some seconds; what it writes through `io.atomic` is then whole or not there.
 """
 
 from __future__ import annotations
 
+import atexit
+import sys
 import threading
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 
-from texvent.runtime.interrupts import clean_ups
+from texvent.runtime.interrupts import clean_up, clean_ups
 
 PATIENCE_S = 5.0
 """Time that work has to end in where the process is asked to end."""
 _running: dict[Hashable, threading.Thread] = {}
+_lock = threading.Lock()
 
 
 def begin_side_work(key: Hashable, work: Callable[[], None]) -> None:
@@ -27,17 +31,24 @@ def begin_side_work(key: Hashable, work: Callable[[], None]) -> None:
 
     def run() -> None:
         try:
+            if before is not None:
+                before.join()
             work()
         finally:
-            del _running[key]
+            with _lock:
+                if _running.get(key) is thread:
+                    del _running[key]
 
-    finish_side_work(key)
-    # No daemon: the end of a script waits for it.
-    thread = _running[key] = threading.Thread(target=run, name="texvent-side-work")
-    try:
-        thread.start()
-    except RuntimeError:  # the system gives no more threads
-        run()
+    thread = threading.Thread(target=run, name="texvent-side-work", daemon=True)
+    with _lock:
+        before = _running.get(key)
+        try:
+            thread.start()
+            _running[key] = thread
+            return
+        except RuntimeError:  # the system gives no more threads
+            pass
+    run()
 
 
 def finish_side_work(key: Hashable | None = None, *, seconds: float | None = None) -> None:
@@ -49,12 +60,32 @@ def finish_side_work(key: Hashable | None = None, *, seconds: float | None = Non
     """
     end_s = None if seconds is None else time.monotonic() + seconds
     for name, thread in list(_running.items()):
-        if key in (None, name) and thread.is_alive():
+        if key in (None, name):
             thread.join(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
 
+@contextmanager
+def finishing_side_work() -> Iterator[None]:
+    """Wait for all work at the end of the block and after an error, not after an interrupt."""
+    try:
+        yield
+    except Exception:
+        finish_side_work()
+        raise
+    finish_side_work()
+
+
 def _finish_soon() -> None:
+    atexit.unregister(_finish_at_exit)
     finish_side_work(seconds=PATIENCE_S)
 
 
+def _finish_at_exit() -> None:
+    if issubclass(getattr(sys, "last_type", None) or Exception, KeyboardInterrupt):
+        clean_up()
+    else:
+        finish_side_work()
+
+
+atexit.register(_finish_at_exit)
 clean_ups.insert(0, _finish_soon)  # before the parts of files are removed

@@ -129,7 +129,7 @@ class _SentenceReader:
     def _turn_passive(
         self, clause: Clause, subjects: list[int], objects: list[int]
     ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
-        """Who does it, to what, and the rest: "a ball kicked by a man"."""
+        """The actor, the object and the rest of a passive clause: "a ball kicked by a man"."""
         by = clause.after[0] if clause.after else None
         is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":

@@ -6,6 +6,7 @@ import io
 import json
 import shutil
 import tarfile
+import time
 from pathlib import Path
 from typing import Any
 
@@ -19,16 +20,25 @@ from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.make_sample import SampleRun, simulate_sample
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.shard_files import FAILED, FILTERED, MADE, read_members, read_record
+from texvent.dataset.generation.shard_files import (
+    FAILED,
+    FILTERED,
+    MADE,
+    SampleRecord,
+    TarShardWriter,
+    read_members,
+    read_record,
+)
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
-from texvent.errors import ConfigError, FileFormatError, OutputError
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.generation import kept_frames
 from texvent.pipeline import text_to_events
 from texvent.runtime.engines import ProcessEngine
+from texvent.runtime.side_work import begin_side_work
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 from texvent_scenes.raycast.incremental import IncrementalRenderer
@@ -307,3 +317,20 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
     make(recipe, folder)
     make(recipe, tmp_path / "wanted")
     assert digests(folder) == digests(tmp_path / "wanted")
+
+
+@pytest.mark.parametrize("error", [None, InputError("no video")])
+def test_a_sample_has_the_warnings_of_work_beside_it(error: InputError | None) -> None:
+    def beside() -> None:
+        time.sleep(0.1)
+        warn("not kept")
+
+    def make_one() -> tuple[dict[str, bytes], dict[str, Any]]:
+        begin_side_work("video", beside)
+        if error:
+            raise error
+        return {}, {}
+
+    record = SampleRecord(key="a", clip="a", status=MADE, seed=0)
+    made = make_shard._made(record, make_one, TarShardWriter(io.BytesIO()))
+    assert made.warnings == ("not kept",)

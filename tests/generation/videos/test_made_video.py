@@ -25,7 +25,9 @@ def test_frames_are_those_of_the_file_and_are_on_the_device_already(dtype, tmp_p
     random = torch.Generator().manual_seed(0)
     frames = (torch.rand((3, 18, 22, 3), generator=random) * 1.5 - 0.25).to(dtype)
     levels = to_16_bits_there(frames)
-    made = MadeVideo(FPS, SensorSize(22, 18), 3, {"seed": 1}, levels=levels).with_metadata(seed=2)
+    made = MadeVideo(FPS, SensorSize(22, 18), 3, {"seed": 1}, levels=levels)
+    host, made = made.pixels, made.with_metadata(seed=2)
+    assert made.pixels is host
     stored = write_video(frames.float().numpy(), tmp_path / "v.avi", FPS, {}, overwrite=False)
     assert (made.frame_count, made.size, made.metadata) == (3, stored.size, {"seed": 2})
     for ours, read, level in zip(made, stored, levels, strict=True):

@@ -33,6 +33,7 @@ from texvent.io.atomic import atomic_file
 from texvent.runtime.device_names import AUTO
 from texvent.runtime.engines import ENDING_ALL
 from texvent.runtime.file_names import inside
+from texvent.runtime.side_work import finishing_side_work
 from texvent.settings.provenance import describe_state, is_replaced
 
 
@@ -164,7 +165,7 @@ def _made(record: SampleRecord, make: Make, writer: TarShardWriter) -> SampleRec
     """Make a sample and add it; one that fails is noted."""
     found: list[str] = []
     try:
-        with warnings_to(found.append):
+        with warnings_to(found.append), finishing_side_work():
             members, facts = make()
     except ENDING_ALL:
         raise

@@ -55,7 +55,7 @@ CLIPS_AT_ONCE = 16
 
 
 class Making(NamedTuple):
-    """How a shard is made."""
+    """Circumstances of making a shard."""
 
     frames: KeptFrames | None
     """Frames that other shards of the same clips show too."""

@@ -99,6 +99,13 @@ class MadeVideo(FinishedVideo):
         """The levels on the host, uint16; 65535 is white."""
         return np.asarray(self.levels.cpu().numpy()).view(np.uint16)
 
+    def with_metadata(self, **facts: Any) -> Self:
+        """The same video with more facts about it; its levels come to the host once."""
+        video = super().with_metadata(**facts)
+        if "pixels" in vars(self):
+            vars(video)["pixels"] = self.pixels
+        return video
+
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, [H, W, 3] RGB, uint16, also on the device of the levels."""
         for index, pixels in enumerate(self.pixels):

@@ -232,7 +232,7 @@ def _is_visible(path: CameraTrack, main: Actor, aspect: float) -> bool:
 
 
 def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
-    """How the camera gives way to a subject that is fast, and how much of it is seen."""
+    """Notes on how the camera gives way to a fast subject, and how much of it is seen."""
     if path.tie is not None and path.tie.share < 1.0:
         gone = path.tie.displacement(path.duration_s) / path.duration_s
         speed_m_s = float(np.linalg.norm(gone))

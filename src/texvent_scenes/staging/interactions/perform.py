@@ -65,7 +65,7 @@ def settle_motions(
 
 
 def _across(said: SceneObject) -> SceneObject:
-    """Who goes over a crosswalk crosses the road, where no other way is said."""
+    """An actor on a crosswalk crosses the road, where no other way is said."""
     first = said.motions[0] if said.motions else None
     if first is None or first.kind not in PATH_KINDS or first.direction is not None:
         return said

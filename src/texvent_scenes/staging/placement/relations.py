@@ -237,7 +237,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 
 
 def _carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
-    """What lies on a belt that runs goes along with it, up to its end."""
+    """Have things on a belt that runs go along with it, up to its end."""
     usual_m_s, motion = trait_value("belt speed", target.noun.name), target.plan.motion
     if usual_m_s is None or motion.kind != "work" or motion.pace == 0.0:
         return
