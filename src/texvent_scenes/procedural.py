@@ -383,10 +383,11 @@ class ProceduralGenerator:
             said,
             shown=without_words(said.shown, unseen.violations),
             notes=(*said.notes, *scene.notes, *scene.camera_path.notes),
-            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.violations))),
+            not_shown=(*said.not_shown, *scene.not_shown,
+                       *filter(None, (one.line for one in unseen.violations))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
-        )
+        )  # fmt: skip
         scene = replace(scene, has_highlights=self.config.hdr)
         return scene, self._accepted(report), files
 

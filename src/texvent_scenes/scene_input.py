@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
 from texvent.generation.subjects import Subject
 from texvent.prompt_report import PromptReport
-from texvent_scenes.spec.data import checked_scene
+from texvent_scenes.spec.data import checked_scene, scene_to_data
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Light, Place, Scene
 
@@ -49,8 +49,11 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     return _read(prompt, list_nouns(assets))[0]
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str]]:
-    """The reading of a prompt, without fields that change nothing, and notes of these."""
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str], list[str]]:
+    """The reading of a prompt, without fields that change nothing.
+
+    The lists are the words that stand for such fields, with reasons, and notes of other ones.
+    """
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
 
@@ -71,21 +74,49 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str]]:
             "lists the words of the embedded generator, texvent generators lists models that take "
             "any text"
         )
-    scene, notes = _without_idle(reading.scene, nouns)
-    return replace(reading, scene=scene), notes
+    return _without_idle(reading, nouns)
 
 
-def _without_idle(scene: Scene, nouns: Mapping[str, Noun]) -> tuple[Scene, list[str]]:
+def _without_idle(
+    reading: Reading, nouns: Mapping[str, Noun]
+) -> tuple[Reading, list[str], list[str]]:
+    from texvent_scenes.meanings import list_meanings
     from texvent_scenes.staging.idle_fields import leave_out
 
-    notes: list[str] = []
+    scene, shown = reading.scene, list(reading.shown)
+    lost, notes = list[str](), list[str]()
     for _ in range(_MOST_PASSES):
         idle = _list_idle(scene, nouns)
         if not idle:
             break
-        scene = leave_out(scene, idle)
-        notes += [f"{one.path} would change nothing and is left out: {one.why}" for one in idle]
-    return scene, notes
+        before, scene = set(_list_fields(scene)), leave_out(scene, idle)
+        after = {(name, value) for path, name, value in _list_fields(scene)}
+        for one in idle:
+            said = {(name, value) for path, name, value in before if path == one.path}
+            words = [word for word in shown if not said.isdisjoint(list_meanings(word))]
+            if not words:
+                notes.append(f"{one.path} would change nothing and is left out: {one.why}")
+            for word in words if said.isdisjoint(after) else ():
+                shown.remove(word)
+                lost.append(f"{word} ({one.why})")
+    return replace(reading, scene=scene, shown=tuple(shown)), lost, notes
+
+
+def _list_fields(scene: Scene) -> Iterator[tuple[str, str, object]]:
+    """Path, name and value of each field of a scene; that of a motion's kind is "motion"."""
+
+    def walk(path: str, name: str, value: Any) -> Iterator[tuple[str, str, object]]:
+        if isinstance(value, dict):
+            for key, each in value.items():
+                kind = name.removesuffix("s") if key in ("kind", "name") else key
+                yield from walk(f"{path}.{key}" if path else key, kind, each)
+        elif isinstance(value, list):
+            for number, each in enumerate(value):
+                yield from walk(f"{path}[{number}]", name, each)
+        else:
+            yield path, name, value
+
+    return walk("", "", scene_to_data(scene))
 
 
 def _list_idle(scene: Scene, nouns: Mapping[str, Noun]) -> list[Idle]:
@@ -170,12 +201,13 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading, notes = _read(str(subject), nouns)
+    reading, lost, notes = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
     words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
+        not_shown=tuple(dict.fromkeys(lost)),
     )
     return replace(description, words=words, notes=(*description.notes, *notes))
 

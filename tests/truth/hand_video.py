@@ -32,5 +32,7 @@ def board_video(camera_at=level, duration: float = 0.2) -> ProceduralVideo:
     )
     scene = HandScene((board,), camera_at, day(Ground.PLAIN), class_names={3: "box"})
     return ProceduralVideo(
-        scene, SIZE, ProceduralConfig(fps=FPS, duration=duration, samples=1, shadows=False)
+        scene,
+        SIZE,
+        ProceduralConfig(fps=FPS, duration=duration, samples=1, shadows=False, point_spread=0.0),
     )

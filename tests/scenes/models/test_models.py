@@ -29,7 +29,7 @@ POSES = [
 
 MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"ceiling fan"}
+HUNG = {"ceiling fan", "wall shelf"}
 """What hangs from above or on a wall."""
 LINES = {"runway markings", "basketball court lines", "pitch lines"}
 """White paint on the ground."""

@@ -76,7 +76,7 @@ def plates() -> HandScene:
 
 
 def record(rig: Rig) -> Recording:
-    config = ProceduralConfig(fps=Fraction(100), duration=0.1)
+    config = ProceduralConfig(fps=Fraction(100), duration=0.1, point_spread=0.0)
     video = ProceduralVideo(plates(), SIZE, config, {"generator": "procedural"})
     settings = resolve("generate", {"noise": "none", "sensor": "128x76"})
     return Recording(

@@ -350,7 +350,7 @@ def test_every_object_is_in_view(path):
     scene = load_scene(path)
     SCHEMA.validate(tomllib.loads(path.read_text()))
     generator = ProceduralGenerator(
-        ProceduralConfig(duration=2.0, samples=1), size=SensorSize(112, 84)
+        ProceduralConfig(duration=2.0, samples=1), size=SensorSize(160, 120)
     )
     video = generator.generate(scene)
     most: dict[int, int] = {}

@@ -14,7 +14,7 @@ from texvent.errors import ConfigError
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
-from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.scene_input import describe_scene, read, understand
 from texvent_scenes.spec.scene import (
     DIRECTIONS_OF_MOVES,
     READ_BY_MOVES,
@@ -106,6 +106,15 @@ def test_what_falls_starts_raised_and_ends_on_the_ground(row):
         assert min(lows) < 0.05 * max(1.0, actor.model.height)
 
 
+@pytest.mark.parametrize("noun", ["leaf", "ball", "box"])
+def test_what_falls_later_is_raised_until_then(noun):
+    (actor,) = place(SceneObject(noun, motions=(Motion("stand"), Motion("fall"))))
+    lows = [float(actor.corners(t)[:, 2].min()) for t in (0.0, 0.9, 2.0)]
+    assert lows[0] == pytest.approx(lows[1])
+    assert lows[0] > 0.3
+    assert lows[2] == pytest.approx(0.0, abs=0.03)
+
+
 def test_what_comes_down_from_a_height_is_in_free_fall():
     for kind in sorted(COMING_DOWN - {"sink"}):
         (actor,) = place(SceneObject("ball", height_m=4.0, motions=(Motion(kind),)))
@@ -185,6 +194,28 @@ def test_a_field_without_effect_is_named_with_what_would_have_one(fields, path):
     with pytest.raises(ConfigError) as caught:
         describe_scene(Scene(**fields), NOUNS)
     assert str(caught.value).startswith(f"{path} has no effect: ")
+
+
+@pytest.mark.parametrize(
+    ("prompt", "direction"),
+    [
+        ("a car drives back and forth", "to and fro"),
+        ("a ball rolls to and fro", "to and fro"),
+        ("a bird flies up and down", "up and down"),
+    ],
+)
+def test_a_way_back_and_forth_of_a_sentence_is_kept(prompt, direction):
+    reading = read(prompt)
+    ((motion,),) = (one.motions for one in reading.scene.objects)
+    assert motion.direction == direction
+
+
+def test_words_whose_fields_change_nothing_are_not_shown():
+    words = understand("a red car drives left quickly at 20 km/h", NOUNS).words
+    assert "quickly" not in words.shown
+    assert words.not_shown == ("quickly (speed_m_s takes its place; leave one of them out)",)
+    words = understand("a grating moves right and a car drives right", NOUNS).words
+    assert "right" in words.shown
 
 
 def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():

@@ -5,15 +5,16 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes.staged import stage, thing
+from tests.scenes.staged import SIZE, stage, thing
 
 from texvent_scenes.models.activities import HAND_NOUNS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.compose import ComposedScene, compose_scene
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import RoadLine
 from texvent_scenes.staging.surroundings.scenery import ViewClearance, scatter
@@ -27,6 +28,7 @@ STREETS = {
                  thing("woman", ("walk", "across"))),
     "parked": (thing("car", ("stand",)), thing("bench", ("stand",)), thing("man", ("wave",)),
                thing("car", ("drive", "left"))),
+    "traffic": (thing("car", ("drive",), count=2), thing("truck", ("drive",))),
     "standing": (thing("taxi", ("stand",)), thing("fire hydrant", ("stand",))),
 }  # fmt: skip
 
@@ -65,6 +67,21 @@ def test_who_drives_has_a_lane_and_others_the_pavement_unless_they_cross(name, p
             a, b = boxes(one), boxes(other)
             apart = np.maximum(a[:, 0] - b[:, 1], b[:, 0] - a[:, 1]).max(axis=1)
             assert apart.min() > -0.05, (one.noun.name, other.noun.name)
+
+
+def test_who_waits_at_a_crosswalk_stands_in_a_lane_beyond_those_who_cross():
+    said = understand("a person walks across a crosswalk while a truck waits", NOUNS)
+    for seed in range(3):
+        scene = compose_scene(said, seed=seed, size=SIZE, duration_s=2.0)
+        road, half_m = road_of(scene)
+        bodies = {one.noun.name: one for one in scene.actors}
+        truck, walker = bodies["truck"], bodies["person"]
+        assert abs(math.cos(walker.track.at(1.0).yaw - road.angle)) < 0.05
+        assert abs(math.sin(truck.track.at(1.0).yaw - road.angle)) < 0.05
+        assert np.abs(road.across(truck.corners(1.0)[:, :2])).max() < half_m
+        ahead = np.array([math.cos(truck.track.yaw), math.sin(truck.track.yaw), 0.0])
+        way = np.vstack([walker.corners(t) for t in TIMES_S]) @ ahead
+        assert way.min() > (truck.corners(0.0) @ ahead).max()
 
 
 @pytest.mark.parametrize("kind", ["stand", "drive"])

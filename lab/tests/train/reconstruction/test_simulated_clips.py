@@ -19,7 +19,6 @@ options = {duration = 0.1, sensor = "32x24", contrast_threshold = {uniform = [0.
 [[sources]]
 template = "a red {thing} drives left"
 words.thing = ["car", "bus"]
-label = "{thing}"
 [variants.paper]
 seeds = 3
 [variants.esim]

@@ -134,9 +134,9 @@ class _Zones:
         self.clear_strip(RoadLine(train.track.at(0.0).yaw, (float(x), float(y))), _RAILS_M)
 
     def use_lanes(self, lane_m: float, road: RoadLine) -> None:
-        """Vehicles at rest stand along the road; what goes the other way has the other lane.
+        """What goes the other way has the other lane, as has what stands while others drive.
 
-        Where something comes towards them, those that go the same way do so one behind the other.
+        Those that go the same way do so one behind the other.
         """
         drivers = [n for n in self._turned if self._zone(n) == "road"]
         goers = [n for n in drivers if self.actors[n].is_mover]
@@ -149,32 +149,59 @@ class _Zones:
             angle = road.angle + (math.pi if is_back else 0.0)
         home = self.actors[first].middle(0.0)
         line = RoadLine(angle, (float(home[0]), float(home[1])))
-        along = np.array([math.cos(angle), math.sin(angle)])
-        left = np.array([-along[1], along[0]])
-        turns = {number: self.actors[number].track.at(0.0).yaw - angle for number in drivers}
-        has_oncoming = any(math.cos(turn) < -_PARALLEL for turn in turns.values())
-        behind_m = 0.0
-        for number, turn in turns.items():
+        ends = {1.0: self._ends_m(first, line, 1.0)[0]}
+        for number in drivers:
             one = self.actors[number]
+            turn = one.track.at(0.0).yaw - angle
+            is_bound = number not in self._free or number == first
             if not one.is_mover and one.track.is_resting:
+                if not is_bound and goers:
+                    turn = math.pi
+                elif number in self._free and any(each.goes_across for each in self.actors):
+                    self._wait(number, road, lane_m)
+                    continue
                 yaw = angle if math.cos(turn) >= 0.0 else angle + math.pi
                 self._move(number, np.zeros(2), yaw)
-                if number in self._free:
-                    self._wait(number, road, lane_m)
             elif abs(math.sin(turn)) > _PARALLEL or one.track.terms:
                 continue
-            if number in self._free and number != first and math.cos(turn) < 0.0:
-                across = float(line.across(np.array([one.middle(0.0)[:2]]))[0])
-                self._move(number, (2.0 * lane_m - across) * left)
-            elif number in self._free and number != first and has_oncoming and one.is_mover:
-                behind_m += one.size_m + 2.0 * _CLEAR_M
-                self._move(number, home[:2] - one.middle(0.0)[:2] - behind_m * along)
+            if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
+                self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
+
+    def _line_up(
+        self,
+        number: int,
+        line: RoadLine,
+        lane_m: float,
+        way: float,
+        ends: dict[float, Float64Array],
+    ) -> None:
+        """Move a vehicle to its lane, behind those that go the same way.
+
+        Args:
+            number: of the actor.
+            line: the middle of the first lane.
+            lane_m: half the width of a lane.
+            way: 1 along the line, -1 against it.
+            ends: way → rear end of the last one, m along the way, [instants]; this one's is put in.
+        """
+        one = self.actors[number]
+        rear, front = self._ends_m(number, line, way)
+        step = min(float((ends[way] - front).min()) - 2.0 * _CLEAR_M, 0.0) if way in ends else 0.0
+        across = float(line.across(np.array([one.middle(0.0)[:2]]))[0])
+        shift = lane_m - way * lane_m - across
+        along = np.array([math.cos(line.angle), math.sin(line.angle)])
+        self._move(number, shift * np.array([-along[1], along[0]]) + step * way * along)
+        ends[way] = rear + step
+
+    def _ends_m(self, number: int, line: RoadLine, way: float) -> tuple[Float64Array, Float64Array]:
+        """Rear and front end of an actor, m along a way of a line: two times [instants]."""
+        along = way * np.array([math.cos(line.angle), math.sin(line.angle)])
+        places = [self.actors[number].corners(time)[:, :2] @ along for time in self._times]
+        return np.min(places, axis=1), np.max(places, axis=1)
 
     def _wait(self, number: int, road: RoadLine, lane_m: float) -> None:
         """A vehicle at rest waits for those who cross, facing them, behind others that wait."""
         crossers = [one for one in self.actors if one.goes_across]
-        if not crossers:
-            return
         away = road.angle + (0.0 if math.sin(road.angle) >= 0.0 else math.pi)
         along = np.array([math.cos(away), math.sin(away)])
         waiting = [one for one in self.actors[:number] if self._rests_on_road(one)]
@@ -222,8 +249,8 @@ class _Zones:
     def lead_across(self, line: RoadLine) -> None:
         """Those who cross do so at right angles, beyond where vehicles come."""
         along = np.array([math.cos(line.angle), math.sin(line.angle)])
-        driven = [one for one in self.actors if zone_of(one.noun) == "road" and one.is_mover]
-        if not driven:
+        driven = [one for one in self.actors if zone_of(one.noun) == "road"]
+        if not any(one.is_mover for one in driven):
             return
         corners = np.vstack([one.corners(time)[:, :2] for one in driven for time in self._times])
         free_m = float(((corners - line.offset) @ along).max()) + _CLEAR_M

@@ -151,7 +151,8 @@ def build_path(
         start_m: height above the ground from which it comes down, if it is said, m.
     """
     phases = schedule(motions, duration_s)
-    if start_m is None and motions[0].kind == "fall":
+    active = (one.kind for one in motions if one.kind != "stand")
+    if start_m is None and next(active, "") == "fall":
         spans = [one.duration_s for one in phases if one.motion.kind == "fall"]
         start_m = fallen_m(model, spans[0] if spans else duration_s)
     builder = _KeyBuilder(
