@@ -58,9 +58,10 @@ def settle_motions(
             settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
-    for one in relations:
-        if one.kind == "on" and objects[one.targets[0]].noun in nouns_with("across a road"):
-            objects[one.subject] = _across(objects[one.subject])
+    roads = nouns_with("across a road")
+    for relation in relations:
+        if relation.kind == "on" and objects[relation.targets[0]].noun in roads:
+            objects[relation.subject] = _across(objects[relation.subject])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
