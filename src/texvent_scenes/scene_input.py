@@ -67,7 +67,7 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str], l
     if not _has_subject(reading):
         words = few(reading.not_understood, MOST_WORDS)
         read = few(reading.shown, MOST_WORDS)
-        what = f"only {read} was understood in the prompt, and no thing or place to show"
+        what = f"the prompt names no thing or place to show; understood: {read}"
         what += f"; not understood: {words}" if words else ""
         raise InputError(
             f"{what if read else f'nothing in the prompt was understood: {words}'}; texvent scenes "
