@@ -89,7 +89,7 @@ def balance(*, sees):
 view = Camera(position_m=(0, -2, 0.55), look_at_m=(0, 0, 0.55))
 cylinder = SceneObject(noun="cylinder", position_m=(0, 0))
 scene = Scene(objects=(cylinder,), camera=view, place=Place(is_empty=True))
-video = texvent.video(scene, sensor="128x96", shadows=False)
+video = texvent.video(scene, sensor="128x96", shadows=False, point_spread=0)
 rod = PosedScene(video.scene)
 picture = replace(video, scene=rod)
 foot = project(rod.camera(0), video.size, np.zeros(3))
