@@ -18,17 +18,20 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from types import MappingProxyType
 from typing import Any
 
+from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import frozen, read_table
 
 Key = tuple[float, tuple[float, ...]]
 """A time, s, and the values then."""
 ROWS = frozenset({"hips", "tool", "hand", "elbow", "foot", "knee", "bent", "shift"})
 """Last words of the channels that are rows of numbers; others are one number."""
+_DIRECTIONS: Mapping[str, tuple[float, ...]] = {"down": (-0.2, 0.5, -1.0), "out": (-0.3, 1.0, -0.5)}
+"""Name of a direction in which an elbow usually points → forward, outward, up."""
 Series = tuple[float, ...]
 Values = dict[str, tuple[float, ...]]
 """Channel → its numbers at an instant."""
@@ -121,7 +124,9 @@ def _channels(table: Mapping[str, Any], parent: str = "") -> Iterator[tuple[str,
 
 
 def _numbers(channel: str, value: Any) -> list[Any]:
-    return list(value) if channel.rsplit(".", 1)[-1] in ROWS else [value]
+    if channel.rsplit(".", 1)[-1] not in ROWS:
+        return [value]
+    return list(_DIRECTIONS[value] if isinstance(value, str) else value)
 
 
 def _series(value: Any) -> Series:
@@ -244,28 +249,28 @@ def _find_track(table: str, activity: str) -> Track:
     return read_track({**usual, **motion_of(table, activity if activity in rows else "stand")})
 
 
-def find_channels(
-    table: str, activity: str, time_s: float, *, before: str | None = None, share: float = 1.0
-) -> dict[str, float]:
-    """Channels of an activity, each one number: of rows of numbers "shift.0", "shift.1" ...
+def flattened(values: Values) -> dict[str, float]:
+    """Channels with one number each: of rows of numbers "shift.0", "shift.1" ..."""
+    return {
+        name if len(numbers) == 1 else f"{name}.{index}": number
+        for name, numbers in values.items()
+        for index, number in enumerate(numbers)
+    }
+
+
+def find_channels(table: str, pose: Pose) -> dict[str, float]:
+    """Channels of the activity at a pose, perhaps between it and the one before.
 
     Args:
         table: that has the activity; of one that it does not have, the channels of "stand".
-        activity: its name.
-        time_s: the instant.
-        before: activity until a moment ago; None = the same.
-        share: progress from that one to this, 0..1.
+        pose: the instant.
     """
-    found = {
-        name if name.rsplit(".", 1)[-1] not in ROWS else f"{name}.{index}": number
-        for name, numbers in _find_track(table, activity).at(time_s).items()
-        for index, number in enumerate(numbers)
-    }
-    if before is None:
+    found = flattened(_find_track(table, pose.activity).at(pose.time_s))
+    if pose.before is None:
         return found
-    earlier = find_channels(table, before, time_s)
+    earlier = find_channels(table, replace(pose, activity=pose.before, before=None))
     return {
-        name: (1.0 - share) * earlier.get(name, 0.0) + share * found.get(name, 0.0)
+        name: (1.0 - pose.share) * earlier.get(name, 0.0) + pose.share * found.get(name, 0.0)
         for name in {**earlier, **found}
     }
 
@@ -274,7 +279,8 @@ def find_channels(
 def list_channels(table: str) -> frozenset[str]:
     """All channels of a table of activities."""
     rows = read_table(table)
-    return frozenset(name for activity in rows for name in find_channels(table, activity, 0.0))
+    poses = (Pose(0.0, 0.0, 0.0, activity) for activity in rows)
+    return frozenset(name for pose in poses for name in find_channels(table, pose))
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")

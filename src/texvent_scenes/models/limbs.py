@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise, product
 from typing import Any
@@ -16,10 +16,13 @@ from texvent_scenes.models.protocol import ModelPart, Pose, fraction
 from texvent_scenes.models.shapes import (
     Affine,
     Point,
+    affine,
     limb,
     moved,
+    placed_along,
     plank,
     point,
+    rotation,
     shift,
     turn_about,
 )
@@ -127,6 +130,98 @@ class Walk:
         return Steps(gait, strides, amount, runs)
 
 
+@dataclass(frozen=True)
+class Limb:
+    """Two bones from a root in a group to a point that channels say: an arm or a leg of a person.
+
+    Its channels: `reach` and `spot`, the end as a vector from the root in the axes of `on` and as a
+    point in those of `ground`, and `free`, the share of the first; they add up, so postures mix
+    number by number. `bend` is the direction of elbow or knee, `pitch` the downward turn of the
+    end, `tool` the upright of a hand. All are forward, outward, up.
+    """
+
+    name: str
+    """Of its end; its bones are "upper NAME" and "lower NAME"."""
+    channels: str
+    """Begins the names of its channels."""
+    side: float
+    """1 = left, -1 = right."""
+    on: str
+    root: Point
+    bones: tuple[float, float]
+    """Lengths of the upper and the lower part, m."""
+    ground: str
+    bends_in: str
+    """Group in whose axes its joint points."""
+    holds: bool = False
+    """Whether its end is a hand, and not a foot on the ground."""
+    drawn: Mapping[str, str] = field(default_factory=dict)
+    """Part lines of "upper" and "lower", z along the bone, and of "end"."""
+
+    def locate(self, now: Instant, maps: Mapping[str, Affine | None]) -> dict[str, Affine]:
+        """Maps of its bones and its end to body coordinates, by their names."""
+        trunk, ground, bending = (
+            np.eye(3, 4) if (found := maps[name]) is None else found
+            for name in (self.on, self.ground, self.bends_in)
+        )
+        free = now.channels[f"{self.channels}.free"]
+        root = trunk @ np.array([self.root[0], self.side * self.root[1], self.root[2], 1.0])
+        reach, spot = trunk[:, :3] @ self._read(now, "reach"), self._read(now, "spot")
+        end = free * root + reach + ground @ np.array([*spot, 1.0 - free])
+        end = _within(root, end, sum(self.bones))
+        towards = bending[:, :3] @ self._read(now, "bend")
+        joint = np.array(bend(point(root), point(end), *self.bones, point(towards)))
+        if self.holds:
+            turned = _held(trunk, end - joint, trunk[:, :3] @ self._read(now, "tool"))
+        else:
+            turned = ground[:, :3] @ rotation("y", now.channels[f"{self.channels}.pitch"])
+        return {
+            f"upper {self.name}": placed_along(point(root), point(joint)),
+            f"lower {self.name}": placed_along(point(joint), point(end)),
+            self.name: affine(turned, end),
+        }
+
+    def draw(self, painted: Painted) -> dict[str, list[ModelPart]]:
+        """Its parts, painted, by the names of what carries them."""
+        return {
+            self.name if bone == "end" else f"{bone} {self.name}": painted.draw_lines(lines)
+            for bone, lines in self.drawn.items()
+        }
+
+    def _read(self, now: Instant, channel: str) -> Affine:
+        x, y, z = (now.channels[f"{self.channels}.{channel}.{axis}"] for axis in range(3))
+        return np.array([x, self.side * y, z])
+
+
+def _within(start: Affine, end: Affine, reach: float) -> Affine:
+    """The end, or the point of the sphere of that reach in its direction."""
+    span = end - start
+    long = math.sqrt(float(span @ span))
+    return end if long <= reach else start + span * (reach / long)
+
+
+def _held(trunk: Affine, along: Affine, upright: Affine) -> Affine:
+    """[3, 3] axes of a hand: z along what it holds, x near the forearm."""
+    upright = upright / max(float(np.linalg.norm(upright)), 1e-9)
+    ahead = along - (along @ upright) * upright
+    if float(np.linalg.norm(ahead)) < 0.05:
+        ahead = trunk[:, 0] - (trunk[:, 0] @ upright) * upright
+    ahead = ahead / np.linalg.norm(ahead)
+    return np.column_stack([ahead, np.cross(upright, ahead), upright])
+
+
+def read_limbs(rows: Sequence[Mapping[str, Any]]) -> list[Limb]:
+    """Limbs on both sides from rows with the fields of `Limb`."""
+    return [
+        Limb(
+            **{**row, "name": f"{word} {row['name']}", "channels": f"{word}{row['channels']}"},
+            side=side,
+        )
+        for row in rows
+        for word, side in (("left", 1.0), ("right", -1.0))
+    ]
+
+
 DrawLegs = Callable[[Steps, Affine, Mapping[str, float]], list[ModelPart]]
 """Steps, map of the body, and channels → all legs."""
 
@@ -221,14 +316,14 @@ class Chain:
     head: str = ""
     """Part lines around the first joint."""
 
-    def drawn_in(self, painted: Painted) -> Callable[[Instant], list[ModelPart]]:
+    def drawn_in(self, painted: Painted) -> Callable[[Instant, Any], list[ModelPart]]:
         """Draws all links."""
         material = painted.material(self.surface)
         beads, head = painted.draw_lines(self.beads), painted.draw_lines(self.head)
         axis, reach, *rate = self.wave.split()
         cycle = read_cycle(rate)
 
-        def draw(now: Instant) -> list[ModelPart]:
+        def draw(now: Instant, _: Any) -> list[ModelPart]:
             parts: list[ModelPart] = []
             for turn in range(self.around):
                 cycles = cycle(now) + 2.0 * turn / self.around

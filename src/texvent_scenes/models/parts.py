@@ -18,7 +18,7 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
@@ -26,11 +26,17 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, list_channels, motion_of
+from texvent_scenes.models.activities import (
+    ANIMAL_ACTIVITIES,
+    USUAL,
+    find_channels,
+    list_channels,
+    motion_of,
+)
 from texvent_scenes.models.joints import Joint, read_joint, read_joints, read_wave
 from texvent_scenes.models.limbs import Chain, read_legs, read_walk
-from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
-from texvent_scenes.models.people.figure import read_rider
+from texvent_scenes.models.part_lines import Placed, read_parts
+from texvent_scenes.models.people.person import read_rider
 from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
 from texvent_scenes.models.shapes import (
@@ -43,7 +49,7 @@ from texvent_scenes.models.shapes import (
     shift,
     turn_about,
 )
-from texvent_scenes.models.skeleton import Anchor, Body, Group, read_anchor, read_group
+from texvent_scenes.models.skeleton import Anchor, Body, Group, read_anchor, read_skeleton
 from texvent_scenes.models.surfaces import Painted, paint_model, toned
 from texvent_scenes.rendered_scene import Colour
 
@@ -106,20 +112,20 @@ class PartsBuilder:
         extras = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
         if "rider" in table:
             rider = read_rider(table["rider"])
-            extras.append(lambda now: rider.draw(seed, now.pose.distance_m))
+            extras.append(lambda now, _: rider.draw(seed, now.pose.distance_m))
         acts, joints = table.get("acts", _ACTS[0]), read_joints(table.get("body", ""))
         _check_channels((*joints, *(one for group in groups for one in group.joints)), acts)
         body = Body(
             seed,
-            acts=acts,
+            partial(find_channels, acts),
+            drawn,
+            self._anchors,
+            extras,
             rigid=rigid,
-            groups=drawn,
-            extras=extras,
             joints=joints,
             wave=read_wave(table["wave"]) if "wave" in table else None,
             walk=read_walk(table),
             legs=read_legs(table, painted),
-            anchors=self._anchors,
         )
         return ArticulatedModel(
             [] if body.moves_all else rigid,
@@ -138,7 +144,8 @@ class PartsBuilder:
     @cached_property
     def _anchors(self) -> Mapping[str, Anchor]:
         said = self._filled.get("anchors", {})
-        return {name: read_anchor(text, self._drawing[1]) for name, text in said.items()}
+        names = {one.name for one in self._drawing[1] if one.name}
+        return {name: read_anchor(text, names) for name, text in said.items()}
 
     @cached_property
     def _drawing(self) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
@@ -151,23 +158,8 @@ class PartsBuilder:
         if not set(table.get("with", ())) <= options.keys():
             raise ValueError(f"with is {table['with']}; known: {', '.join(options) or 'none'}")
         texts += [(options[name], False) for name in table.get("with", ())]
-        split = [(read_groups(text), is_usual) for text, is_usual in texts]
-        rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
-        if table.get("laid"):
-            rigid = _laid(rigid)
-        groups, names = list[Group](), set[str]()
-        for (how, lines), is_usual in (
-            (one, is_usual) for (_, *more), is_usual in split for one in more
-        ):
-            parts, more = read_parts(lines)
-            group = replace(read_group(how, parts, names), is_usual=is_usual)
-            if not how or not (parts or more or group.name):
-                raise ValueError(f"'moving {how}' needs a joint or a light, and parts below it")
-            groups.append(group)
-            names.add(group.name)
-            wheels += more
-        groups += [Group(shapes, (joint,)) for shapes, joint in wheels]
-        return rigid, tuple(groups)
+        rigid, groups = read_skeleton(texts)
+        return _laid(rigid) if table.get("laid") else rigid, groups
 
     @cached_property
     def _variants(self) -> Mapping[str, Sequence[tuple[Placed, ...]]]:

@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,17 +93,6 @@ def point(values: Sequence[float] | Affine) -> Point:
     """The first three numbers of some."""
     x, y, z = map(float, values[:3])
     return x, y, z
-
-
-def mixed(first: Any, second: Any, share: float) -> Any:
-    """Between numbers, tuples or dataclasses of them; flags are those of the second."""
-    if is_dataclass(first):
-        names = [one.name for one in fields(first)]
-        pairs = {one: (getattr(first, one), getattr(second, one)) for one in names}
-        return replace(second, **{one: mixed(*pair, share) for one, pair in pairs.items()})
-    if isinstance(first, tuple):
-        return tuple(mixed(a, b, share) for a, b in zip(first, second, strict=True))
-    return second if isinstance(first, bool) else first + share * (second - first)
 
 
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
@@ -216,6 +204,14 @@ def placed_between(start: Point, end: Point, radius: float, side: float, overlap
             [az * radius, bz * side, dz * half, 0.5 * (start[2] + end[2])],
         ]
     )
+
+
+def placed_along(start: Point, end: Point) -> Affine:
+    """Axes at the start, in m: z towards the end, y as near to body y as it can be."""
+    axes = placed_between(start, end, 1.0, 1.0, 0.0)
+    axes[:, 2] /= np.linalg.norm(axes[:, 2])
+    axes[:, 3] = start
+    return axes
 
 
 def placed_spanned(start: Point, end: Point, chord: Point, thickness: Point) -> Affine:

@@ -5,12 +5,12 @@ A group begins with a line of part lines: "moving JOINT, JOINT, ...", the outerm
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent_scenes.models.activities import find_channels
 from texvent_scenes.models.joints import (
     RESTING,
     Instant,
@@ -21,10 +21,13 @@ from texvent_scenes.models.joints import (
     read_light,
     read_number,
 )
-from texvent_scenes.models.limbs import DrawLegs, Steps, Walk
-from texvent_scenes.models.part_lines import Placed
+from texvent_scenes.models.limbs import DrawLegs, Limb, Steps, Walk
+from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent_scenes.models.protocol import ModelPart, Pose
-from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved, point
+from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved
+
+Maps = Mapping[str, Affine | None]
+"""Name of a group → its map to body coordinates; None leaves all where it is."""
 
 
 @dataclass(frozen=True)
@@ -74,36 +77,79 @@ class Group:
 class Anchor:
     """A place of a body for other things."""
 
-    on: str
-    """Name of a group; "ground" = none."""
+    on: tuple[str, ...]
+    """Names of groups, between which it is in the middle; "ground" = none."""
     at: Point
     """In that group, m."""
-    is_level: bool = False
-    """Whether its axes are those of the body, and not of the group."""
+    faces: str | None = None
+    """Group whose x its upright axes face; None = its axes are those of the group that it is on."""
 
-    def locate(self, motions: Mapping[str, Affine | None]) -> Affine:
+    def locate(self, maps: Maps) -> Affine:
         """[3, 4] axes at the place, in body coordinates, by the maps of named groups."""
-        motion = motions.get(self.on)
-        if motion is None:
-            motion = np.eye(3, 4)
-        turn = np.eye(3) if self.is_level else motion[:, :3]
-        return affine(turn, motion @ np.array([*self.at, 1.0]))
+        carriers = [_find(maps, name) for name in self.on]
+        place = np.array([*self.at, 1.0])
+        origin = sum(one @ place for one in carriers) / len(carriers)
+        turn = carriers[0][:, :3] if self.faces is None else _level(_find(maps, self.faces)[:, 0])
+        return affine(turn, origin)
 
 
-def read_anchor(text: str, groups: Sequence[Group]) -> Anchor:
-    """An anchor from its text, such as "head .1 0 .36", or "head .1 0 .36 level".
+def _find(maps: Maps, name: str) -> Affine:
+    found = maps.get(name)
+    return np.eye(3, 4) if found is None else found
 
-    It is on one of the groups that have names, or on "ground".
+
+def _level(forward: Affine) -> Affine:
+    """[3, 3] upright axes that face `forward`."""
+    x, y = map(float, forward[:2])
+    long = math.hypot(x, y)
+    x, y = (x / long, y / long) if long > 0.1 else (1.0, 0.0)
+    return np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
+
+
+def read_anchor(text: str, names: Collection[str]) -> Anchor:
+    """An anchor from its text, such as "head .1 0 .36", "head .1 0 .36 level" or "left hand + ...".
+
+    It is on parts that have these names, or on "ground". Where it is level its axes are those of
+    the body, or upright ones that face as a part whose name follows.
 
     Raises:
         ValueError: it cannot be read.
     """
-    on, *place_words = text.split()
-    is_level = place_words[-1:] == ["level"]
-    known = {"ground", *(one.name for one in groups if one.name)}
-    if on not in known:
+    where, level, faces = text.partition(" level")
+    *words, x, y, z = where.split()
+    on = tuple(map(str.strip, " ".join(words).split("+")))
+    known = {"ground", *names}
+    if not known.issuperset((*on, faces.strip() or "ground")):
         raise ValueError(f"anchor {text!r} must be on one of {', '.join(sorted(known))}")
-    return Anchor(on, point([read_number(one) for one in place_words[:3]]), is_level)
+    place_m = read_number(x), read_number(y), read_number(z)
+    return Anchor(on, place_m, (faces.strip() or "ground") if level else None)
+
+
+def read_skeleton(
+    texts: Iterable[tuple[str, bool]],
+) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
+    """Parts that stay in the body, and groups of those that move.
+
+    Args:
+        texts: part lines, each with whether only a body of a usual colour has them.
+
+    Raises:
+        ValueError: a line cannot be read.
+    """
+    split = [(read_groups(text), is_usual) for text, is_usual in texts]
+    rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
+    groups, names = list[Group](), set[str]()
+    for (how, lines), is_usual in (
+        (one, is_usual) for (_, *more), is_usual in split for one in more
+    ):
+        parts, more = read_parts(lines)
+        group = replace(read_group(how, parts, names), is_usual=is_usual)
+        if not how or not (parts or more or group.name):
+            raise ValueError(f"'moving {how}' needs a joint or a light, and parts below it")
+        groups.append(group)
+        names.add(group.name)
+        wheels += more
+    return rigid, (*groups, *(Group(shapes, (joint,)) for shapes, joint in wheels))
 
 
 def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> Group:
@@ -167,20 +213,22 @@ class Body:
     """One body on its skeleton, at its usual size."""
 
     seed: int
-    acts: str
-    """Table of its activities."""
-    rigid: Sequence[ModelPart]
-    """Parts that stay in the body."""
+    observe: Callable[[Pose], Mapping[str, float]]
+    """Channels of its activity."""
     groups: Sequence[tuple[Group, Sequence[ModelPart]]]
     """Groups with their parts, painted; each is on the body or on one before it."""
-    extras: Sequence[Callable[[Instant], Sequence[ModelPart]]]
-    """Chains and riders."""
-    joints: tuple[Joint, ...]
-    """Joints that carry the whole body."""
-    wave: Callable[[ModelPart, Instant], ModelPart] | None
-    walk: Walk | None
-    legs: Sequence[DrawLegs]
     anchors: Mapping[str, Anchor]
+    extras: Sequence[Callable[[Instant, Maps], Sequence[ModelPart]]]
+    """Chains, riders and skirts, by the maps of named groups."""
+    rigid: Sequence[ModelPart] = ()
+    """Parts that stay in the body."""
+    limbs: Sequence[tuple[Limb, Mapping[str, Sequence[ModelPart]]]] = ()
+    """Limbs with their parts, painted."""
+    joints: tuple[Joint, ...] = ()
+    """Joints that carry the whole body."""
+    wave: Callable[[ModelPart, Instant], ModelPart] | None = None
+    walk: Walk | None = None
+    legs: Sequence[DrawLegs] = ()
 
     @property
     def moves_all(self) -> bool:
@@ -194,15 +242,21 @@ class Body:
 
     def articulate(self, pose: Pose) -> list[ModelPart]:
         """All parts that move, at that pose."""
-        now, steps = self._observe(pose)
-        body, motions, _ = self._locate_groups(now)
+        return self.draw(*self._observe(pose))
+
+    def draw(self, now: Instant, steps: Steps | None = None) -> list[ModelPart]:
+        """All parts that move, at an instant."""
+        body, motions, named = self._locate_groups(now)
         parts = list(self.rigid) if self.moves_all else []
         if self.wave is not None:
             parts = [self.wave(part, now) for part in parts]
         parts = _carried(parts, body)
         for (group, shapes), motion in zip(self.groups, motions, strict=True):
             parts += group.draw(shapes, now, motion)
-        parts += _carried([part for draw in self.extras for part in draw(now)], body)
+        parts += _carried([part for draw in self.extras for part in draw(now, named)], body)
+        for _, drawn in self.limbs:
+            for name, shapes in drawn.items():
+                parts += _carried(list(shapes), named[name])
         if steps is not None:
             upright = np.eye(3, 4) if body is None else body
             parts += [one for draw in self.legs for one in draw(steps, upright, now.channels)]
@@ -213,30 +267,32 @@ class Body:
         anchor = self.anchors.get(name, self.anchors.get("other"))
         if anchor is None:
             return None
-        now, _ = self._observe(pose)
-        return anchor.locate(self._locate_groups(now)[2])
+        return anchor.locate(self.map_groups(pose))
+
+    def map_groups(self, pose: Pose) -> Maps:
+        """Maps to body coordinates of all that has a name: groups, bones, ends of limbs."""
+        return self._locate_groups(self._observe(pose)[0])[2]
 
     def _observe(self, pose: Pose) -> tuple[Instant, Steps | None]:
         """State that joints follow, and steps of legs."""
-        channels = find_channels(
-            self.acts, pose.activity, pose.time_s, before=pose.before, share=pose.share
-        )
+        channels = self.observe(pose)
         if self.walk is None:
             return Instant(pose, self.seed, channels), None
         steps = self.walk.steps(pose, self.seed)
-        channels |= {"step": steps.amount, "run" if steps.runs else "walk": steps.amount}
+        sizes = {"step": steps.amount, "run" if steps.runs else "walk": steps.amount}
+        channels = {**channels, **sizes}
         return Instant(pose, self.seed, channels, steps.strides), steps
 
-    def _locate_groups(
-        self, now: Instant
-    ) -> tuple[Affine | None, list[Affine | None], Mapping[str, Affine | None]]:
-        """Maps to body coordinates: of the body, of all groups, and of those with names."""
+    def _locate_groups(self, now: Instant) -> tuple[Affine | None, list[Affine | None], Maps]:
+        """Maps to body coordinates: of the body, of all groups, and of all that has a name."""
         body = place(self.joints, now) if self.joints else None
         motions, named = list[Affine | None](), {"": body}
         for group, _ in self.groups:
             motions.append(group.locate(now, named[group.on]))
             if group.name:
                 named[group.name] = motions[-1]
+        for limb, _ in self.limbs:
+            named |= limb.locate(now, named)
         return body, motions, named
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache, partial
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -25,7 +25,6 @@ from texvent_scenes.models.materials import (
     skin,
     striped,
 )
-from texvent_scenes.models.part_lines import Placed, read_parts
 from texvent_scenes.models.protocol import ModelPart, choose, paint
 from texvent_scenes.models.shapes import ball
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
@@ -115,34 +114,16 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
         "shoes": shoes if kind.shoes is None else Material(kind.shoes),
         "forearms": shirt if kind.has_sleeves else flesh,
         "hands": flesh if kind.gloves is None else Material(kind.gloves),
-        "hat": cloth(kind.hat_colour),
+        PAINT: cloth(kind.hat_colour),
     }
-    return Painted(FIXED_HUES, {}, made)
-
-
-def draw_parts(table: str, group: str, name: str, paint: Material | None = None) -> list[ModelPart]:
-    """The parts of an entry.
-
-    Args:
-        table: "props" or "outfits".
-        group: its table of part lists, such as "hats".
-        name: of the entry.
-        paint: surface of its parts that are of "paint".
-    """
-    painted = _painted(table)
-    if paint is not None:
-        painted = replace(painted, made={**painted.made, PAINT: paint})
-    return painted.draw(_placed(table, group, name))
+    return Painted(FIXED_HUES, read_table("outfits")["surfaces"], made)
 
 
 @cache
-def _placed(table: str, group: str, name: str) -> tuple[Placed, ...]:
-    return read_parts(read_table(table)[group][name])[0]
-
-
-@cache
-def _painted(table: str) -> Painted:
-    return Painted(FIXED_HUES, read_table(table)["surfaces"])
+def draw_shape(name: str) -> Sequence[ModelPart]:
+    """The parts of a shape of `data/props.toml`."""
+    table = read_table("props")
+    return Painted(FIXED_HUES, table["surfaces"]).draw_lines(table["shapes"][name])
 
 
 Draw = Callable[[float], Sequence[ModelPart]]
@@ -199,12 +180,8 @@ _MOVING: Mapping[str, Draw] = MappingProxyType(
 
 
 def _read_prop(row: Mapping[str, Any]) -> Prop:
-    draw = _MOVING.get(row["shape"], partial(_draw_still, row["shape"]))
+    draw = _MOVING.get(row["shape"], lambda _, shape=row["shape"]: draw_shape(shape))
     return Prop(row["at"], draw, tuple(row.get("nouns", ())), row.get("is_own", False))
-
-
-def _draw_still(shape: str, _: float) -> Sequence[ModelPart]:
-    return draw_parts("props", "shapes", shape)
 
 
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(

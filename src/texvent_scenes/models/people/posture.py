@@ -1,221 +1,216 @@
-"""Postures: where hips, hands and feet are and how torso and head turn; joints follow from them.
+"""Postures of people: channels of an activity, of the steps below it, and of hands that are held.
 
-Body coordinates are those of `protocol`: origin on the ground, facing +x, y to the left, z up,
-for an adult of 1.75 m. Angles are radians, lengths metres.
+A posture is the value of every channel that the figure in `data/outfits.toml` follows; those of its
+limbs are in `limbs.Limb`. Coordinates are those of `protocol`, for an adult of 1.75 m; angles are
+radians, lengths metres.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
 
-import numpy as np
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    SEATED,
+    SINGLE_ACTS,
+    USUAL,
+    Track,
+    Values,
+    ease,
+    flattened,
+    motion_of,
+    read_track,
+)
+from texvent_scenes.models.limbs import Gait, Steps, foot_path, step_amount
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import Point
 
-from texvent_scenes.models.limbs import bend
-from texvent_scenes.models.shapes import Affine, Point, mixed, point, rotation
-
-THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08
-HIP, HIP_SIDE = 0.95, 0.10
-NECK = 0.52
-"""From the hips up to the base of the neck."""
-SHOULDER_SIDE, SHOULDER_DROP = 0.20, 0.09
-UPPER_ARM, FOREARM, PALM = 0.29, 0.27, 0.08
-LOWER_ARM = FOREARM + PALM
-"""From the elbow to the middle of the palm."""
-SIDES = (1.0, -1.0)
-"""Left, right: the sign of y."""
+Numbers = tuple[float, ...]
 SEAT = 0.42
 """Height of the chair on which one sits, m: hips are a little above it."""
-
-DOWN: Point = (-0.2, 0.5, -1.0)
-OUT: Point = (-0.3, 1.0, -0.5)
-"""Directions in which an elbow usually points: down, outward."""
-
-
-@dataclass(frozen=True)
-class Arm:
-    """Pose of one arm, by its hand."""
-
-    hand: Point = (0.06, 0.05, -0.60)
-    """Middle of the palm from the shoulder, in the torso's axes: forward, outward, up; or in body
-    coordinates where `is_absolute`."""
-    elbow: Point = (-0.6, 0.5, -0.6)
-    """Direction in which the elbow points: forward, outward, up, in the torso's axes."""
-    is_absolute: bool = False
+WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
+RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
+CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
+_HIP, _ANKLE = 0.95, 0.08
+"""Heights of one who stands."""
+_UPPER_ARM, _LOWER_ARM = 0.29, 0.35
+_LIMBS: Mapping[str, tuple[str, str]] = {
+    "left": ("arms", "hand"), "right": ("arms", "hand"),
+    "left_leg": ("legs", "foot"), "right_leg": ("legs", "foot"),
+}  # fmt: skip
+"""Limb → name of both of its kind, and of its end, in the tables."""
+_BENDS: Mapping[str, Point] = {"arms": (-0.6, 0.5, -0.6), "legs": (1.0, 0.1, 0.35)}
+"""Usual directions of elbows and knees."""
 
 
-@dataclass(frozen=True)
-class Leg:
-    """Pose of one leg, by its foot."""
-
-    foot: Point = (0.0, 0.08, ANKLE)
-    """Ankle: forward, outward, up, in body coordinates."""
-    knee: Point = (1.0, 0.1, 0.35)
-    """Direction in which the knee points: forward, outward, up."""
-    pitch: float = 0.0
-    """Downward pitch of the toes."""
-
-
-@dataclass(frozen=True)
-class Posture:
-    """One instant of a body; None = as the legs' gait has it."""
-
-    hips: Point | None = None
-    """Middle of the hips, body coordinates."""
-    lean: float = 0.0
-    """Torso forward; -pi/2 = on the back."""
-    tilt: float = 0.0
-    """Torso to its right."""
-    turn: float = 0.0
-    """Torso to its left, about the vertical."""
-    nod: float = 0.0
-    """Head down."""
-    look: float = 0.0
-    """Head to its left."""
-    heading: float = 0.0
-    """Whole body to its left about the vertical through the origin."""
-    left: Arm | None = None
-    right: Arm | None = None
-    left_leg: Leg | None = None
-    right_leg: Leg | None = None
-    tool: Point = (0.45, 0.0, 0.9)
-    """Direction of a long thing in the right hand: forward, outward, up, in the torso's axes."""
+def place_limb(
+    name: str,
+    end: Numbers,
+    bend: Numbers | None = None,
+    *,
+    is_free: bool = False,
+    pitch: float = 0.0,
+) -> Values:
+    """Channels of a limb whose end is at a point of the body, or that far from its root."""
+    away, there = (end, (0.0,) * 3) if is_free else ((0.0,) * 3, end)
+    bend = bend or _BENDS[_LIMBS[name][0]]
+    found = {
+        "reach": away,
+        "spot": there,
+        "free": (float(is_free),),
+        "bend": bend,
+        "pitch": (pitch,),
+    }
+    return {f"{name}.{channel}": value for channel, value in found.items()}
 
 
-@dataclass(frozen=True)
-class Skeleton:
-    """All joints in body coordinates; pairs are left, right."""
-
-    torso: Affine
-    """[3, 4] torso axes, origin at the hips."""
-    head: Affine
-    """[3, 4] head axes, origin at the base of the neck."""
-    shoulders: tuple[Point, Point]
-    elbows: tuple[Point, Point]
-    hands: tuple[Point, Point]
-    hips: tuple[Point, Point]
-    knees: tuple[Point, Point]
-    ankles: tuple[Point, Point]
-    pitches: tuple[float, float]
-    heading: float
-    tool: Point
-    """Unit direction of a long thing in the right hand."""
-
-
-def fill(posture: Posture, base: Posture) -> Posture:
-    """A posture whose open fields are those of `base`; their leans add up where its hips are open.
+def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Values | None:
+    """Channels that an activity decides.
 
     Args:
-        posture: what the activity decides.
-        base: a complete posture: standing or stepping.
+        activity: a name of `ACTIVITIES`; of another one nothing is decided.
+        time_s: time since it began, s.
+        act_s: time since its instant of contact, if it happens once, s.
+
+    Returns:
+        Channels, of limbs all or none; None = those of standing and walking.
     """
-    if posture.hips is None:
-        posture = replace(posture, hips=base.hips, lean=posture.lean + base.lean)
-    return replace(
-        posture,
-        left=posture.left or base.left,
-        right=posture.right or base.right,
-        left_leg=posture.left_leg or base.left_leg,
-        right_leg=posture.right_leg or base.right_leg,
-    )
+    if activity not in ACTIVITIES:
+        return None
+    row = ACTIVITIES[activity]
+    track = _find_track(row.moves_as or activity)
+    if track is None:
+        return None
+    if act_s is not None and row.contact_s is not None:
+        return _read_channels(track.at(act_s, once=True))
+    return _read_channels(track.at(time_s - (row.contact_s or 0.0)))
 
 
-def blend(first: Posture, second: Posture, share: float) -> Posture:
-    """Between two complete postures: the first at share 0, the second at 1."""
-    if share <= 0.0:
-        return first
-    if share >= 1.0:
-        return second
-    a, b = (_absolute(fill(one, _REST)) for one in (first, second))
-    blended: Posture = mixed(a, b, share)
-    return blended
+@cache
+def _find_track(activity: str) -> Track | None:
+    row = motion_of("activities", activity)
+    return read_track(row) if row else None
 
 
-_REST = Posture((0.0, 0.0, HIP), left=Arm(), right=Arm(), left_leg=Leg(), right_leg=Leg())
+def _read_channels(values: Values) -> Values:
+    """Channels of the figure from those of the tables, which have names for both sides."""
+    found = {name: numbers for name, numbers in values.items() if "." not in name}
+    if "tool" in found:
+        found["right.tool"] = found.pop("tool")
+    for limb, (both, end) in _LIMBS.items():
+        said = {
+            name: values.get(f"{limb}.{name}", values.get(f"{both}.{name}"))
+            for name in (end, "elbow", "knee", "pitch", "fixed")
+        }
+        if said[end] is not None:
+            is_free = both == "arms" and said["fixed"] is None
+            found |= place_limb(limb, said[end], said["elbow"] or said["knee"],
+                                is_free=is_free, pitch=(said["pitch"] or (0.0,))[0])  # fmt: skip
+    return found
 
 
-def solve(posture: Posture) -> Skeleton:
-    """Joints of a complete posture: elbows and knees by inverse kinematics of two bones.
+STANDING: Values = {
+    **_read_channels(read_track(motion_of("activities", USUAL)).at(0.0)),
+    "left.tool": (0.0, 0.0, 1.0),
+}
+"""All channels of one who stands."""
 
-    A hand or foot out of reach is drawn at the end of the straight limb.
+
+def find_channels(pose: Pose, *, runs: bool) -> dict[str, float]:
+    """All channels of a person at an instant: of an activity, or between two.
+
+    Args:
+        pose: the instant.
+        runs: whether it runs where it moves.
     """
-    posture = _absolute(posture)
-    hips = posture.hips or (0.0, 0.0, HIP)
-    torso = _torso_axes(posture)
-    axes = torso[:, :3]
-    heading = rotation("z", posture.heading)
-    neck = torso @ np.array([0.0, 0.0, NECK, 1.0])
-    head = axes @ rotation("z", posture.look) @ rotation("y", posture.nod)
-    arms = [_solve_arm(torso, arm or Arm(), side)
-            for arm, side in zip((posture.left, posture.right), SIDES, strict=True)]  # fmt: skip
-    turn = rotation("z", posture.turn) if abs(posture.lean) < 1.0 else np.eye(3)
-    legs = [
-        _solve_leg(np.array(hips), axes, turn, leg or Leg(), side)
-        for leg, side in zip((posture.left_leg, posture.right_leg), SIDES, strict=True)
-    ]
-    points = [[point(heading @ joint) for joint in limb] for limb in (*arms, *legs)]
-    pitches = tuple((leg or Leg()).pitch for leg in (posture.left_leg, posture.right_leg))
-    forward, out, up = posture.tool
-    tool = heading @ axes @ np.array([forward, -out, up])
-    return Skeleton(
-        torso=np.column_stack([heading @ axes, heading @ torso[:, 3]]),
-        head=np.column_stack([heading @ head, heading @ neck]),
-        shoulders=(points[0][0], points[1][0]),
-        elbows=(points[0][1], points[1][1]),
-        hands=(points[0][2], points[1][2]),
-        hips=(points[2][0], points[3][0]),
-        knees=(points[2][1], points[3][1]),
-        ankles=(points[2][2], points[3][2]),
-        pitches=(pitches[0], pitches[1]),
-        heading=posture.heading,
-        tool=point(tool / max(float(np.linalg.norm(tool)), 1e-9)),
-    )
+    posture = choose_posture(pose, runs=runs)
+    if pose.before is not None:
+        earlier = choose_posture(replace(pose, activity=pose.before), runs=runs)
+        posture = blend(earlier, posture, pose.share)
+    # One who lies has no direction in which the knees go along with the torso.
+    stance = posture["turn"] if abs(posture["lean"][0]) < 1.0 else (0.0,)
+    return flattened({**posture, "stance": stance})
 
 
-def _solve_arm(torso: Affine, arm: Arm, side: float) -> list[Affine]:
-    shoulder = torso @ np.array([0.0, side * SHOULDER_SIDE, NECK - SHOULDER_DROP, 1.0])
-    forward, out, up = arm.elbow
-    towards = torso[:, :3] @ np.array([forward, side * out, up])
-    hand = _within(shoulder, np.array(arm.hand), UPPER_ARM + LOWER_ARM)
-    elbow = bend(point(shoulder), point(hand), UPPER_ARM, LOWER_ARM, point(towards))
-    return [shoulder, np.array(elbow), hand]
+def choose_posture(pose: Pose, *, runs: bool) -> Values:
+    """The posture of the activity of a pose, held where the pose holds the body."""
+    posture = dict(_act(pose, runs=runs))
+    for name, (x, y, z) in pose.grips:
+        word, _, end = name.partition(" ")
+        if not end:
+            posture[name] = (x, y, z)
+            continue
+        limb, side = word if end == "hand" else f"{word}_leg", 1.0 if word == "left" else -1.0
+        posture |= place_limb(limb, (x, side * y, z), posture[f"{limb}.bend"])
+    return posture
 
 
-def _solve_leg(hips: Affine, axes: Affine, turn: Affine, leg: Leg, side: float) -> list[Affine]:
-    hip = hips + axes @ np.array([0.0, side * HIP_SIDE, -0.02])
-    forward, out, up = leg.knee
-    towards = turn @ np.array([forward, side * out, up])
-    x, y, z = leg.foot
-    ankle = _within(hip, np.array([x, side * y, z]), THIGH + SHIN)
-    knee = bend(point(hip), point(ankle), THIGH, SHIN, point(towards))
-    return [hip, np.array(knee), ankle]
+def _act(pose: Pose, *, runs: bool) -> Values:
+    activity = pose.activity
+    if activity == "crawl":
+        return _crawl(pose)
+    is_fast = activity == "run" or (runs and activity == "move")
+    amount = 0.0 if activity.startswith("sit") else step_amount(activity, pose.speed_m_s, 0.5)
+    base = step(RUN if is_fast else WALK, pose.distance_m, amount)
+    act_s = pose.act_s if activity in SINGLE_ACTS else None
+    if activity.startswith(SEATED):
+        base = {**fill(find_posture("sit", pose.time_s) or {}, base), "look": (0.0,)}
+        activity = activity.removeprefix(SEATED)
+    time_s = (pose.act_s or 0.0) if activity == "jump" else pose.time_s
+    posture = fill(find_posture(activity, time_s, act_s) or {}, base)
+    if act_s is not None and amount > 0.0:
+        posture = blend(base, posture, ease(act_s, -0.50, -0.20))
+    return posture
 
 
-def _within(start: Affine, end: Affine, reach: float) -> Affine:
-    """The end, or the point of the sphere of that reach in its direction."""
-    span = end - start
-    long = math.sqrt(float(span @ span))
-    return end if long <= reach else start + span * (reach / long)
+def fill(posture: Values, base: Values) -> Values:
+    """A posture whose open channels are those of `base`; leans add up where its hips are open."""
+    lean = posture.get("lean", (0.0,))[0]
+    return {**base, **posture, "lean": (lean + (0.0 if "hips" in posture else base["lean"][0]),)}
 
 
-def _absolute(posture: Posture) -> Posture:
-    """The same posture with hands in body coordinates (before the heading)."""
-    if all(arm is not None and arm.is_absolute for arm in (posture.left, posture.right)):
-        return posture
-    torso = _torso_axes(posture)
-    arms = []
-    for arm, side in zip((posture.left, posture.right), SIDES, strict=True):
-        where = arm or Arm()
-        if not where.is_absolute:
-            forward, out, up = where.hand
-            spot = torso @ np.array(
-                [forward, side * (SHOULDER_SIDE + out), NECK - SHOULDER_DROP + up, 1.0]
-            )
-            where = Arm(point(spot), where.elbow, True)
-        arms.append(where)
-    return replace(posture, left=arms[0], right=arms[1])
+def blend(first: Values, second: Values, share: float) -> Values:
+    """Between two postures: the first at share 0, the second at 1."""
+    share = min(max(share, 0.0), 1.0)
+    return {
+        name: tuple(a + share * (b - a) for a, b in zip(first[name], numbers, strict=True))
+        for name, numbers in second.items()
+    }
 
 
-def _torso_axes(posture: Posture) -> Affine:
-    turn = rotation("z", posture.turn) @ rotation("y", posture.lean) @ rotation("x", posture.tilt)
-    return np.column_stack([turn, np.array(posture.hips or (0.0, 0.0, HIP))])
+def step(gait: Gait, distance: float, amount: float) -> Values:
+    """Walking or running: legs and arms by the distance covered; amount 0 = standing."""
+    runs = gait is RUN
+    turn = 2.0 * math.pi * distance / gait.stride
+    # A walker is highest in mid-stance, a runner lowest; legs are nearly straight at both.
+    bob = -0.03 * math.cos(2.0 * turn + 1.0) if runs else 0.03 * math.cos(2.0 * turn - 0.63)
+    drop = 0.05 if runs else 0.02
+    hips = (0.0, 0.0, _HIP - 0.005 + amount * (bob - drop))
+    posture: Values = {**STANDING, "hips": hips, "lean": (amount * (0.16 if runs else 0.04),)}
+    for side, offset in (("left", 0.0), ("right", 0.5)):
+        x, z = foot_path(Steps(gait, distance / gait.stride, amount), offset + 0.25)
+        foot, pitch = (x, 0.08, _ANKLE + z), 0.54 * z / gait.lift
+        posture |= place_limb(f"{side}_leg", foot, (1.0, 0.0, 0.35), pitch=pitch)
+        # Each arm swings with the opposite leg.
+        swing = amount * (0.75 if runs else 0.42) * math.sin(turn + 2.0 * math.pi * offset)
+        fold = swing + 0.12 + amount * (1.45 if runs else 0.18)
+        forward = _UPPER_ARM * math.sin(swing) + _LOWER_ARM * math.sin(fold)
+        up = -_UPPER_ARM * math.cos(swing) - _LOWER_ARM * math.cos(fold)
+        posture |= place_limb(side, (forward, 0.03, up), (-1.0, 0.25, 0.2), is_free=True)
+    return posture
+
+
+def _crawl(pose: Pose) -> Values:
+    """On hands and knees, which stay where they are set down."""
+    posture: Values = {**STANDING, "hips": (-0.24, 0.0, 0.47), "lean": (1.40,), "nod": (-0.9,)}
+    steps = Steps(CRAWL, pose.distance_m / CRAWL.stride, 1.0)
+    for side, offset in (("left", 0.0), ("right", 0.5)):
+        x, z = foot_path(steps, offset)
+        posture |= place_limb(side, (0.34 + x, 0.18, 0.05 + z), (-0.4, 0.6, -0.6))
+        x, z = foot_path(steps, offset + 0.5)
+        foot = (-0.56 + x, 0.11, 0.09 + 0.6 * z)
+        posture |= place_limb(f"{side}_leg", foot, (0.4, 0.1, -1.0), pitch=1.9)
+    return posture
