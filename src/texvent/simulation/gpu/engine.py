@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from texvent._registry import SIMULATORS
 from texvent._require import require
-from texvent.config import check_range
+from texvent.config import check_whole
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.options.arrays import whole_numbers
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulation.esim.config import EsimConfig
@@ -273,14 +274,18 @@ def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
     """A seed per clip; `clips` None: as many as are given."""
-    if isinstance(seed, int):
-        seeds = tuple(range(seed, seed + (clips or 1)))
+    if np.ndim(seed) == 0:
+        check_whole("seed", seed, 0, 2**63 - 1)
+        first = int(cast("int", seed))
+        seeds = tuple(range(first, first + (clips or 1)))
     else:
-        seeds = tuple(int(one) for one in seed)
-        if clips is not None and len(seeds) != clips:
-            raise ConfigError(f"there are {len(seeds)} seeds for {clips} clips; give one per clip")
+        given = whole_numbers(seed, "seed", "one whole number per clip")
+        seeds = tuple(given.ravel().tolist())
+        if given.ndim > 1 or (clips is not None and len(seeds) != clips):
+            shape = " x ".join(map(str, given.shape))
+            raise ConfigError(f"there are {shape} seeds for {clips} clips; give one per clip")
     for one in seeds:
-        check_range("seed", one, 0, 2**63 - 1)
+        check_whole("seed", one, 0, 2**63 - 1)
     return seeds
 
 

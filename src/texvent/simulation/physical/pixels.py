@@ -90,4 +90,3 @@ class PhysicalPixels:
             noise = UnsortedEvents.concat((noise, hot))
         order = np.lexsort((noise.p, noise.t, noise.pixel))
         return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
-

@@ -123,9 +123,7 @@ def draw_arrivals(
 
 
 @triton.jit
-def _first_above(
-    row: tl.tensor, value: tl.tensor, where: tl.tensor, width: tl.int32
-) -> tl.tensor:
+def _first_above(row: tl.tensor, value: tl.tensor, where: tl.tensor, width: tl.int32) -> tl.tensor:
     """First column of each row whose number exceeds a value; the last one always does."""
     low = tl.zeros(value.shape, tl.int32)
     high = tl.zeros(value.shape, tl.int32) + (width - 1)

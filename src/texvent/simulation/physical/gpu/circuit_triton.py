@@ -136,9 +136,7 @@ def scan_circuit(
 
 
 @triton.jit
-def _read_arrival(
-    noise: tl.tuple, number: tl.tensor, at: tl.tensor, where: tl.tensor
-) -> tl.tensor:
+def _read_arrival(noise: tl.tuple, number: tl.tensor, at: tl.tensor, where: tl.tensor) -> tl.tensor:
     """Time of a noise event on the common axis, µs, times 2, plus its polarity."""
     if noise is not None:
         word = tl.load(noise[0] + number, mask=where, other=_FILLER)
@@ -151,7 +149,9 @@ def _read_arrival(
 @triton.jit
 def _is_quiet(light: tl.tuple, pixel: tl.tuple, state: tl.tuple, duration: tl.tensor) -> tl.tensor:
     """Whether pixels cannot fire but by noise; see `..circuit_kernel`."""
-    (before, now, _, _), (on, off, leak), (output, level, since) = light, pixel, state
+    before, now, _, _ = light
+    on, off, leak = pixel
+    output, level, since = state
     high = tl.maximum(output, tl.maximum(before, now))
     low = tl.minimum(output, tl.minimum(before, now))
     # Pixels held in reset have level NaN, and may fire.
@@ -193,7 +193,9 @@ def _advance_active(
     Returns:
         The state at the end, from the second on.
     """
-    (at, active, area), (axis_us, duration_us), (rules, noise, words) = own, span, shared
+    at, active, area = own
+    axis_us, duration_us = span
+    rules, noise, words = shared
     lag, final_lag, level, since, number, arrival, place = state
     duration = duration_us.to(tl.float64)
     count, length, growth = _cut_into_segments(light, duration)
@@ -268,7 +270,9 @@ def _cut_into_segments(light: tl.tuple, duration: tl.tensor) -> tl.tuple:
 @triton.jit
 def _enter_segment(light: tl.tuple, start: tl.tuple, times: tl.tuple, rules: tl.tuple) -> tl.tuple:
     """Photoreceptors on the next segment: `base + slope · now − transient`; see `..lane_steps`."""
-    (before, now, _, _), (lag, cutoff, here, ahead), (begin, length, duration) = light, start, times
+    before, now, _, _ = light
+    lag, cutoff, here, ahead = start
+    begin, length, duration = times
     input_slope = (now - before) / duration
     if rules.is_limited:
         per_level = tl.load(rules.numbers + _CUTOFF_PER_LEVEL)
@@ -300,8 +304,10 @@ def _start_step(
     line: tl.tuple, state: tl.tuple, pixel: tl.tuple, times: tl.tuple, where: tl.tensor
 ) -> tl.tuple:
     """The change from now on, as `find_crossings` takes it, and the level."""
-    (base, slope, transient, omega, kept), (level, since) = line, state
-    (on, off, leak), (now, begin, end) = pixel, times
+    base, slope, transient, omega, kept = line
+    level, since = state
+    on, off, leak = pixel
+    now, begin, end = times
     left = exponential(-omega * (now - begin))
     transient = transient * left
     is_negligible = tl.abs(transient) <= tl.minimum(on, off) * NEGLIGIBLE

@@ -46,9 +46,7 @@ def find_crossings(curve: tl.tuple, on: tl.tensor, off: tl.tensor) -> tl.tuple:
     later = (turn < duration) & (up | down)
     direction = tl.where(slope + decay_slope == 0, slope, slope + decay_slope)
     is_first = tl.where(direction > 0, level, -level) >= tl.where(direction > 0, on, off)
-    is_curved = (tl.abs(transient) > tl.minimum(on, off) * NEGLIGIBLE) & (
-        (is_high | is_low) == 0
-    )
+    is_curved = (tl.abs(transient) > tl.minimum(on, off) * NEGLIGIBLE) & ((is_high | is_low) == 0)
     meets = is_curved & (is_first | later)
     wait = tl.where(is_curved, float("inf"), wait)
     if tl.max(meets.to(tl.int32)) > 0:

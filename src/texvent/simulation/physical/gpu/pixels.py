@@ -37,10 +37,15 @@ class PhysicalGpuPixels(GpuPixels[PhysicalConfig]):
         torch = require("torch", extra=EXTRA)
         shape, device = frames.shape, frames.device
         self._sensors = [draw_sensor(self.config, seed, shape[1:]) for seed in self._seeds]
-        columns = zip(*(one.mismatch for one in self._sensors), strict=True)
+        on, off, leak = (
+            to_device(np.stack(column), device)
+            for column in zip(*(one.mismatch for one in self._sensors), strict=True)
+        )
         level = np.stack([np.broadcast_to(one.phase, shape[1:].numel()) for one in self._sensors])
         self._state = CircuitState(
-            *(to_device(np.stack(column), device) for column in columns),
+            on,
+            off,
+            leak,
             torch.zeros(shape, dtype=torch.float64, device=device),
             to_device(level, device),
             torch.zeros(shape, dtype=torch.int64, device=device),

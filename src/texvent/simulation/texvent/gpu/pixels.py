@@ -39,9 +39,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(config, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH)
-        self._schedules = [
-            CacheSchedule(config.cache, config.residual_decay_hz) for _ in seeds
-        ]
+        self._schedules = [CacheSchedule(config.cache, config.residual_decay_hz) for _ in seeds]
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
