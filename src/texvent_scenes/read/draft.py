@@ -12,7 +12,8 @@ from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.clauses import Clause, Group
+from texvent_scenes.read.clauses import Clause
+from texvent_scenes.read.groups import Group
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns

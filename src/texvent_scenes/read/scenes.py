@@ -10,8 +10,9 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
+from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place, set_field
+from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
