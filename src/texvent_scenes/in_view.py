@@ -58,7 +58,7 @@ _TURNS, _RESTS = ("spin", "work", "rotate"), ("stand", "hang", "work", "sit", "l
 """Motions that only a picture tells, and those that nothing needs to show."""
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
 """Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
-_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
+_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
 """Fields of a place that pictures must show."""
 
 

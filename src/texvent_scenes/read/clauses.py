@@ -37,9 +37,9 @@ class Clause:
 
     @property
     def is_plural(self) -> bool:
-        """Whether a verb in its base form agrees with the subject."""
+        """Whether a verb in its base form agrees with the subject: "dogs run", "ball drop"."""
         is_open = bool(self.about) or len(self.subjects) > 1
-        return is_open or any(one.is_plural for one in self.subjects)
+        return is_open or any(one.is_plural or one.is_bare for one in self.subjects)
 
 
 def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
@@ -70,6 +70,8 @@ class _Parser(GroupReader):
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
+            if word == "," and clause.verb is not None and self._goes_on(clause.verb):
+                return Clause(about="same")
             is_list = clause.subjects and not (clause.verb or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
@@ -88,8 +90,14 @@ class _Parser(GroupReader):
             return self._end(clause)
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
-        starts = self._starts_group() or self._token().has("camera")
+        starts = self._starts_group() or self._token().has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _goes_on(self, verb: Token) -> bool:
+        """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
+        forms = {one.form for one in verb.all("verb")} & {"s", "ing"}
+        is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
+        return bool(self._token().verbs(*forms)) and not is_subject
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:
         """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
@@ -193,6 +201,10 @@ class _Parser(GroupReader):
                 return None
             return replace(clause, after=(*clause.after, self._take()))
         self._at += 1 + is_back
+        if token.text in _IS:  # "the ball is red"
+            group = self._group()
+            said = (Phrase(token, (group,)),) if group.head else group.unknown
+            return replace(clause, after=(*clause.after, *said))
         phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))
 
@@ -204,6 +216,8 @@ class _Parser(GroupReader):
             return replace(clause, about="same") if is_subject else clause
         if not token.has("adverb"):
             return None
+        if token.is_time and clause == Clause():
+            return Clause(about="same", after=(self._take(),))
         return replace(clause, after=(*clause.after, self._take()))
 
     def _read_group(self, clause: Clause) -> Clause | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from texvent_scenes.read.lexicon import NO_TOKEN, Token
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -34,6 +34,19 @@ class Group:
     article: str = ""
     of: Phrase | None = None
     """Phrase with "of" that follows: "of apples"."""
+
+    @property
+    def noun(self) -> NounSense | None:
+        """Its noun, in the number that is said: "two glasses" are no spectacles."""
+        senses = [one.value for one in self.head.all("noun")] if self.head else []
+        is_many = any(count > 1 for one in self.modifiers for count in _counts(one))
+        return next((one for one in senses if one.is_plural or not is_many), (*senses, None)[0])
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it is a noun alone, as in headlines: "fast ball"."""
+        is_counted = any(_counts(one) for one in self.modifiers)
+        return bool(self.head and self.head.has("noun")) and not self.article and not is_counted
 
     @property
     def is_plural(self) -> bool:
@@ -76,7 +89,7 @@ class GroupReader:
     def _starts_group(self, ahead: int = 0) -> bool:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
-            return not after.has("camera") and not after.is_sign
+            return not (after.text.endswith("camera") or after.has("camera") or after.is_sign)
         is_view = token.has("shot") and not token.has("noun", "place")
         is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
         if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
