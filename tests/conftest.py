@@ -10,9 +10,11 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -76,17 +78,54 @@ FIRST = (
 """What each of two workers runs first: between them these compile most kernels."""
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Let two workers of pytest-xdist begin with kernels that the other one does not need yet.
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--combinations",
+        choices=("all", "few"),
+        default="all",
+        help="of a test over several tables: all combinations of their rows, or enough that each "
+        "row has its turn",
+    )
 
-    In a fresh checkout every kernel is compiled once, and later read from disk by both. In the
-    order of folders both workers would compile the same ones at the same time.
+
+def choose_combinations(items: list[pytest.Item]) -> set[str]:
+    """Names of tests in which each row of each table has its turn.
+
+    Names alone decide which combinations of rows these are.
     """
+    groups = defaultdict(list)
+    for item in sorted(items, key=lambda item: crc32(item.nodeid.encode())):
+        call = getattr(item, "callspec", None)
+        rows = {*enumerate(call._idlist)} if call else {(0, "")}
+        groups[item.nodeid.partition("[")[0]].append((item.nodeid, rows))
+    chosen = set()
+    for group in groups.values():
+        seen: set[tuple[int, str]] = set()
+        for most_new in range(max(len(rows) for _, rows in group), 0, -1):
+            for name, rows in group:
+                if len(rows - seen) >= most_new:
+                    seen |= rows
+                    chosen.add(name)
+    return chosen
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what was not asked for, and share out what compiles.
+
+    In a fresh checkout every kernel is compiled once, and later read from disk by both workers of
+    pytest-xdist. In the order of folders both would compile the same ones at the same time, so
+    they begin with kernels that the other one does not need yet.
+    """
+    if config.getoption("combinations") == "few":
+        chosen = choose_combinations(items)
+        further = [item for item in items if item.nodeid not in chosen]
+        config.hook.pytest_deselected(items=further)
+        items[:] = [item for item in items if item.nodeid in chosen]
     if not hasattr(config, "workerinput"):
         return
     groups = [[item for item in items if item.nodeid.startswith(first)] for first in FIRST]
-    chosen = {item.nodeid for group in groups for item in group}
-    rest = [item for item in items if item.nodeid not in chosen]
+    firsts = {item.nodeid for group in groups for item in group}
+    rest = [item for item in items if item.nodeid not in firsts]
     # pytest-xdist gives each worker one half of the list, and lets it work from its beginning.
     split = max(0, len(items) // 2 - len(groups[0]))
     items[:] = groups[0] + rest[:split] + groups[1] + rest[split:]
