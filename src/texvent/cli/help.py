@@ -109,7 +109,7 @@ def _with_place_of_pages(text: str) -> str:
     """Help that names pages, and where an installation from a wheel finds them."""
     if "docs/" not in text or (CHECKOUT / "docs").is_dir():
         return text
-    return f"{text}\nPages docs/NAME.md are in texvent's repository and source distribution.\n"
+    return f"{text}\nThe pages of docs/ are in texvent's repository and source distribution.\n"
 
 
 def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
