@@ -23,7 +23,7 @@ AUDIT_TOOLS := cyclonedx-bom pip-audit reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
 BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
 SBOM_OUT ?= dist/texvent.cdx.json
-PROMPT ?= a red car drives left past two trees at dusk
+PROMPT ?= a man juggles four balls at night
 DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
@@ -89,7 +89,7 @@ help:
 
 demo: $(VENV)/.base
 	@mkdir -p $(dir $(DEMO_OUT))
-	$(VENV)/bin/texvent generate "$(PROMPT)" -o $(DEMO_OUT) --overwrite
+	$(VENV)/bin/texvent generate "$(PROMPT)" --duration 1 -o $(DEMO_OUT) --overwrite
 	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
 
 test: $(VENV)/.dev

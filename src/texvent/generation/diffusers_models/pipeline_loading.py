@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from texvent._require import require
+from texvent._require import install_command, require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generation.diffusers_models.guardrail import (
     GUARDRAIL_SWITCH,
@@ -158,7 +158,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
     if pipeline_class is None:
         raise InputError(
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
-            "does not have; install a newer one: pip install -U diffusers"
+            f"does not have; install a newer one: {install_command('-U', 'diffusers')}"
         )
     return pipeline_class
 
@@ -212,8 +212,8 @@ def _check_embeddings(pipe: Pipeline, folder: Path) -> None:
             if isinstance(module, torch.nn.Embedding) and not bool(module.weight.any()):
                 raise FileFormatError(
                     f"{folder}: an embedding of {name} is all 0, so no word would count; install "
-                    "the latest transformers (pip install -U transformers), or fetch the model "
-                    "again"
+                    f"the latest transformers ({install_command('-U', 'transformers')}), or fetch "
+                    "the model again"
                 )
 
 
