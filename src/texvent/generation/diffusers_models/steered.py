@@ -1,0 +1,161 @@
+"""Adapter over the pipelines that follow a control video: scene → control → video of the scene.
+
+The embedded generator stages the scene at the model's size, rate and length. The video that comes
+out has the scene's motion and truth.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from texvent._registry import DEFAULT_GENERATOR, GENERATORS
+from texvent.errors import InputError
+from texvent.generation.diffusers_models.generator import DiffusersGenerator
+from texvent.generation.steered_video import SteeredVideo
+from texvent.generation.subjects import Subject, describe_subject, prompt_of
+from texvent.prompt_report import REPORT_KEY, PromptReport
+from texvent.runtime.progress import NoProgress, Progress
+from texvent.sensor import SensorSize
+
+if TYPE_CHECKING:
+    from texvent.frames import FrameStream
+    from texvent.generation.control_video import Pixels
+    from texvent.generation.videos.stored_video import FinishedVideo
+    from texvent.runtime.devices import Tensor
+
+AGREEMENT = "control_agreement"
+"""Agreement with the scene, among the facts of a video."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Steering:
+    """A scene that a video is to follow."""
+
+    subject: Subject
+    scene: Any
+    control: Pixels
+
+
+class SteeredGenerator(DiffusersGenerator):
+    """A learned model whose videos follow a scene, by a control video of it."""
+
+    default_interpolate: ClassVar[str] = "motion"
+
+    _steering: _Steering | None = None
+
+    def generate(self, prompt: Subject, *, progress: Progress | None = None) -> SteeredVideo:
+        """The video of a scene, or of the one that a sentence describes; see the base class.
+
+        Raises:
+            ConfigError: the model does not take the control, the length or the size; or as the
+                embedded generator.
+        """
+        text = self._steer(prompt, progress or NoProgress())
+        video: Any = super().generate(text, progress=progress)
+        return self.attach(video, prompt)
+
+    def plan(self, prompt: Subject) -> str | None:
+        """As the base class; the scene is rendered, for what was made before is found by it."""
+        return super().plan(self._steer(prompt, NoProgress()))
+
+    def attach(self, video: FrameStream, prompt: Subject) -> SteeredVideo:
+        """A video that this generator made of a subject, with its scene.
+
+        Raises:
+            InputError: it has another number of frames than the scene.
+        """
+        steering = self._steering
+        scene = self._stage(prompt) if steering is None else steering.scene
+        if video.frame_count != scene.frame_count or video.size != scene.size:
+            raise InputError(
+                f"{self.model.name} made {video.frame_count} frames of {video.size} of a scene of "
+                f"{scene.frame_count} frames of {scene.size}; give `frames`, `width` and `height` "
+                "that it makes"
+            )
+        return SteeredVideo(video, scene)
+
+    def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
+        """Report of the prompt's words in the scene, as its output would store it."""
+        report: PromptReport = self._embedded().report(prompt, is_staged=is_staged)
+        return report
+
+    def _steer(self, prompt: Subject, progress: Progress) -> str:
+        """Render the control video of a subject; the text for the model."""
+        self._check_model()  # before anything is rendered
+        text = self._text(prompt)
+        if self._steering is None or self._steering.subject is not prompt:
+            from texvent.generation.control_video import draw_control  # brings OpenCV
+
+            scene = self._stage(prompt)
+            progress.announce(f"rendering the control video ({self.config.control}) of the scene")
+            control = draw_control(scene, str(self.config.control))
+            self._steering = _Steering(prompt, scene, control)
+        return text
+
+    def _text(self, prompt: Subject) -> str:
+        """The scene's sentence, and words about the look."""
+        said = (prompt_of(prompt) or "").strip()
+        text = ", ".join(filter(None, (said.rstrip(" ."), (self.config.look or "").strip())))
+        if not text:
+            raise InputError(
+                "the scene has no sentence; give look='...', or a `prompt` in the scene file"
+            )
+        return text
+
+    def _stage(self, prompt: Subject) -> Any:
+        return self._embedded().generate(prompt)
+
+    def _embedded(self) -> Any:
+        """The embedded generator at the model's size, rate and length."""
+        config, fps = self.config, self.fps
+        kind: Any = GENERATORS.load(DEFAULT_GENERATOR)
+        frames, size = config.frames or 0, SensorSize(config.width or 0, config.height or 0)
+        # Half a frame more, so that rounding takes none away.
+        own = dataclasses.replace(
+            kind.config_type(), fps=fps, duration=float((frames - 0.5) / fps)
+        )
+        seed = self.seed if config.scene_seed is None else config.scene_seed
+        return kind(own, seed=seed, size=size)
+
+    def _find_fault(self, video: FinishedVideo) -> str | None:
+        """The base class's, or too little agreement with the scene."""
+        least, found = self.config.least_agreement, video.metadata[AGREEMENT]
+        low = [] if least is None else [one for one in found.items() if one[1] < least]
+        return "; ".join(f"{name} agree by {share:g}, below {least:g}" for name, share in low) or None
+
+    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> FinishedVideo:
+        from texvent.video_check.control_agreement import measure_agreement  # brings OpenCV
+
+        video = super()._find_or_make(prompt, seed, progress)
+        found = measure_agreement(self.attach(video, self._known.subject), self._known.scene)
+        said = ", ".join(f"{name} {share:.0%}" for name, share in found.items())
+        progress.announce(f"the video follows the scene: {said or 'nothing to compare'} (0: chance)")
+        return video.with_metadata(**{AGREEMENT: found})
+
+    def _levels(self, prompt: str, seed: int, progress: Progress) -> Tensor:
+        return self._call(prompt, seed, progress, control=self._known.control)
+
+    @property
+    def _known(self) -> _Steering:
+        assert self._steering is not None
+        return self._steering
+
+    def _pixel_facts(self, prompt: str, seed: int) -> dict[str, Any]:
+        control = np.ascontiguousarray(self._known.control)
+        digest = hashlib.sha256(control.data).hexdigest()
+        return {**super()._pixel_facts(prompt, seed), "control": digest}
+
+    def _request_facts(self) -> dict[str, Any]:
+        """The base class's, and the scene."""
+        known = self._known
+        facts = {**super()._request_facts(), **describe_subject(known.subject)}
+        scene = known.scene.metadata
+        facts |= {name: scene[name] for name in (REPORT_KEY,) if name in scene}
+        files = [*facts.get("files", ()), *scene.get("files", ())]
+        return {**facts, "text": self._text(known.subject), **({"files": files} if files else {})}
+
