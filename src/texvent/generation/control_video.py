@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 import colorsys
+import itertools
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
@@ -72,7 +73,8 @@ def draw_edges(scene: Any) -> Pixels:
 def draw_ids(scene: Any) -> Pixels:
     """A flat colour for each object."""
     ids = np.stack([_truth(scene, t_us, t_us).instance for t_us in times_of(scene)])
-    return np.asarray(id_colours(int(ids.max(initial=0)))[np.maximum(ids, 0)])
+    drawn: Pixels = id_colours(int(ids.max(initial=0)))[np.maximum(ids, 0)]
+    return drawn
 
 
 def id_colours(highest: int) -> Pixels:
@@ -91,7 +93,7 @@ def id_colours(highest: int) -> Pixels:
 def draw_flow(scene: Any) -> Pixels:
     """Motion from the frame before."""
     times = times_of(scene)
-    pairs = zip(times[:-1], times[1:], strict=True)
+    pairs = itertools.pairwise(times)
     vectors = np.stack([_truth(scene, first, second).flow for first, second in pairs])
     vectors = np.nan_to_num(vectors)
     speed = np.hypot(vectors[..., 0], vectors[..., 1])

@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.frames import (
-    Frame,
-    FrameStream,
-    MotionVectors,
-    NotebookFrames,
-    describe_stream,
-    frame_time_us,
-)
-from texvent.sensor import SensorSize
+from texvent.frames import Frame, FrameStream, MotionVectors, frame_time_us
+from texvent.generation.videos.stored_video import FinishedVideo
 
 if TYPE_CHECKING:
     from texvent.camera import PosedCamera
@@ -26,45 +18,18 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteeredVideo(NotebookFrames):
+class SteeredVideo(FinishedVideo):
     """A finished video of a scene: every frame carries the scene's motion to its neighbours.
 
     Its truth is the scene's. What is between two frames is not rendered, but moved along the
     motion: the scene looks otherwise.
     """
 
+    _: KW_ONLY
     video: FrameStream
     """The model's frames, at the times and of the size of the scene's."""
     scene: Any
     """The rendered scene."""
-
-    def __repr__(self) -> str:
-        return describe_stream(self)
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        return self.video.size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """Frame rate."""
-        return self.video.fps
-
-    @property
-    def frame_count(self) -> int:
-        """Number of frames."""
-        return self.video.frame_count or 0
-
-    @property
-    def is_live(self) -> bool:
-        """False: the frames can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Origin of the video."""
-        return self.video.metadata
 
     def __iter__(self) -> Iterator[Frame]:
         """The frames with their motion."""

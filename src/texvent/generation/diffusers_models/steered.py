@@ -46,7 +46,8 @@ class SteeredGenerator(DiffusersGenerator):
 
     default_interpolate: ClassVar[str] = "motion"
 
-    _steering: _Steering | None = None
+    _steering: _Steering
+    """Set by the first call; later ones of the same subject find it."""
 
     def generate(self, prompt: Subject, *, progress: Progress | None = None) -> SteeredVideo:
         """The video of a scene, or of the one that a sentence describes; see the base class.
@@ -56,8 +57,7 @@ class SteeredGenerator(DiffusersGenerator):
                 embedded generator.
         """
         text = self._steer(prompt, progress or NoProgress())
-        video: Any = super().generate(text, progress=progress)
-        return self.attach(video, prompt)
+        return self.attach(super().generate(text, progress=progress), prompt)
 
     def plan(self, prompt: Subject) -> str | None:
         """As the base class; the scene is rendered, for what was made before is found by it."""
@@ -69,15 +69,15 @@ class SteeredGenerator(DiffusersGenerator):
         Raises:
             InputError: it has another number of frames than the scene.
         """
-        steering = self._steering
-        scene = self._stage(prompt) if steering is None else steering.scene
+        scene = self._steering.scene if self._has(prompt) else self._stage(prompt)
         if video.frame_count != scene.frame_count or video.size != scene.size:
             raise InputError(
                 f"{self.model.name} made {video.frame_count} frames of {video.size} of a scene of "
                 f"{scene.frame_count} frames of {scene.size}; give `frames`, `width` and `height` "
                 "that it makes"
             )
-        return SteeredVideo(video, scene)
+        shape = scene.fps, video.size, scene.frame_count
+        return SteeredVideo(*shape, video.metadata, video=video, scene=scene)
 
     def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
         """Report of the prompt's words in the scene, as its output would store it."""
@@ -88,7 +88,7 @@ class SteeredGenerator(DiffusersGenerator):
         """Render the control video of a subject; the text for the model."""
         self._check_model()  # before anything is rendered
         text = self._text(prompt)
-        if self._steering is None or self._steering.subject is not prompt:
+        if not self._has(prompt):
             from texvent.generation.control_video import draw_control  # brings OpenCV
 
             scene = self._stage(prompt)
@@ -96,6 +96,9 @@ class SteeredGenerator(DiffusersGenerator):
             control = draw_control(scene, str(self.config.control))
             self._steering = _Steering(prompt, scene, control)
         return text
+
+    def _has(self, prompt: Subject) -> bool:
+        return "_steering" in vars(self) and self._steering.subject is prompt
 
     def _text(self, prompt: Subject) -> str:
         """The scene's sentence, and words about the look."""
@@ -116,9 +119,7 @@ class SteeredGenerator(DiffusersGenerator):
         kind: Any = GENERATORS.load(DEFAULT_GENERATOR)
         frames, size = config.frames or 0, SensorSize(config.width or 0, config.height or 0)
         # Half a frame more, so that rounding takes none away.
-        own = dataclasses.replace(
-            kind.config_type(), fps=fps, duration=float((frames - 0.5) / fps)
-        )
+        own = dataclasses.replace(kind.config_type(), fps=fps, duration=float((frames - 0.5) / fps))
         seed = self.seed if config.scene_seed is None else config.scene_seed
         return kind(own, seed=seed, size=size)
 
@@ -126,36 +127,34 @@ class SteeredGenerator(DiffusersGenerator):
         """The base class's, or too little agreement with the scene."""
         least, found = self.config.least_agreement, video.metadata[AGREEMENT]
         low = [] if least is None else [one for one in found.items() if one[1] < least]
-        return "; ".join(f"{name} agree by {share:g}, below {least:g}" for name, share in low) or None
+        return (
+            "; ".join(f"{name} agree by {share:g}, below {least:g}" for name, share in low) or None
+        )
 
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> FinishedVideo:
         from texvent.video_check.control_agreement import measure_agreement  # brings OpenCV
 
         video = super()._find_or_make(prompt, seed, progress)
-        found = measure_agreement(self.attach(video, self._known.subject), self._known.scene)
+        found = measure_agreement(self.attach(video, self._steering.subject), self._steering.scene)
         said = ", ".join(f"{name} {share:.0%}" for name, share in found.items())
-        progress.announce(f"the video follows the scene: {said or 'nothing to compare'} (0: chance)")
+        progress.announce(
+            f"the video follows the scene: {said or 'nothing to compare'} (0: chance)"
+        )
         return video.with_metadata(**{AGREEMENT: found})
 
     def _levels(self, prompt: str, seed: int, progress: Progress) -> Tensor:
-        return self._call(prompt, seed, progress, control=self._known.control)
-
-    @property
-    def _known(self) -> _Steering:
-        assert self._steering is not None
-        return self._steering
+        return self._call(prompt, seed, progress, control=self._steering.control)
 
     def _pixel_facts(self, prompt: str, seed: int) -> dict[str, Any]:
-        control = np.ascontiguousarray(self._known.control)
+        control = np.ascontiguousarray(self._steering.control)
         digest = hashlib.sha256(control.data).hexdigest()
         return {**super()._pixel_facts(prompt, seed), "control": digest}
 
     def _request_facts(self) -> dict[str, Any]:
         """The base class's, and the scene."""
-        known = self._known
+        known = self._steering
         facts = {**super()._request_facts(), **describe_subject(known.subject)}
         scene = known.scene.metadata
         facts |= {name: scene[name] for name in (REPORT_KEY,) if name in scene}
         files = [*facts.get("files", ()), *scene.get("files", ())]
         return {**facts, "text": self._text(known.subject), **({"files": files} if files else {})}
-

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.generation.video_models.model_files import (
+    CONFIG,
     CONTROL_PART,
     find_network,
+    read_json,
     read_pipeline_index,
 )
 
@@ -32,25 +34,42 @@ class ControlPipeline:
     """Width and height are multiples of it."""
     step: int
     """Frames are multiples of it and one more."""
+    transformer: str
+    """Class of its network."""
     needs_lora: bool = False
     """Whether its control is a LoRA, without which the video follows nothing."""
-    folders: tuple[str, ...] = ()
-    """Other classes whose folders it loads."""
+    is_channels: bool = False
+    """Whether the control is more channels of the network's input."""
 
 
 PIPELINES: Mapping[str, ControlPipeline] = MappingProxyType(
     {
         # github.com/ali-vilab/VACE: vace/annotators/{depth,scribble,flow}.py
-        "WanVACEPipeline": ControlPipeline("video", ("depth", "edges", "flow"), 16, 4),
+        "WanVACEPipeline": ControlPipeline(
+            "video", ("depth", "edges", "flow"), 16, 4, "WanVACETransformer3DModel"
+        ),
         # github.com/nvidia-cosmos/cosmos-transfer2.5: scripts/diffusers_inference.py
         "Cosmos2_5_TransferPipeline": ControlPipeline(
-            "controls", ("depth", "edges", "ids"), 16, 4
+            "controls", ("depth", "edges", "ids"), 16, 4, "CosmosTransformer3DModel"
         ),
-        # github.com/aigc-apps/VideoX-Fun: README.md (Canny, depth; also pose, MLSD)
-        "CogVideoXFunControlPipeline": ControlPipeline("control_video", ("depth", "edges"), 16, 4),
+        # github.com/aigc-apps/VideoX-Fun: README.md (Canny, depth; also pose, MLSD). Its decoder
+        # makes other numbers of frames of even numbers of latent ones.
+        "CogVideoXFunControlPipeline": ControlPipeline(
+            "control_video",
+            ("depth", "edges"),
+            16,
+            8,
+            "CogVideoXTransformer3DModel",
+            is_channels=True,
+        ),
         # The card of Lightricks/LTX-2.3-22b-IC-LoRA-Union-Control (Canny, depth; also pose)
         "LTX2InContextPipeline": ControlPipeline(
-            "reference_conditions", ("depth", "edges"), 32, 8, True, ("LTX2Pipeline",)
+            "reference_conditions",
+            ("depth", "edges"),
+            32,
+            8,
+            "LTX2VideoTransformer3DModel",
+            needs_lora=True,
         ),
     }
 )
@@ -130,19 +149,23 @@ def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPi
 
 
 def check_class(model: VideoModel, folder: Path) -> None:
-    """Refuse a folder with the weights of another kind of model.
+    """Refuse a folder with the weights of a model that follows no scene, or in another way.
 
     Raises:
-        InputError: its index names a class that the control pipeline does not load.
+        InputError: its network is of another class, or takes no control.
+        FileFormatError: a file is damaged.
     """
-    name, pipeline = model.pipeline, model.steering
+    pipeline, part = model.steering, "transformer"
     if pipeline is None:
         return
-    found = str(read_pipeline_index(folder)["_class_name"])
-    if found not in (name, *pipeline.folders):
+    found = (read_pipeline_index(folder).get(part) or [None, None])[1]
+    channels = read_json(folder / part / CONFIG) if pipeline.is_channels else {}
+    lacks_control = channels and channels.get("in_channels") == channels.get("out_channels")
+    if found != pipeline.transformer or lacks_control:
+        without = " without a control" if lacks_control else ""
         raise InputError(
-            f"{folder} holds a {found}, and {model.name} needs a {name}, which follows a scene; "
-            "put the weights of that model there"
+            f"{folder} holds a {found}{without}, and {model.name} needs a {pipeline.transformer} "
+            "that follows a scene; put the weights of that model there"
         )
 
 
