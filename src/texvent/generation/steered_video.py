@@ -31,6 +31,11 @@ class SteeredVideo(FinishedVideo):
     scene: Any
     """The rendered scene."""
 
+    @property
+    def plain(self) -> FrameStream:
+        """The model's frames alone, where the motion is not needed."""
+        return self.video
+
     def __iter__(self) -> Iterator[Frame]:
         """The frames with their motion."""
         for index, frame in enumerate(self.video):

@@ -15,6 +15,8 @@ import numpy as np
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS
 from texvent.errors import InputError
+from texvent.frames import FrameStream, Video
+from texvent.generation.control_video import Pixels, draw_control, times_of
 from texvent.generation.diffusers_models.generator import DiffusersGenerator
 from texvent.generation.steered_video import SteeredVideo
 from texvent.generation.subjects import Subject, describe_subject, prompt_of
@@ -23,8 +25,6 @@ from texvent.runtime.progress import NoProgress, Progress
 from texvent.sensor import SensorSize
 
 if TYPE_CHECKING:
-    from texvent.frames import FrameStream
-    from texvent.generation.control_video import Pixels
     from texvent.generation.videos.stored_video import FinishedVideo
     from texvent.runtime.devices import Tensor
 
@@ -56,12 +56,27 @@ class SteeredGenerator(DiffusersGenerator):
             ConfigError: the model does not take the control, the length or the size; or as the
                 embedded generator.
         """
+        self._check_here()
         text = self._steer(prompt, progress or NoProgress())
         return self.attach(super().generate(text, progress=progress), prompt)
 
     def plan(self, prompt: Subject) -> str | None:
         """As the base class; the scene is rendered, for what was made before is found by it."""
+        self._check_here()
         return super().plan(self._steer(prompt, NoProgress()))
+
+    def _check_here(self) -> None:
+        """Refuse what shows without the network, before the scene is rendered."""
+        self._check_model()
+        self._check_before_loading()
+        if self.model.folder is not None:
+            self._prepare(NoProgress())
+
+    def draw(self, prompt: Subject) -> Video:
+        """The control video of a subject, for people; nothing is loaded."""
+        self._steer(prompt, NoProgress())
+        scene = self._steering.scene
+        return Video(self._steering.control, times_of(scene), scene.fps, scene.metadata)
 
     def attach(self, video: FrameStream, prompt: Subject) -> SteeredVideo:
         """A video that this generator made of a subject, with its scene.
@@ -86,11 +101,9 @@ class SteeredGenerator(DiffusersGenerator):
 
     def _steer(self, prompt: Subject, progress: Progress) -> str:
         """Render the control video of a subject; the text for the model."""
-        self._check_model()  # before anything is rendered
+        self._check_model()
         text = self._text(prompt)
         if not self._has(prompt):
-            from texvent.generation.control_video import draw_control  # brings OpenCV
-
             scene = self._stage(prompt)
             progress.announce(f"rendering the control video ({self.config.control}) of the scene")
             control = draw_control(scene, str(self.config.control))
@@ -135,7 +148,8 @@ class SteeredGenerator(DiffusersGenerator):
         from texvent.video_check.control_agreement import measure_agreement  # brings OpenCV
 
         video = super()._find_or_make(prompt, seed, progress)
-        found = measure_agreement(self.attach(video, self._steering.subject), self._steering.scene)
+        self.attach(video, self._steering.subject)  # refuses frames that are not the scene's
+        found = measure_agreement(video, self._steering.scene)
         said = ", ".join(f"{name} {share:.0%}" for name, share in found.items())
         progress.announce(
             f"the video follows the scene: {said or 'nothing to compare'} (0: chance)"

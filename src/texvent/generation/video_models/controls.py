@@ -135,7 +135,7 @@ def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPi
     frames = config.frames or 0
     longest = model.longest
     if longest is not None and frames > longest:
-        seconds = f", {longest / model.fps:.3g} s at {model.fps} fps" if model.fps else ""
+        seconds = f", {float(longest / model.fps):.3g} s at {model.fps} fps" if model.fps else ""
         raise ConfigError(
             f"frames is {frames}; {model.name} follows a scene over at most {longest} frames"
             f"{seconds}"
