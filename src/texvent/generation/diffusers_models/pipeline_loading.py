@@ -67,6 +67,8 @@ class LoadRequest:
     loras: tuple[Lora, ...] = ()
     scheduler: tuple[tuple[str, Any], ...] = ()
     """Settings of the noise schedule that replace the saved ones."""
+    parts: tuple[tuple[str, Path], ...] = ()
+    """Name and folder of networks that lie elsewhere."""
 
 
 def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
@@ -167,6 +169,7 @@ def _load(request: LoadRequest) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
+    parts |= {name: _load_network(folder, request) for name, folder in request.parts}
     pipe = _from_pretrained(pipeline_class, request, parts)
     _check_embeddings(pipe, request.folder)
     if PART in parts:
@@ -191,6 +194,16 @@ def _load_guardrail_part(pipeline_class: Any, request: LoadRequest) -> dict[str,
         return {}
     has_switch = GUARDRAIL_SWITCH in inspect.signature(pipeline_class).parameters
     return {PART: load_guardrail(), **({GUARDRAIL_SWITCH: True} if has_switch else {})}
+
+
+def _load_network(folder: Path, request: LoadRequest) -> Any:
+    """A network with a folder of its own, such as a ControlNet."""
+    kind = require("diffusers", extra=EXTRA).AutoModel
+    dtype = getattr(require("torch", extra=EXTRA), request.placement.dtype)
+    with loading(folder, "a network"):
+        return kind.from_pretrained(
+            str(folder), dtype=dtype, local_files_only=True, use_safetensors=True
+        )
 
 
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
