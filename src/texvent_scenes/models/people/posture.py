@@ -17,7 +17,7 @@ from texvent_scenes.models.activities import (
     SEATED,
     SINGLE_ACTS,
     USUAL,
-    Track,
+    ChannelTrack,
     Values,
     ease,
     flattened,
@@ -90,7 +90,7 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Va
 
 
 @cache
-def _find_track(activity: str) -> Track | None:
+def _find_track(activity: str) -> ChannelTrack | None:
     row = motion_of("activities", activity)
     return read_track(row) if row else None
 
