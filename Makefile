@@ -23,7 +23,7 @@ AUDIT_TOOLS := cyclonedx-bom pip-audit reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
 BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
 SBOM_OUT ?= dist/texvent.cdx.json
-PROMPT ?= a red car drives left past two trees at dusk
+PROMPT ?= a man juggles four balls at night
 DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
@@ -44,6 +44,8 @@ HASHED := -m pip install --quiet --disable-pip-version-check --require-hashes -r
 PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
+# Empty: all combinations of rows of tables, and the long tests whole.
+BRIEF ?= --brief
 # Seconds after which one of the long tests hangs.
 UNHURRIED := --timeout 3600 -o faulthandler_timeout=3660
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
@@ -55,14 +57,15 @@ IN_PYTHON := $(addprefix tests/, simulation/kernels simulation/crossing simulati
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test test-all nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
-	@echo "make test    the default test suite, of texvent and of lab/"
+	@echo "make test    the default test suite, of texvent and of lab/: each row of each table once"
+	@echo "make test-all     make test with all combinations of rows, and the long tests whole; part of CI"
 	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
-	@echo "make coverage     make test, with the share of the code that it runs; fails below the floor"
-	@echo "make test-newest  make test with the newest release of every dependency, in $(NEWEST_VENV)"
+	@echo "make coverage     make test-all, with the share of the code that it runs; fails below the floor"
+	@echo "make test-newest  make test-all with the newest release of every dependency, in $(NEWEST_VENV)"
 	@echo "make test-newest-releases test-lowest-releases   the wheel, with the newest and the lowest stated release of every"
 	@echo "                  dependency: main commands and small extras, with $(NEWEST_PYTHON) and $(OLDEST_PYTHON)"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
@@ -86,11 +89,15 @@ help:
 
 demo: $(VENV)/.base
 	@mkdir -p $(dir $(DEMO_OUT))
-	$(VENV)/bin/texvent generate "$(PROMPT)" -o $(DEMO_OUT) --overwrite
+	$(VENV)/bin/texvent generate "$(PROMPT)" --duration 1 -o $(DEMO_OUT) --overwrite
 	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
 
 test: $(VENV)/.dev
-	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5
+	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5 $(BRIEF)
+	$(if $(BRIEF),@echo "A brief run; make test-all runs all combinations of rows of tables, and the long tests whole")
+
+test-all:
+	$(MAKE) test BRIEF=
 
 nightly: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 -m nightly $(UNHURRIED)

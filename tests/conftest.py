@@ -10,9 +10,11 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -41,6 +43,7 @@ sys.path.insert(0, str(Path(__file__).parent / "generation" / "stand_ins"))
 # The first example may compile a kernel, and machines are busy: no property is held to a time.
 UNTIMED = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("quick", UNTIMED, max_examples=50)
+settings.register_profile("brief", UNTIMED, max_examples=20)
 settings.register_profile("few", UNTIMED, max_examples=5)  # of kernels that are not compiled
 settings.register_profile("thorough", UNTIMED, max_examples=1000)
 settings.load_profile("quick")
@@ -76,17 +79,58 @@ FIRST = (
 """What each of two workers runs first: between them these compile most kernels."""
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Let two workers of pytest-xdist begin with kernels that the other one does not need yet.
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--brief",
+        action="store_true",
+        help="of a test over several tables so many combinations that each row has its turn, of "
+        "one marked long an eighth of the rows, of properties 20 examples",
+    )
 
-    In a fresh checkout every kernel is compiled once, and later read from disk by both. In the
-    order of folders both workers would compile the same ones at the same time.
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("brief"):
+        settings.load_profile("brief")
+
+
+def choose_rows(items: list[pytest.Item]) -> set[str]:
+    """Names of the tests of a brief run; names alone decide which rows these have."""
+    groups = defaultdict(list)
+    for item in sorted(items, key=lambda item: crc32(item.nodeid.encode())):
+        groups[item.nodeid.partition("[")[0]].append(item)
+    chosen = set()
+    for group in groups.values():
+        if group[0].get_closest_marker("long"):
+            eighth = len(group) // 8 + (len(group) > 1)
+            chosen |= {item.nodeid for item in group[:eighth]}
+            continue
+        calls = [(item.nodeid, getattr(item, "callspec", None)) for item in group]
+        rows = {name: {*enumerate(call._idlist)} if call else {(0, "")} for name, call in calls}
+        seen: set[tuple[int, str]] = set()
+        for fresh in range(max(map(len, rows.values())), 0, -1):
+            for name, row in rows.items():
+                if len(row - seen) >= fresh:
+                    seen |= row
+                    chosen.add(name)
+    return chosen
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what a brief run leaves out, and share out what compiles.
+
+    In a fresh checkout every kernel is compiled once, and later read from disk by both workers of
+    pytest-xdist. In the order of folders both would compile the same ones at the same time, so
+    they begin with kernels that the other one does not need yet.
     """
+    if config.getoption("brief"):
+        chosen = choose_rows(items)
+        config.hook.pytest_deselected(items=[one for one in items if one.nodeid not in chosen])
+        items[:] = [item for item in items if item.nodeid in chosen]
     if not hasattr(config, "workerinput"):
         return
     groups = [[item for item in items if item.nodeid.startswith(first)] for first in FIRST]
-    chosen = {item.nodeid for group in groups for item in group}
-    rest = [item for item in items if item.nodeid not in chosen]
+    firsts = {item.nodeid for group in groups for item in group}
+    rest = [item for item in items if item.nodeid not in firsts]
     # pytest-xdist gives each worker one half of the list, and lets it work from its beginning.
     split = max(0, len(items) // 2 - len(groups[0]))
     items[:] = groups[0] + rest[:split] + groups[1] + rest[split:]

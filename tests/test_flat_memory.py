@@ -38,6 +38,7 @@ for path, count in zip(runs[::2], runs[1::2]):
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("extension", "interpolate"), [(".h5", "none"), (".raw", "blend")])
 def test_twice_the_clip_takes_no_more_memory(tmp_path, extension, interpolate):
     paths = [str(tmp_path / f"{name}{extension}") for name in ("once", "twice")]

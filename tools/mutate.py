@@ -172,7 +172,7 @@ def wilson_interval(count: int, total: int) -> tuple[float, float]:
 
 def lines_changed_since(commit: str) -> dict[str, set[int]]:
     """Numbers of the lines that were changed after a commit, by files as of `source_path`."""
-    words = ["git", "diff", "-U0", "--no-prefix", "--relative=src", commit]
+    words = ["git", "diff", "-U0", "--no-prefix", "--diff-filter=d", "--relative=src", commit]
     found: dict[str, set[int]] = {}
     file = ""
     for line in subprocess.check_output(words, cwd=ROOT, text=True).splitlines():

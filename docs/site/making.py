@@ -9,13 +9,10 @@ from typing import Any
 
 import matplotlib
 
-import texvent
 from texvent.cli.app import main
-from texvent.view.render import RenderConfig, render_events
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "docs/results"
-PROMPT = "a red car drives left past two trees at dusk"
 BENCHMARKS = {
     "fidelity": (),
     "paper": (),
@@ -31,25 +28,14 @@ BENCHMARKS = {
 def make_all(folder: Path) -> None:
     """Make the film of the start page and plots, in a folder; pages of results and licences."""
     matplotlib.use("agg")
+    import film
     import plots
 
     (folder / "static").mkdir(parents=True, exist_ok=True)
-    make_film(folder / "static")
+    film.make_film(folder / "static")
     plots.make_plots(folder)
     make_result_pages()
     make_licences()
-
-
-def make_film(folder: Path) -> None:
-    """Frames beside events of the prompt of the start page: a film and its first image."""
-    film, still = folder / "start.mp4", folder / "start.png"
-    if film.exists() and still.exists():
-        return
-    options: Any = {"sensor": "240x180", "duration": 1.4, "seed": 3, "progress": False}
-    frames = texvent.video(PROMPT, **options)
-    events = texvent.generate(PROMPT, interpolate="flow", **options)
-    render_events(events, film, frames=frames, config=RenderConfig(speed=0.5), overwrite=True)
-    render_events(events, still, frames=frames, overwrite=True)
 
 
 def make_result_pages() -> None:

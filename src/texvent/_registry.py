@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
+from texvent._require import reinstall_command
 from texvent.errors import ConfigError, MissingDependencyError, TexventError, one_line, shown
 
 LONGEST_NAME = 60
@@ -44,7 +45,7 @@ def say_absent(package: str) -> str:
     """Say that a package of texvent's own distribution is gone, and what brings it back."""
     return (
         f"the package {package}, a part of texvent, is missing; install it anew: "
-        "pip install --force-reinstall texvent, or pip install -e . in a checkout"
+        f"{reinstall_command()}"
     )
 
 

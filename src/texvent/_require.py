@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import importlib
+import json
+import shlex
+import shutil
 import sys
+from importlib import metadata
+from pathlib import Path
 from types import ModuleType
 
 from texvent.errors import MissingDependencyError, one_line
+
+CHECKOUT = Path(__file__).parents[2]
+"""Folder of the repository, where the package runs from one."""
 
 
 def require(module: str, *, extra: str | None = None) -> ModuleType:
@@ -32,5 +40,36 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
         target = "texvent" if extra is None else extra if "[" in extra else f"texvent[{extra}]"
         raise MissingDependencyError(
             f"{module} is needed here and could not be imported ({one_line(error)}); "
-            f"install it with: pip install '{target}'"
+            f"install it with: {install_command(target)}"
         ) from error
+
+
+def install_command(*words: str) -> str:
+    """The command by which the running Python installs packages.
+
+    It names this Python where `pip` on the PATH is another's: that one finds no texvent.
+    """
+    found = shutil.which("pip")
+    is_ours = found is not None and Path(found).parent == Path(sys.executable).parent
+    pip = "pip" if is_ours else shlex.join([sys.executable or "python", "-m", "pip"])
+    return f"{pip} install {shlex.join(words)}"
+
+
+def reinstall_command() -> str:
+    """The command that installs texvent anew, from where it came."""
+    if (CHECKOUT / "pyproject.toml").is_file():
+        return install_command("-e", str(CHECKOUT))
+    try:
+        note = metadata.distribution("texvent").read_text("direct_url.json")
+    except metadata.PackageNotFoundError:
+        note = None
+    source = json.loads(note or "{}").get("url", "texvent")
+    return install_command("--force-reinstall", "--no-deps", source)
+
+
+def lab_command() -> str:
+    """The command that installs the laboratory, which no registry has."""
+    if (CHECKOUT / "lab").is_dir():
+        return install_command("-e", str(CHECKOUT / "lab"))
+    local = install_command("./lab")
+    return f"{local} in a clone of texvent's repository, or from the wheel texvent_lab-*.whl"

@@ -9,7 +9,7 @@ from texvent._registry import (
     load_object,
     suggest,
 )
-from texvent._require import require
+from texvent._require import install_command, require
 from texvent._version import full_version, source_commit
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "SIMULATORS",
     "Registry",
     "full_version",
+    "install_command",
     "load_object",
     "require",
     "source_commit",

@@ -59,6 +59,14 @@ def text_to_video(
     return fit_to_sensor(generator.generate(prompt, progress=progress), settings)
 
 
+def with_scene(video: FrameStream, prompt: Subject, settings: Settings) -> FrameStream:
+    """A stored video with the scene that its model followed; other videos as they are."""
+    generator_class = GENERATORS.load(settings.generator or DEFAULT_GENERATOR)
+    generator = generator_class(settings.source, seed=settings.run.seed, size=None)
+    attach: Callable[..., FrameStream] | None = getattr(generator, "attach", None)
+    return video if attach is None else attach(video, prompt)
+
+
 def fit_to_sensor(video: FrameStream, settings: Settings) -> FrameStream:
     """A generated video at the size of the sensor, if one is asked for."""
     if settings.size in (None, video.size):

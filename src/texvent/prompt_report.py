@@ -108,7 +108,7 @@ class PromptReport:
             return None
         return (
             f"strict: the prompt is not shown as it says: {'; '.join(self.faults(MOST_REFUSED))}; "
-            "say it in words of docs/prompts.md, or leave strict out"
+            "say it in words that `texvent scenes` lists, or leave strict out"
         )
 
     def to_json(self) -> dict[str, Any]:

@@ -29,6 +29,8 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 _AT_HAND = frozenset({"hold", "wear"})
 _GOING = {"stand": "slide", "float": "fly"}
 _AFLOAT = ("sail", "paddle")
+_ROCKING = 0.5
+"""Pace at which what floats rocks on waves, as a share of that of a sway."""
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
@@ -105,6 +107,11 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         return (Motion(noun.motion),) if lives_there else ()
     if motion.kind == "move":
         motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
+    if motion.kind in ("hover", "float") and noun.motion in _AFLOAT:
+        motion = replace(motion, kind="sway", pace=_ROCKING * motion.pace)
+    if motion.kind == "slide" and noun.name in nouns_with("flat pattern"):  # in its own plane
+        kind = {"up": "rise", "down": "sink"}.get(motion.direction or "")
+        motion = motion if kind is None else replace(motion, kind=kind, direction=None)
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
     return (_at_rate(motion, noun),)

@@ -38,7 +38,7 @@ INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS = 6
+LEAST_PIXELS = 32
 """Pixels below which an object is too small to be told."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden."""
@@ -58,7 +58,7 @@ _TURNS, _RESTS = ("spin", "work", "rotate"), ("stand", "hang", "work", "sit", "l
 """Motions that only a picture tells, and those that nothing needs to show."""
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
 """Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
-_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
+_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
 """Fields of a place that pictures must show."""
 
 
@@ -71,6 +71,8 @@ class Unseen(NamedTuple):
     """Such as "bird (2 pixels)"."""
     violations: tuple[Violation, ...] = ()
     """Relations, directions, weather, effects and light."""
+    notes: tuple[str, ...] = ()
+    """Such as "the ball leaves the view after 1.3 s"."""
 
 
 def find_unseen(
@@ -109,9 +111,31 @@ def find_unseen(
     violations += [one for one in find_violations(description, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+    gone = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
-        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(violations))
-    )
+        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
+        tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(gone)),
+    )  # fmt: skip
+
+
+def _list_departures(
+    scene: ComposedScene, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> Iterator[str]:
+    """Notes on what a static camera shows for a part of the clip only."""
+    told = {one.noun.name for one in scene.actors for note in scene.camera_path.notes
+            if note.startswith(f"the {one.noun.name} is fast")}  # fmt: skip
+    for one in scene.actors:
+        inside = [_is_inside(one, *each, size) for each in zip(times, cameras, strict=True)]
+        if inside[0] and not inside[-1] and one.noun.name not in told:
+            last_s = times[len(inside) - 1 - inside[::-1].index(True)]
+            yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
+
+
+def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:
+    """Whether a corner of its box is in the image."""
+    x, y, depth = project(camera, size, actor.corners(time_s)).T
+    is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height) & (depth > 0.0)
+    return bool(is_in.any())
 
 
 def without_words(words: Sequence[str], faults: Sequence[Violation]) -> tuple[str, ...]:

@@ -382,7 +382,7 @@ class ProceduralGenerator:
         report = replace(
             said,
             shown=without_words(said.shown, unseen.violations),
-            notes=(*said.notes, *scene.notes, *scene.camera_path.notes),
+            notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes),
             not_shown=(*said.not_shown, *scene.not_shown,
                        *filter(None, (one.line for one in unseen.violations))),
             out_of_view=unseen.out_of_view,

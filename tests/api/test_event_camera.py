@@ -77,6 +77,7 @@ def test_a_camera_that_ended_takes_no_frame_before_a_reset(end):
     assert len(camera.step(FRAMES[0], 0)) == 0
 
 
+@pytest.mark.long
 def test_a_controller_that_sees_only_events_keeps_a_rod_upright():
     with matplotlib.rc_context({"backend": "agg"}):
         ran = runpy.run_path(str(PENDULUM))

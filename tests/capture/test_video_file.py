@@ -282,6 +282,7 @@ def long_film(tmp_path_factory):
     return path
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="threads are counted by Linux")
 @pytest.mark.parametrize(
     "frames_of",

@@ -153,6 +153,7 @@ def test_existing_outputs_are_kept_unless_told_otherwise(folder, capsys):
     assert Path("out.events.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.long
 def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
     words = [sys.executable, "-m", "texvent.cli.app", "simulate", str(CLIP), "-o", "out.h5"]
     limit = 64 * 1024  # bytes; stands for a quota or a file system's own limit

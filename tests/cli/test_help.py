@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -84,3 +85,10 @@ def test_help_is_readable_where_the_terminal_knows_ascii_only():
     done = subprocess.run(words, env=plain, capture_output=True, check=False)
     assert done.returncode == 0, done.stderr.decode()
     assert b"--contrast-threshold" in done.stdout
+
+
+def test_help_of_an_installed_wheel_says_where_the_pages_are_that_it_names(show, monkeypatch):
+    place = "The pages of docs/ are in texvent's repository"
+    assert place not in show("simulate", "--help", "all")
+    monkeypatch.setattr("texvent.cli.help.CHECKOUT", Path("/elsewhere"))
+    assert place in show("simulate", "--help", "all")

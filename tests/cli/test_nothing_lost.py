@@ -115,6 +115,7 @@ def wait_for_parts(folder: Path, kilobytes: int = 200) -> None:
     pytest.fail("the run wrote no events")
 
 
+@pytest.mark.long
 def test_a_signal_leaves_nothing(folder, spawn):
     number = signal.SIGINT
     long_frames(folder / "long.npy")
@@ -132,6 +133,7 @@ def test_a_signal_leaves_nothing(folder, spawn):
     assert [path.name for path in folder.iterdir()] == ["long.npy"]
 
 
+@pytest.mark.long
 def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder, spawn):
     number = signal.SIGTERM
     long_frames(folder / "long.npy")

@@ -46,6 +46,7 @@ STREAMS = {
 WORDS = ("info e.txt --sensor 240x180", "convert --help all", "scenes")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("redirected", "words"), [*zip(STREAMS, itertools.cycle(WORDS), strict=False)]
 )
@@ -55,6 +56,7 @@ def test_every_command_keeps_its_result_and_its_exit_code(folder, redirected, wo
     assert shell(folder, "nosuch", redirected)[0] == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("redirected", [">/dev/full", "<&- >&- 2>&-"])
 def test_a_file_is_written_whatever_becomes_of_the_streams(folder, redirected):
     words = "convert e.txt a.npz --sensor 240x180"
@@ -62,6 +64,7 @@ def test_a_file_is_written_whatever_becomes_of_the_streams(folder, redirected):
     assert len(texvent.load(folder / "a.npz")) == 3000
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("redirected", ["2>/dev/full", "2>&-", ">&- 2>/dev/full"])
 def test_lost_progress_and_warnings_stop_no_run(folder, redirected):
     np.save(folder / "still.npy", np.full((3, 12, 16), 100, np.uint8))

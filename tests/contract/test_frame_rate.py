@@ -80,6 +80,7 @@ def test_the_help_marks_these_presets_and_no_other():
     assert frame_bound_presets() == BY_DEFINITION
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("simulator", "preset"), CASES)
 def test_the_frame_rate_changes_neither_counts_nor_times(simulator, preset):
     slowest, *others = (events_at(rate, simulator, preset) for rate in RATES)

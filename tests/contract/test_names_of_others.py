@@ -90,6 +90,7 @@ def use(folder: Path, out: Path) -> None:
 TEXTS = ("{abs}", "a/../../x", "x\ny", "", "\ud800")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("document", "chosen"),
     [

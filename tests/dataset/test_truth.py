@@ -39,6 +39,7 @@ def labelled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_set(tmp_path_factory.mktemp("labelled") / "cars", **TRUTH)
 
 
+@pytest.mark.long
 def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: Path) -> None:
     samples = texvent.dataset.open(labelled)
     assert len(samples) == 6

@@ -38,6 +38,7 @@ def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
     assert worker.one(f"events {path.parent.name}", 0, path).kind == "refused"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "read"),
     [

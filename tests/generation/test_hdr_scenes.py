@@ -18,6 +18,7 @@ def video_of(**options):
     return text_to_video(PROMPT, resolve("generate", {**SMALL, **options}))
 
 
+@pytest.mark.long
 def test_lamps_are_brighter_than_white_and_the_rest_is_as_before():
     ordinary, linear = video_of(), video_of(hdr=True)
     assert (transfer_of(ordinary), transfer_of(linear)) == (Transfer.GAMMA, Transfer.LINEAR)
@@ -35,6 +36,7 @@ def test_lamps_are_brighter_than_white_and_the_rest_is_as_before():
     assert np.abs(shown)[is_plain].mean() < 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("simulator", ["texvent", "physical"])
 def test_highlights_give_events(simulator):
     options = {**SMALL, "simulator": simulator, "max_intermediate": 4}

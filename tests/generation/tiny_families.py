@@ -12,7 +12,7 @@ import diffusers
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
-from .tiny_pipelines import SMALL, qwen, wan_vae
+from .tiny_pipelines import SMALL, cosmos_transformer, qwen, t5, wan_vae
 
 CONNECTOR = {
     "num_attention_heads": 2,
@@ -50,7 +50,7 @@ def flow_unipc():
     )
 
 
-def ltx2():
+def ltx2(kind=diffusers.LTX2Pipeline):
     tokenizer = gemma_tokenizer()
     text = SMALL | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
     vision = SMALL | {"image_size": 14, "patch_size": 14}
@@ -64,7 +64,7 @@ def ltx2():
         for kind in ("video", "audio")
         for name, value in CONNECTOR.items()
     }
-    return diffusers.LTX2Pipeline(
+    return kind(
         tokenizer=tokenizer,
         text_encoder=transformers.Gemma3ForConditionalGeneration(gemma).eval(),
         vae=diffusers.AutoencoderKLLTX2Video(
@@ -201,6 +201,102 @@ def cosmos3():
     )
 
 
+def wan_vace():
+    return diffusers.WanVACEPipeline(
+        **t5(None, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        vae=wan_vae(),
+        scheduler=flow_match(shift=7.0),
+        transformer=diffusers.WanVACETransformer3DModel(
+            num_attention_heads=2,
+            attention_head_dim=12,
+            num_layers=2,
+            text_dim=32,
+            freq_dim=16,
+            ffn_dim=32,
+            patch_size=(1, 2, 2),
+            vace_layers=[0],
+            vace_in_channels=96,
+        ),
+    )
+
+
+def cosmos_transfer():
+    import cosmos_guardrail
+
+    like = {"text_embed_dim": 32, "extra_pos_embed_type": None, "use_crossattn_projection": True}
+    like |= {"crossattn_proj_in_channels": 32, "encoder_hidden_states_channels": 32}
+    transformer = cosmos_transformer(
+        in_channels=17,
+        out_channels=16,
+        max_size=(93, 32, 32),  # chunks of 93 frames
+        controlnet_block_every_n=1,
+        img_context_dim_in=32,
+        img_context_num_tokens=4,
+        img_context_dim_out=32,
+        **like,
+    )
+    shape = transformer.config
+    return diffusers.Cosmos2_5_TransferPipeline(
+        **qwen(),
+        vae=wan_vae(),
+        scheduler=flow_unipc(),
+        transformer=transformer,
+        controlnet=diffusers.CosmosControlNetModel(
+            n_controlnet_blocks=1,
+            in_channels=16,
+            latent_channels=18,
+            model_channels=32,
+            num_attention_heads=2,
+            attention_head_dim=16,
+            mlp_ratio=2,
+            text_embed_dim=32,
+            adaln_lora_dim=4,
+            patch_size=shape.patch_size,
+            max_size=shape.max_size,
+            rope_scale=shape.rope_scale,
+            use_crossattn_projection=False,
+            crossattn_proj_in_channels=32,
+            encoder_hidden_states_channels=32,
+            img_context_dim_in=32,
+            img_context_dim_out=32,
+        ),
+        safety_checker=cosmos_guardrail.CosmosSafetyChecker(),
+    )
+
+
+def cogvideox_fun():
+    return diffusers.CogVideoXFunControlPipeline(
+        **t5(None),
+        vae=diffusers.AutoencoderKLCogVideoX(
+            block_out_channels=(8, 8, 8, 8),
+            latent_channels=4,
+            layers_per_block=1,
+            norm_num_groups=2,
+            temporal_compression_ratio=4,
+        ),
+        scheduler=diffusers.CogVideoXDDIMScheduler(),
+        transformer=diffusers.CogVideoXTransformer3DModel(
+            num_attention_heads=8,
+            attention_head_dim=4,
+            in_channels=8,
+            out_channels=4,
+            time_embed_dim=2,
+            text_embed_dim=32,
+            num_layers=1,
+            sample_width=4,
+            sample_height=4,
+            sample_frames=5,
+            patch_size=2,
+            temporal_compression_ratio=4,
+            max_text_seq_length=226,
+        ),
+    )
+
+
+def ltx2_in_context():
+    return ltx2(diffusers.LTX2InContextPipeline)
+
+
 FAMILIES = {
     "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline", steps=0),
     "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
@@ -213,4 +309,12 @@ FAMILIES = {
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }
+STEERED = {
+    "wan-vace": Family(wan_vace, "WanVACEPipeline"),
+    "cosmos-transfer": Family(cosmos_transfer, "Cosmos2_5_TransferPipeline"),
+    "cogvideox-fun": Family(cogvideox_fun, "CogVideoXFunControlPipeline", {"frames": 9}, frames=9),
+    "ltx2-control": Family(ltx2_in_context, "LTX2InContextPipeline", {"frames": 9}, frames=9),
+}
+"""As `FAMILIES`, of models that follow a scene."""
+
 """Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""

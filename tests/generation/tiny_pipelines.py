@@ -36,6 +36,7 @@ def replace_torchvision():
     The torchvision of the package index does not fit a CPU build of torch. Users of Cosmos have
     it: cosmos-guardrail requires it.
     """
+    from diffusers.models.controlnets import controlnet_cosmos
     from diffusers.models.transformers import transformer_cosmos
     from diffusers.pipelines.cosmos import pipeline_cosmos2_5_predict
 
@@ -49,8 +50,9 @@ def replace_torchvision():
     functions = SimpleNamespace(resize=resize, to_tensor=to_tensor)
     modes = SimpleNamespace(NEAREST="nearest")
     transforms = SimpleNamespace(functional=functions, InterpolationMode=modes)
-    if not hasattr(transformer_cosmos, "transforms"):
-        transformer_cosmos.transforms = transforms
+    for module in (transformer_cosmos, controlnet_cosmos):
+        if not hasattr(module, "transforms"):
+            module.transforms = transforms
     if not hasattr(pipeline_cosmos2_5_predict, "torchvision"):
         pipeline_cosmos2_5_predict.torchvision = SimpleNamespace(transforms=transforms)
 
@@ -121,11 +123,10 @@ def cosmos_transformer(**facts):
         num_layers=2,
         mlp_ratio=2,
         adaln_lora_dim=4,
-        max_size=(4, 32, 32),
         patch_size=(1, 2, 2),
         rope_scale=(2.0, 1.0, 1.0),
         concat_padding_mask=True,
-        **facts,
+        **{"max_size": (4, 32, 32), **facts},
     )
 
 

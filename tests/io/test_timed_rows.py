@@ -55,6 +55,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", FORMATS)
 @given(data=st.data())
 def test_any_part_of_a_file_is_that_of_the_recording(

@@ -62,6 +62,7 @@ def fault_of(outcome, command: str, one: Try) -> str | None:
     return None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", COMMANDS_TRIED)
 def test_every_option_changes_something_and_figures_in_the_direction_of_its_help(command, outcome):
     wrong = {}

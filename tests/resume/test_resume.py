@@ -183,6 +183,7 @@ def runs(
         yield runs
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("disturb", DISTURBANCES)
 def test_a_second_run_ends_as_an_undisturbed_one_or_says_why_not(
     runs: Runs,

@@ -98,6 +98,7 @@ def test_a_folder_of_models_is_a_file_too_and_a_sensor_file_is_not_read(
         assert render_again(facts) is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["png", "html", "mp4"])
 def test_a_file_cannot_ask_for_more_frames_than_are_shown(
     simulation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str

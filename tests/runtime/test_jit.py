@@ -90,6 +90,7 @@ EDITS = (
 """File, text before and after, and what the kernel returns from then on."""
 
 
+@pytest.mark.long
 def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
     assert run(package) == (111, 0)
     for name, before, after, result in EDITS:

@@ -55,6 +55,7 @@ def run(module, **environment):
     return *found["FOUND"], "".join(str(one.message) for one in said)
 
 
+@pytest.mark.long
 def test_a_later_process_reads_what_an_earlier_one_compiled(module):
     words = [sys.executable, "-c", "import kernels; print(*kernels.FOUND)"]
     paths = {"PYTHONPATH": f"{module}{os.pathsep}{SOURCE}", "PYTHONDONTWRITEBYTECODE": "1"}

@@ -52,6 +52,14 @@ def test_a_body_of_which_a_rim_is_seen_is_hidden(size, found):
     assert unseen_from(wall, ball, **view).out_of_view == found
 
 
+@pytest.mark.parametrize("act", ["kick", "throw"])
+def test_a_note_tells_when_what_somebody_sends_off_leaves_the_view(act):
+    objects = SceneObject("man"), SceneObject("ball")
+    notes = unseen_from(*objects, relations=((act, 0, 1),)).notes
+    assert [one.partition(" after ")[0] for one in notes] == ["the ball leaves the view"]
+    assert unseen_from(*objects).notes == ()
+
+
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))

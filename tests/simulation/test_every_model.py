@@ -163,6 +163,7 @@ def test_impossible_options_fail_by_name(model):
                 dataclasses.replace(config, **{name: wrong})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["texvent", "esim"])  # compiles kernels of its own
 def test_a_whole_number_may_be_an_int(model):
     kind = SIMULATORS.load(model)

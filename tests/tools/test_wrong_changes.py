@@ -92,6 +92,7 @@ def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: P
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
 
 
+@pytest.mark.long
 def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None:
     changes = changes_of("big/part.py", (tree / "src/texvent/big/part.py").read_text())
     change, survivor = (next(one for one in changes if one.line == line) for line in (1, 9))

@@ -238,6 +238,7 @@ def begin_live(spawn, folder):
     return command
 
 
+@pytest.mark.long
 def test_ctrl_c_completes_the_recording(tmp_path, spawn):
     command = begin_live(spawn, tmp_path)
     command.send_signal(signal.SIGINT)
@@ -246,6 +247,7 @@ def test_ctrl_c_completes_the_recording(tmp_path, spawn):
     assert [path.name for path in tmp_path.iterdir()] == ["a.aedat4"]
 
 
+@pytest.mark.long
 def test_a_kill_leaves_the_recording_to_convert(tmp_path, spawn, capsys):
     command = begin_live(spawn, tmp_path)
     command.kill()

@@ -62,6 +62,7 @@ def generate(page, prompt, **options):
     return wait(page)
 
 
+@pytest.mark.long
 def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
     state, text = generate(page, "a wug and a red ball bounce")
     options = {"duration": 0.1, "sensor": "48x36", "seed": 3, "simulator": "esim"}
@@ -80,12 +81,14 @@ def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
     assert texvent.load(tmp_path / "got.h5").equals(whole)
 
 
+@pytest.mark.long
 def test_the_text_of_a_scene_file_is_a_scene(page):
     text = '[[objects]]\nnoun = "ball"\nmotions = [{ kind = "bounce" }]\n'
     assert generate(page, text)[0] == "done"
     assert generate(page, text.replace("ball", "bal"))[0] == "failed"
 
 
+@pytest.mark.long
 def test_a_video_is_named_by_its_path_and_keeps_its_size(page):
     assert generate(page, "", video=str(CLIP), sensor="")[0] == "done"
     assert texvent.load(page.job.folder / "events.h5").size == (320, 180)
@@ -104,6 +107,7 @@ def test_mistakes_are_one_line(page, prompt, options, message):
     assert message in text
 
 
+@pytest.mark.long
 def test_stop_ends_a_job_and_a_new_job_replaces_the_one_before(page):
     values = {**SCENE, "duration": "100", "sensor": "346x260", "prompt": "a dog runs"}
     assert ask(page, "/run", "POST", json.dumps(values))[0] == 200
@@ -202,6 +206,7 @@ def test_bodies_are_bounded_before_they_are_read(page):
     assert not list(page.folder.iterdir())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("prompt", ["a\0b\ud800", "--help"])
 def test_odd_prompts_are_prompts(page, prompt):
     assert "usage:" not in generate(page, prompt)[1]

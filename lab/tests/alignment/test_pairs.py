@@ -84,6 +84,7 @@ def nt(folder: Path, *more: str) -> int:
     return main(["nt-imagenet", *words, *more])
 
 
+@pytest.mark.long
 def test_the_command_scores_a_data_set_and_keeps_every_pair(
     made: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,6 +52,7 @@ def stream(count: int, size: SensorSize) -> EventStream:
     return EventStream(t % size.width, t % size.height, t, t % 2, size)
 
 
+@pytest.mark.long
 def test_samples_come_by_variant_with_their_prompts_and_events(folder: Path) -> None:
     found = list_samples(folder)
     assert {name: len(one) for name, one in found.items()} == {"paper": 2, "esim": 4}

@@ -91,6 +91,7 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
     assert paired.shuffled.recall[1] < paired.low.recall[1]
 
 
+@pytest.mark.long
 @given(matrices())
 @settings(max_examples=60)
 def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:

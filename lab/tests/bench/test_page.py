@@ -74,6 +74,7 @@ def test_another_document_is_refused(change):
         page_files({**synthetic_report().document(), **change}, "result.json")
 
 
+@pytest.mark.long
 def test_a_result_is_written_and_becomes_a_page(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     few = FidelityPlan(score_seeds=(21,), fit_seeds=(21,))

@@ -117,6 +117,7 @@ def recordings():
     return selftest.record_scene()
 
 
+@pytest.mark.long
 def test_a_run_gives_rows_that_survive_their_document(tmp_path, recordings, monkeypatch):
     monkeypatch.setattr(selftest, "record_scene", lambda: recordings)
     rows = run_selftest(["stpp", "active_iou"])

@@ -109,6 +109,7 @@ def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification
     assert (out / "specification.toml").read_text() == "mine"
 
 
+@pytest.mark.long
 def test_the_captions_become_events_whose_clips_are_known_by_their_ids(
     built: Path, tmp_path: Path
 ) -> None:

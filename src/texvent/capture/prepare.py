@@ -72,6 +72,11 @@ class PreparedFrames(ChangedFrames):
         before = itertools.takewhile(lambda t_us: t_us - times_us[0] < stop_us, times_us)
         return [t_us for t_us in before if start_us <= t_us - times_us[0]]
 
+    @property
+    def fit(self) -> str:
+        """How frames are fitted to the wanted size."""
+        return self._config.fit
+
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""
         start_us, stop_us = _ends_us(self._config)

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from texvent._registry import Registry, say_absent, suggest
+from texvent._require import lab_command
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
 from texvent.cli.standard_streams import (
@@ -166,7 +167,7 @@ def _dispatch(words: list[str]) -> int:
         if words[0] in OF_THE_LAB:
             raise MissingDependencyError(
                 f"texvent {words[0]} is a command of the package texvent-lab; "
-                "install it with: pip install texvent-lab, or pip install ./lab in a checkout"
+                f"install it with: {lab_command()}"
             )
         listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
         gone = "".join(f"; {say_absent(one)}" for one in {*PACKAGES.absent().values()})

@@ -12,6 +12,7 @@ import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from texvent._require import CHECKOUT
 from texvent.cli.option_types import REQUIRED, Option, declared_options
 from texvent.errors import ConfigError
 from texvent.options.values import SCALARS
@@ -90,7 +91,7 @@ def help_page(
         names = f"{', '.join(others)} or {last}" if others else last
         more = f"All options: {prog} --help all. One section: --help {names}."
         page.epilog = textwrap.fill(more, width)
-        return page.format_help()
+        return _with_place_of_pages(page.format_help())
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
@@ -101,7 +102,14 @@ def help_page(
     if asked in (ALL, "run"):
         rows = [f"presets of {name}: {', '.join(own)}" for name, own in presets.items()]
         page.epilog = "\n".join(textwrap.fill(row, width, subsequent_indent="    ") for row in rows)
-    return page.format_help()
+    return _with_place_of_pages(page.format_help())
+
+
+def _with_place_of_pages(text: str) -> str:
+    """Help that names pages, and where an installation from a wheel finds them."""
+    if "docs/" not in text or (CHECKOUT / "docs").is_dir():
+        return text
+    return f"{text}\nThe pages of docs/ are in texvent's repository and source distribution.\n"
 
 
 def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:

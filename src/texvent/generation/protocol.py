@@ -41,4 +41,6 @@ class Generator(Protocol):
 
 def renders_instants(generator_class: type) -> bool:
     """Whether the videos of a generator can be rendered at any instant, and so again."""
+    if getattr(generator_class, "makes_whole_videos", False):
+        return False  # some know the motion between their frames
     return getattr(generator_class, "default_interpolate", None) in ("exact", "motion")

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeAlias, cast
 
 from texvent._registry import SCENES
+from texvent._require import reinstall_command
 from texvent.errors import ConfigError, MissingDependencyError, shown
 from texvent.prompt_report import PromptReport, Substitution
 
@@ -119,8 +120,7 @@ def scenes() -> ScenePackage:
         return cast(ScenePackage, SCENES.load(name))
     raise MissingDependencyError(
         "no package brings scenes, for the entry points of texvent or its package texvent_scenes "
-        "are missing; install it anew: pip install --force-reinstall texvent, or pip install -e . "
-        "in a checkout"
+        f"are missing; install it anew: {reinstall_command()}"
     )
 
 

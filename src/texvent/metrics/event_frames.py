@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._require import install_command
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.metrics.image_measures import decibels, mean_squared_error, structural_similarity
@@ -110,7 +111,7 @@ class EventFrameLpips(EventFrameMetric):
         except InputError as error:
             return str(error)
         if find_spec("torch") is None:
-            return "torch is not installed; install it with: pip install 'texvent[torch]'"
+            return f"torch is not installed; install it with: {install_command('texvent[torch]')}"
         return None
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:

@@ -8,8 +8,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any, Protocol, runtime_checkable
 
@@ -21,7 +22,7 @@ from texvent.capture.prepare import PreparedFrames
 from texvent.capture.scale_check import CheckedFrames
 from texvent.errors import ConfigError, InputError
 from texvent.frames import Frame, FrameStream, MotionVectors
-from texvent.ground_truth import Box
+from texvent.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import box_records
 from texvent.truth.class_ids import BACKGROUND, UNNAMED, class_ids_of
@@ -251,22 +252,85 @@ def as_ids(instance: NDArray[np.int32]) -> NDArray[np.uint16]:
 
 
 def without_preparation(video: FrameStream) -> FrameStream:
-    """The stream that was cut in time, if its frames have their size still: it knows the truth.
+    """The stream that was cut in time, which knows the truth; fitted to a sensor as its frames.
 
     Raises:
-        ConfigError: its frames were fitted to another size.
+        ConfigError: its frames were fitted, and it cannot be asked at points or has no camera.
     """
-    source = video
+    source, fit = video, "cover"
     while isinstance(source, PreparedFrames | CheckedFrames):
+        fit = getattr(source, "fit", fit)
         source = source.source
     if not isinstance(source, GroundTruthStream):
         return video
-    if source.size != video.size:
+    if source.size == video.size:
+        return source
+    if not (isinstance(source, CameraStream) and isinstance(source, InstancesStream)):
         raise ConfigError(
             f"truth is known of frames of {source.size}, and these were fitted to {video.size}; "
             "leave `sensor` out, or give a generator this size"
         )
-    return source
+    return FittedScene(source, video, fit)
+
+
+class FittedScene:
+    """A scene that knows its truth, of whose image a sensor sees a part, larger or smaller.
+
+    Args:
+        scene: knows the truth of its own frames.
+        video: its fitted frames.
+        fit: how they were fitted.
+    """
+
+    def __init__(self, scene: GroundTruthStream, video: FrameStream, fit: str) -> None:
+        from texvent.capture.fit_to_sensor import fit_motion, fit_place  # brings OpenCV
+
+        self._scene, self._video = scene, video
+        self.size, self.fps, self.is_live = video.size, video.fps, video.is_live
+        self.frame_count, self.metadata = video.frame_count, video.metadata
+        self.class_names: Mapping[int, str] = getattr(scene, "class_names", {})
+        self._fitted = partial(fit_motion, size=self.size, fit=fit)
+        self._scale, self._shift = fit_place(scene.size, self.size, fit)
+        self._is_even = fit != "stretch"
+
+    def __iter__(self) -> Iterator[Frame]:
+        """The fitted frames."""
+        return iter(self._video)
+
+    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
+        """Truth of the fitted frames; visibility is that in the whole image."""
+        truth = self._scene.ground_truth(t0_us, t1_us)
+        seen = self._fitted(MotionVectors(truth.flow, None, truth.depth, truth.instance))
+        hidden = self._fitted(MotionVectors(instance=truth.occluded.astype(np.int32))).instance
+        known = {box.instance: box for box in truth.boxes}
+        names = {number: box.class_name for number, box in known.items()}
+        boxes = tuple(
+            replace(box, visibility=known[box.instance].visibility)
+            for box in boxes_of(seen.instance, names)
+            if box.instance in known
+        )
+        return GroundTruth(seen.depth, seen.instance, seen.forward, hidden > 0, boxes)
+
+    def instances_at(self, t_us: int, points: NDArray[np.float64]) -> Any:
+        """Depth and instance at image points [k, 2] of the fitted frames."""
+        scene: Any = self._scene
+        return scene.instances_at(t_us, (points - self._shift) / self._scale)
+
+    def camera_at(self, t_us: int) -> PosedCamera:
+        """The camera of the fitted frames; its centre is to half a pixel of the scene's.
+
+        Raises:
+            ConfigError: the frames were stretched, or the lens distorts.
+        """
+        scene: Any = self._scene
+        camera: PosedCamera = scene.camera_at(t_us)
+        if camera.lens is not None or not self._is_even:
+            raise ConfigError(
+                "truth 'poses' is not known of frames that were stretched, or fitted behind a lens "
+                "that distorts; leave `sensor` out"
+            )
+        width = self._scene.size.width * float(self._scale[0])
+        return replace(camera, focal=camera.focal * width / self.size.width)
 
 
 def boxes_of(instance: NDArray[np.int32], class_names: Mapping[int, str]) -> tuple[Box, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.frames import RenderableStream
+from texvent.frames import Frame
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.view.drawing.canvas import png_bytes, tile
@@ -109,12 +109,7 @@ def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
 GAP = 4
 
 
-def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:
-    """The frames at some instants in a row, as a PNG file in memory.
-
-    Args:
-        video: one that can be rendered at any instant.
-        times_us: the instants, µs, at least one.
-    """
-    images = [frame_image(video.at(t_us)) for t_us in times_us]
+def draw_stills(frames: Sequence[Frame]) -> bytes:
+    """Some frames in a row, at least one, as a PNG file in memory."""
+    images = [frame_image(frame) for frame in frames]
     return png_bytes(tile(images, len(images), (255, 255, 255), gap=GAP))

@@ -5,58 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from texvent_scenes.read.groups import MODIFIERS, Group, GroupReader, Phrase
 from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
 
-_HEADS = ("noun", "place", "effect", "pose", "scene")
-"""Senses that a noun group may end with."""
-_MODIFIERS = ("field", "scene", "adverb")
-"""Senses of the words before a head."""
-_STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
-"""Senses of words that no noun group holds."""
 _IS = ("is", "are", "was", "were")
-_PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
-"""Begin phrases that stand alone: "at night"."""
-
-
-def _counts(token: Token) -> list[float]:
-    """Numbers of things that a word means."""
-    return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
-
-
-@dataclass(frozen=True)
-class Group:
-    """Noun group: a head with its determiner, number and adjectives."""
-
-    head: Token | None
-    """None: it is not known."""
-    modifiers: tuple[Token, ...] = ()
-    unknown: tuple[Token, ...] = ()
-    """Tokens without effect: words that are not known, or that another word stands before."""
-    article: str = ""
-    of: Phrase | None = None
-    """Phrase with "of" that follows: "of apples"."""
-
-    @property
-    def is_plural(self) -> bool:
-        """Whether it names several things: "two dogs", "fish"."""
-        counts = [count for one in self.modifiers for count in _counts(one)]
-        if counts or self.head is None:
-            return any(count > 1 for count in counts)
-        if self.head.has("effect") and not self.head.has("noun"):
-            return self.head.text.endswith("s")
-        senses = [one.value for one in self.head.all("noun")]
-        is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
-        is_open = is_name and self.article not in ("a", "an")
-        same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
-        return any(one.is_plural for one in same)
-
-
-@dataclass(frozen=True)
-class Phrase:
-    """Preposition with its groups; without any, a pronoun follows: "behind them"."""
-
-    preposition: Token
-    groups: tuple[Group, ...]
 
 
 @dataclass(frozen=True)
@@ -85,9 +37,9 @@ class Clause:
 
     @property
     def is_plural(self) -> bool:
-        """Whether a verb in its base form agrees with the subject."""
+        """Whether a verb in its base form agrees with the subject: "dogs run", "ball drop"."""
         is_open = bool(self.about) or len(self.subjects) > 1
-        return is_open or any(one.is_plural for one in self.subjects)
+        return is_open or any(one.is_plural or one.is_bare for one in self.subjects)
 
 
 def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
@@ -95,12 +47,8 @@ def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
 
 
-@dataclass
-class _Parser:
-    """Position in the tokens; each method reads on from there."""
-
-    _tokens: Sequence[Token]
-    _at: int = 0
+class _Parser(GroupReader):
+    """Reader of one clause after the other."""
 
     def clauses(self) -> Iterator[Clause]:
         """All clauses; each is begun as the one before says."""
@@ -117,19 +65,13 @@ class _Parser:
                 clause = self._read_rest(clause) if done is None else done
         yield clause
 
-    def _token(self, ahead: int = 0) -> Token:
-        at = self._at + ahead
-        return self._tokens[at] if 0 <= at < len(self._tokens) else NO_TOKEN
-
-    def _take(self) -> Token:
-        self._at += 1
-        return self._token(-1)
-
     def _end(self, clause: Clause) -> Clause | None:
         """Beginning of the next clause, where this one ends here."""
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
+            if word == "," and clause.verb is not None and self._goes_on(clause.verb):
+                return Clause(about="same")
             is_list = clause.subjects and not (clause.verb or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
@@ -148,8 +90,14 @@ class _Parser:
             return self._end(clause)
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
-        starts = self._starts_group() or self._token().has("camera")
+        starts = self._starts_group() or self._token().has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _goes_on(self, verb: Token) -> bool:
+        """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
+        forms = {one.form for one in verb.all("verb")} & {"s", "ing"}
+        is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
+        return bool(self._token().verbs(*forms)) and not is_subject
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:
         """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
@@ -253,6 +201,10 @@ class _Parser:
                 return None
             return replace(clause, after=(*clause.after, self._take()))
         self._at += 1 + is_back
+        if token.text in _IS:  # "the ball is red"
+            group = self._group()
+            said = (Phrase(token, (group,)),) if group.head else group.unknown
+            return replace(clause, after=(*clause.after, *said))
         phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))
 
@@ -264,6 +216,8 @@ class _Parser:
             return replace(clause, about="same") if is_subject else clause
         if not token.has("adverb"):
             return None
+        if token.is_time and clause == Clause():
+            return Clause(about="same", after=(self._take(),))
         return replace(clause, after=(*clause.after, self._take()))
 
     def _read_group(self, clause: Clause) -> Clause | None:
@@ -288,27 +242,12 @@ class _Parser:
     def _is_no_noun(self, clause: Clause) -> bool:
         """Whether a bare noun follows a finished group: "are building a wall"."""
         token, before = self._token(), self._token(-1)
-        is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*_MODIFIERS)
+        is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*MODIFIERS)
         is_doing = before.text in _IS and token.text.endswith("ing")
         is_after = before.has("noun", "place") or before.is_unknown
         return is_noun and ((clause.has_subject and (is_after or is_doing)) or self._has_object())
 
     # Noun groups
-
-    def _starts_group(self, ahead: int = 0) -> bool:
-        token, after = self._token(ahead), self._token(ahead + 1)
-        if token.has("articles"):
-            return not after.has("camera") and not after.is_sign
-        is_view = token.has("shot") and not token.has("noun", "place")
-        is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
-        if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
-            return False
-        if token.has("noun", "place", "effect", "pose", "field"):
-            return True
-        is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
-        if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
-            return True
-        return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
         """Groups with "and", up to a subject: "a girl with a hat and a boy with a ball"."""
@@ -333,81 +272,3 @@ class _Parser:
         is_back = preposition.text != "with" and self._token(1).has("pronouns")
         is_both = token.has("relation") and preposition.has("relation")
         return is_both and (token.text == preposition.text or is_back or kinds <= positions)
-
-    def _group(self) -> Group:
-        modifiers: list[Token] = []
-        unknown: list[Token] = []
-        head, article = None, self._token().text if self._token().has("articles") else ""
-        while self._token().has("articles"):
-            self._take()
-        first = self._at
-        while head is None and not self._ends_group(first) and self._agrees(article, first):
-            token = self._take()
-            if token.is_unknown:
-                unknown.append(token)
-                if article in ("a", "an"):  # "a six axis arm" is one
-                    modifiers = [one for one in modifiers if not _counts(one)]
-            elif not token.has(*_HEADS) or self._stands_before(token):
-                modifiers.append(token)
-            elif self._is_compound(article, first):
-                unknown.append(token)
-            else:
-                head = token
-        if self._at == first and self._token() is not NO_TOKEN:
-            unknown.append(self._take())
-        tail = [self._take() for _ in range(self._tail() if head else 0)]
-        known, lost = (modifiers, []) if head else ([], modifiers)
-        of = None
-        if self._token().text == "of" and self._starts_group(1):
-            of = Phrase(self._take(), (self._group(),))
-        lost = [*lost, *unknown, *tail[:-1]]
-        return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
-
-    def _tail(self) -> int:
-        """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""
-        ahead = 0
-        while self._token(ahead).is_unknown:
-            ahead += 1
-        return ahead + 1 if self._token(ahead).has("hollow") else 0
-
-    def _ends_group(self, first: int) -> bool:
-        token = self._token()
-        if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
-            return True
-        if token.has(*_HEADS, *_MODIFIERS):
-            return token.has("relation") and self._at > first
-        before = self._token(-1)
-        if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
-            return self._at > first  # "travellers pulling"
-        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
-
-    def _stands_before(self, token: Token) -> bool:
-        """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
-        after = self._token()
-        is_before = token.has(*_MODIFIERS) and not after.has("relation")
-        return is_before and after.has(*_HEADS, "field")
-
-    def _is_compound(self, article: str, first: int) -> bool:
-        """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
-        after = self._token()
-        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
-        is_head = is_head and self._agrees(article, first) and not self._has_object()
-        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
-        is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
-        is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
-        return (is_head or is_word) and not is_many
-
-    def _agrees(self, article: str, first: int) -> bool:
-        """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
-        senses = [one.value for one in self._token().all("noun")]
-        words, is_one = self._tokens[first : self._at], article in ("a", "an")
-        is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
-        counts = [count for one in words for count in _counts(one) if not is_other]
-        if not senses or not (counts or is_one):
-            return True
-        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
-
-    def _has_object(self, ahead: int = 0) -> bool:
-        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
-        token = self._token(ahead)
-        return token.text.endswith("s") and self._token(ahead + 1).has("articles")

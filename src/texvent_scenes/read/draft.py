@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent.prompt_report import Substitution
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.clauses import Clause, Group
+from texvent_scenes.read.clauses import Clause
+from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
@@ -48,15 +51,22 @@ def names_place(head: Token, relation: str) -> bool:
 
 def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     """Set a field of an object, or an adverb of its last motion."""
-    if field == "rate_hz" and "blink_hz" in thing:
+    is_lamp = thing["noun"] in LAMPS and not thing["motions"]
+    if field == "rate_hz" and ("blink_hz" in thing or is_lamp):
         field, kind = "blink_hz", "field"
     if kind == "field" or field == "placement":
         thing[field] = int(value) if field == "count" else value
         return
-    if not thing["motions"]:
-        thing["motions"].append({"kind": "move"})
-    motion = thing["motions"][-1]
-    motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
+    motions = thing["motions"]
+    if not motions or (field == "start_s" and [one["kind"] for one in motions] == ["stand"]):
+        # "at 900 rpm"; "stops after 1 second": until then it goes
+        motions.insert(0, {"kind": "spin" if field == "turns_hz" else "move"})
+    motion = motions[-1]
+    pace, end = motion.get("pace", 1.0), motion.get("end_pace")
+    if field == "speed_m_s" and end is not None and end > pace:
+        value *= pace / end  # "accelerates to 50 km/h"
+    field = "rate_hz" if field == "turns_hz" else field
+    motion[field] = round(pace * value, 6) if field == "pace" else value
 
 
 def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:
@@ -166,6 +176,24 @@ class SceneDraft:
         """Whether an object can go from place to place by itself."""
         return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
 
+    def keeps_to_ground(self, index: int) -> bool:
+        """Whether an object goes on the ground, and does nothing in the air now."""
+        thing = self.things[index]
+        in_air = {one["kind"] for one in thing["motions"]} & word_set("things", "in_air")
+        return self.nouns[thing["noun"]].motion in ("walk", "drive") and not in_air
+
+    def part_ways(self, parted: Sequence[int]) -> bool:
+        """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
+        first = self.things[parted[0]] if parted else {}
+        if len(parted) == 1 and first["count"] > 1:
+            half = {**deepcopy(first), "count": first["count"] // 2}
+            first["count"] -= half["count"]
+            self.things.append(half)
+            parted = [*parted, len(self.things) - 1]
+        for number, index in enumerate(parted if parted[1:] else ()):
+            set_field(self.things[index], "adverb", "direction", ("right", "left")[number % 2])
+        return bool(parted[1:])
+
     def fits(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
     ) -> bool:
@@ -241,7 +269,11 @@ class SceneDraft:
         self.show(verb)
         move = split_move("travel forward" if is_ego else moves[0])
         turned = read_table("words", "read")["turned_moves"]
-        for one in (each for each in clause.after if isinstance(each, Token)):
+        for one in clause.after:
+            if isinstance(one, Phrase):
+                if one.preposition.text == "around" and move["kind"] in ("truck", "travel"):
+                    move = {"kind": "orbit", "pace": move.get("pace", 1.0)}
+                continue
             name, value = sense.value if (sense := one.first("adverb")) else ("", "")
             if name == "direction":
                 phrase = f"{move['kind']} {value}"

@@ -181,6 +181,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for place, one in PLACES.items():
         for name in one.names:
             yield from _with_plurals(name, Sense("place", place))
+    moves = ((move, verb) for move, verbs in words["doing"]["camera"].items() for verb in verbs)
+    for move, verb in moves:  # "a rotating camera"
+        yield f"{list_verb_forms(verb)[2][0]} camera", Sense("shot", move)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
     for field, units in words["units"].items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
@@ -220,7 +223,8 @@ MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
 MAX_COUNT = 24
 """Most copies of one object."""
-_RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
+_RANGES = {"speed_m_s": (0.0, 1000.0)}
+_HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
 _WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
@@ -245,6 +249,11 @@ class Token:
     def is_unknown(self) -> bool:
         """Whether it is a word that the reader does not know."""
         return not self.is_sign and (not self.senses or self.has("other"))
+
+    @property
+    def is_time(self) -> bool:
+        """Whether it is a start: "after 2 seconds"."""
+        return ("start_s",) in [one.value[:1] for one in self.all("adverb")]
 
     @property
     def is_liquid(self) -> bool:
@@ -313,7 +322,18 @@ def _read_phrase(
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at][0].isdecimal()
+    if length == 1 and words[at].casefold() == "after" and (time := _read_time(words, at, lexicon)):
+        return time
     return _read_quantity(words, at, lexicon) if is_number else (length, senses)
+
+
+def _read_time(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses] | None:
+    """A start, such as "after 2 seconds", "after one second"."""
+    number, unit = (*(one.casefold() for one in words[at + 1 : at + 3]), "", "")[:2]
+    counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
+    said = [number] if number.replace(".", "").isdecimal() else counts
+    is_time = unit in word_set("things", "of_time") and said
+    return (3, (Sense("adverb", ("start_s", float(said[0]))),)) if is_time else None
 
 
 def _without_chance(
@@ -348,7 +368,7 @@ def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int
         for sense in lexicon.get(unit, ()):
             if sense.kind == "unit":
                 field, factor = sense.value
-                least, most = _RANGES[field]
+                least, most = _RANGES.get(field, _HERTZ)
                 is_shown = least <= number * factor <= most
                 said = Sense("adverb", (field, number * factor))
                 return 1 + length, (said,) if is_shown else ()

@@ -10,8 +10,9 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.read.clauses import Clause, Group, Phrase, read_clauses
+from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place, set_field
+from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -192,11 +193,11 @@ class _SentenceReader:
             self._nearest = list(vessels)
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
-        draft, noun = self._draft, head.first("noun")
+        draft, noun = self._draft, group.noun
         is_owned = group.article in word_set("things", "owners")
-        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
-        is_part = noun and ((is_owned and noun.value.noun in HAND_NOUNS) or group.article == "its")
+        is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
         draft.show(head)
@@ -206,9 +207,9 @@ class _SentenceReader:
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
-            thing = {"noun": noun.value.noun, "motions": []}
-            if noun.value.is_kind:
-                draft.mark(head, noun.value.noun)
+            thing = {"noun": noun.noun, "motions": []}
+            if noun.is_kind:
+                draft.mark(head, noun.noun)
         else:
             who, activity = head.all("pose")[0].value
             thing = {"noun": who, "motions": [{"kind": activity}]}
@@ -216,8 +217,10 @@ class _SentenceReader:
         draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
         for token in group.modifiers:
-            draft.show(*([token] if token.has("hollow") else []))
-            self._say(token, [index])
+            is_side = token.text in ("left", "right")  # "the left ball"
+            draft.show(*([token] if token.has("hollow") or is_side else []))
+            draft.things[index] |= {"placement": token.text} if is_side else {}
+            self._say(token, [] if is_side else [index])
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
                 self._draft.set_place(Group(token), token, "")
@@ -233,13 +236,17 @@ class _SentenceReader:
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
         is_set = field in word_set("things", "once") and any(field in one for one in things)
-        is_idle = not any(one["motions"] or "blink_hz" in one for one in things)
+        is_idle = not any(one["motions"] or "blink_hz" in one or one["noun"] in LAMPS
+                          for one in things)  # fmt: skip
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif is_set or (field == "rate_hz" and is_idle):
             return
+        elif value == "opposite":
+            if not draft.part_ways(subjects):
+                return
         elif said is not None and things:
             for thing in things:
                 set_field(thing, said.kind, field, value)
@@ -357,7 +364,9 @@ class _SentenceReader:
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
-        elif kind == "above" and target["noun"] in word_set("things", "ways"):
+        elif kind == "above" and draft.keeps_to_ground(index):
+            if target["noun"] not in word_set("things", "ways"):
+                return False  # "kicks a ball over a fence"
             kind = "on"
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"

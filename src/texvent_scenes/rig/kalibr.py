@@ -175,7 +175,7 @@ def _entry(value: Any, name: str, where: str) -> Mapping[str, Any]:
         raise ConfigError(f"{where}: a camera's name must be 1..32 letters, digits, _ or -")
     if not isinstance(value, Mapping):
         raise ConfigError(
-            f"{where} is {shown(value)}; it must hold values by name (see docs/rigs.md)"
+            f"{where} is {shown(value)}; it must hold values by name, as in Kalibr's yaml"
         )
     for key in value:
         if key not in (*_CAMERA_KEYS, *_IGNORED):

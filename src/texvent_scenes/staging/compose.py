@@ -10,6 +10,7 @@ import numpy as np
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
@@ -45,8 +46,8 @@ VIEW_INSTANTS = 7
 _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
-_SUNK = -0.18
-"""Height of the origin of what swims at the surface, in its sizes."""
+_SUNK, _WADING = -0.18, -0.55
+"""Height of the origin of what swims at the surface, in its sizes; of what has legs."""
 
 
 @dataclass(frozen=True)
@@ -236,5 +237,9 @@ def _choose_levels(
         return {**levels, "water": 0.9, **dict.fromkeys(divers, _OFF_THE_BED)}
     if place.ground is Ground.SEA or place.has_shore:
         swimmers = {noun.name: _SUNK for noun in nouns.values() if noun.habitat == "water"}
+        wading = {
+            one.noun for one in description.objects if one.motion and one.motion.kind == "swim"
+        } - {*swimmers, *PERSON_NOUNS}
+        swimmers |= dict.fromkeys(wading, _WADING)
         return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
     return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

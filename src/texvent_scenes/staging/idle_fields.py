@@ -284,6 +284,7 @@ def _idle_light(scene: Scene) -> Iterator[Idle]:
 
 
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER, Ground.UNDERWATER)
+_WETTED = (Ground.PLAIN, Ground.ROAD, Ground.CITY)
 _OF_PLACES: Mapping[str, tuple[Callable[[PlaceModel], bool], str]] = {
     "road": (lambda place: place.has_road, "a road"),
     "crossing_m": (lambda place: place.has_road, "a road"),
@@ -292,6 +293,7 @@ _OF_PLACES: Mapping[str, tuple[Callable[[PlaceModel], bool], str]] = {
     "clouds": (lambda place: not place.is_room, "a sky"),
     "backdrops": (lambda place: not place.is_room, "a horizon"),
     "colour": (lambda place: place.ground is not Ground.NONE, "a ground"),
+    "is_wet": (lambda place: place.ground in _WETTED, "a road or a paved ground"),
 }
 """Field of a place → whether a place reads it, and what it needs."""
 

@@ -40,6 +40,7 @@ def flicker(recording):
     return measure_flicker(recording, START, hz=5.04, ratio=6.0)
 
 
+@pytest.mark.long
 def test_every_constant_of_the_circuit_is_found_within_a_tenth(flicker):
     found = {one.name: one.value for one in flicker.found}
     for name in NAMES:
@@ -49,6 +50,7 @@ def test_every_constant_of_the_circuit_is_found_within_a_tenth(flicker):
     assert all(one.low <= one.value <= one.high for one in flicker.found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("bright", [0.9, 2.5])
 def test_a_sensor_of_other_making_is_found_within_a_tenth(bright):
     """The benchmark's sensor shares no code with ours: its bandwidth falls with the light below a

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import pytest
 from tests.cli.running import run
 
 import texvent
@@ -151,6 +152,7 @@ def test_the_folder_of_another_version_is_refused_whatever_its_rows_hold(folder,
     assert "made with other options: the version of texvent was not set" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_several_processes_make_the_same_files(folder, monkeypatch):
     (folder / "p.txt").write_text("a red car drives left\na dog runs\na ball bounces\n")
     seen = {"1": set(), "2": set()}

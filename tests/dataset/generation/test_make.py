@@ -50,6 +50,7 @@ def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
     return Recipe.of(specification_from({**CARS, **changes}, folder=folder))
 
 
+@pytest.mark.long
 def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> None:
     recipe = recipe_of(store_videos=True, options={**SMALL, "samples": 1})
     make(recipe, tmp_path / "one")
@@ -61,6 +62,7 @@ def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> No
     assert len(one) == 6
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:prompt words not understood")
 def test_a_sample_is_what_a_run_of_its_options_gives(cars: Path) -> None:
     shard = cars / "esim" / "train-000000.tar"
@@ -107,6 +109,7 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) 
     assert len(thresholds) == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("most_bytes", [40_000, kept_frames.MOST_BYTES])
 def test_variants_that_share_frames_are_what_each_is_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int

@@ -104,6 +104,7 @@ def test_a_full_disk(inputs: Path, tmp_path: Path) -> None:
         assert not list(out.rglob(".texvent-*"))
 
 
+@pytest.mark.long
 def test_files_that_may_not_grow(inputs: Path, tmp_path: Path) -> None:
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (16_000, 16_000))

@@ -47,6 +47,7 @@ def test_motion_of_frames_is_the_ground_truth():
     assert frames[-1].motion.forward is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("prompt", "most_drawn"),
     [

@@ -200,7 +200,7 @@ def test_a_foreign_filter_names_the_package_to_install(
     path = save(tmp_path / "events.h5", at_times(1, 2))
     monkeypatch.setattr(h5py.h5z, "filter_avail", lambda code: False)
     monkeypatch.setitem(sys.modules, "hdf5plugin", None)
-    with pytest.raises(MissingDependencyError, match="pip install hdf5plugin"):
+    with pytest.raises(MissingDependencyError, match=r"pip install .texvent\[blosc\]"):
         load(path)
 
 

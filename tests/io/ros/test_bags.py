@@ -103,6 +103,7 @@ def write_bag(path: Path, version: int, messages: dict[str, tuple[str, list[Any]
     return path
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [EVENT_ARRAY, PROPHESEE_ARRAY, DV_ARRAY])
 @pytest.mark.parametrize(("version", "name"), [(1, "a.bag"), (2, "folder")])
 def test_arrays_of_both_versions_are_read(
@@ -126,6 +127,7 @@ CAER = struct.pack("<IiIi", 3 << 17 | 5 << 2 | 1 << 1 | 1, 2**31 - 11, 4 << 17 |
 CAER_CMP = struct.pack("<8H", 0x1046, 0x2003, 0x3805, 0x0001, 0x1006, 0x2004, 0x4002, 0x5010)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", PACKETS)
 @pytest.mark.parametrize("version", [1, 2])
 @pytest.mark.parametrize(

@@ -45,6 +45,7 @@ def test_pictures_and_truth_are_as_they_were(sentence):
     assert {name for name, one in zip(CHANNELS, worst, strict=True) if one > WITHIN[name]} == set()
 
 
+@pytest.mark.long
 def test_every_row_of_a_table_gives_the_numbers_that_it_gave():
     stored, others = stored_sums(), {}
     found = {name: find() for name, find in rows()}

@@ -70,6 +70,7 @@ def parts_at(noun: str, act: str, time_s: float) -> list:
     return list(model.parts(Pose(time_s, 0.0, 0.0, act)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("noun", ["dog", "horse", "bird", "ostrich"])
 def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)

@@ -83,6 +83,7 @@ def test_every_word_means_one_noun_and_is_lower_case():
             assert owner.setdefault(word, noun.name) == noun.name, word
 
 
+@pytest.mark.long
 @for_every_noun
 def test_parts_keep_their_number_order_and_handedness(noun):
     for model, poses in ((usual_model(noun), POSES), (violet_model(noun), POSES[::3])):
@@ -129,6 +130,7 @@ def test_things_on_the_ground_stand_on_it(noun):
             assert lowest <= 0.02 + 0.06 * model.height, pose
 
 
+@pytest.mark.long
 @for_every_noun
 def test_a_millisecond_moves_nothing_far(noun):
     model = usual_model(noun)

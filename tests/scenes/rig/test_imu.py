@@ -65,6 +65,7 @@ def first_velocity(scene: RenderedScene, offset: np.ndarray) -> np.ndarray:
     return (ends[1].position[0] - ends[0].position[0]) / (2.0 * step)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "prompt",
     [
@@ -131,6 +132,7 @@ def allan_deviation(values: np.ndarray, samples: int) -> float:
     return float(np.sqrt((second**2).mean() / 2.0) / samples)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sensor", ["acceleration", "rate"])
 def test_allan_deviation_returns_the_stated_densities(sensor: str) -> None:
     """White noise N: σ(τ) = N / √τ. Walk K: σ(τ) = K √(τ / 3). IEEE Std 952, annex C."""

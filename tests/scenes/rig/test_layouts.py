@@ -58,6 +58,7 @@ def facts_of(folder: Path) -> dict:
     return json.loads((folder / "rig.json").read_text())
 
 
+@pytest.mark.long
 def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
     facts = facts_of(native)
     found = sorted(str(one.relative_to(native)) for one in native.rglob("*") if one.is_file())
@@ -106,6 +107,7 @@ def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
         rig.record(PROMPT, out, overwrite=True, **small)
 
 
+@pytest.mark.long
 def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> None:
     """Through rectification and back, frames differ from the raw ones by interpolation only."""
     lenses = """
@@ -148,6 +150,7 @@ def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> N
     assert lines[1] == "49000, 51000"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("layout", ["rosbag1", "mcap"])
 def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path) -> None:
     pytest.importorskip("rosbags")

@@ -121,6 +121,7 @@ def match(left: Placed, right: Placed, within_us: int) -> np.ndarray:
     return np.array(pairs)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", list(RIGS))
 def test_triangulated_event_pairs_agree_with_depth_within_a_pixel(name: str) -> None:
     recording = record(RIGS[name])

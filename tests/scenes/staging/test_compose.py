@@ -116,6 +116,7 @@ def test_actors_do_not_stand_in_one_another(prompt):
         assert shared < 0.15 * np.prod(high - low, axis=1).min(), (one.noun.name, two.noun.name)
 
 
+@pytest.mark.long
 def test_a_noun_alone_is_large_in_the_image():
     for name in list(NOUNS)[::7]:
         thing = SceneDescription("", (SceneObject(name),), place=EMPTY)

@@ -9,12 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.spec.scene import Motion
+from texvent_scenes.defaults import decide_motions
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, bounce_height
 from texvent_scenes.staging.tracks.phases import build_path, schedule
 from texvent_scenes.staging.tracks.track import Term, Track, seated, steady
 
+TIMES_S = np.linspace(0.0, 2.0, 5)
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
          "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
 DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "up")
@@ -183,3 +186,31 @@ def test_a_flat_pattern_turns_clockwise_for_the_viewer():
     path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].track
     up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]
     assert up[0] > 0.1  # its upper edge goes to the right
+
+
+def _heights(noun, motion, place):
+    motions = decide_motions((motion,), NOUNS[noun])
+    actor, *_ = stage(SceneObject(noun, motions=motions), place=place).actors
+    corners = np.array([actor.corners(time_s)[:, 2] for time_s in TIMES_S])
+    return corners.min(axis=1), corners.max(axis=1)
+
+
+@pytest.mark.parametrize("noun", sorted(AFLOAT))
+def test_what_floats_on_water_does_not_rise_out_of_it(noun):
+    low, high = _heights(noun, Motion("hover"), "lake")
+    assert np.ptp(low + high) < 0.1 * float(high.max() - low.min())
+
+
+@pytest.mark.parametrize("noun", ["dog", "horse", "cat", "elephant", "rabbit"])
+def test_what_has_legs_swims_with_its_back_above_the_water(noun):
+    for place in ("lake", "river"):
+        low, high = _heights(noun, Motion("swim"), place)
+        assert low.max() < -0.3 * float(np.max(high - low))
+        assert high.min() > 0.0
+
+
+@pytest.mark.parametrize("noun", sorted(nouns_with("flat pattern")))
+@pytest.mark.parametrize(("way", "sign"), [("up", 1.0), ("down", -1.0)])
+def test_a_flat_pattern_goes_up_and_down_in_its_own_plane(noun, way, sign):
+    low, _ = _heights(noun, Motion("slide", way), "plain")
+    assert sign * (low[-1] - low[0]) > 0.05

@@ -27,6 +27,7 @@ from texvent.simulation.clips import scan_triton
 from texvent.simulation.clips.pixels import ClipOutputs, ClipPixels
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.gpu import engine
+from texvent.simulation.physical.simulator import PhysicalConfig, PhysicalSimulator
 from texvent.simulation.random.draws import frame_keys
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 
@@ -40,6 +41,8 @@ CONFIGS: dict[str, Any] = {
     "linear": TexventConfig(**DECAYING, timestamp_rule="linear"),
     "end": TexventConfig(cache="global", reset="step", timestamp_rule="end"),
     "esim": EsimConfig(),
+    "physical": PhysicalConfig(hot_pixel_fraction=0.1),
+    "clean": PhysicalSimulator.presets["clean"],
 }
 USUAL = (2, 4, 260, 346)
 ODD = (1, 2, 5, 7)
@@ -48,8 +51,8 @@ ONE = (1, 3, 1, 1)
 EVERYTHING = ClipOutputs(counts=True, latest=True, events=True)
 CASES = [
     *((name, torch.uint8, USUAL) for name in CONFIGS),
-    *((name, torch.float32, USUAL) for name in ("paper", "linear", "esim")),
-    *((name, torch.uint8, ODD) for name in ("paper", "linear", "esim")),
+    *((name, torch.float32, USUAL) for name in ("paper", "linear", "esim", "physical")),
+    *((name, torch.uint8, ODD) for name in ("paper", "linear", "esim", "clean")),
     ("linear", torch.uint8, ONE),
 ]
 

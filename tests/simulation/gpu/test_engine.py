@@ -13,9 +13,10 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import NOISE
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.simulator import EsimSimulator
-from texvent.simulation.physical.simulator import PhysicalConfig
+from texvent.simulation.physical.simulator import PhysicalConfig, PhysicalSimulator
 from texvent.simulation.texvent.noise import NOISE_BLOCK
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
+from texvent.simulation.v2e.config import V2eConfig
 
 from .clips import (
     CLIPS,
@@ -57,15 +58,28 @@ ESIM = {
     "esim": {},
     "esim, two thresholds": {"contrast_threshold_off": 0.4},
 }
+SLOW: dict[str, Any] = {"gamma": 1.0, "cutoff_hz": 30.0, "balance": 40.0, "noise_scale": 300.0}
+PHYSICAL = {
+    "physical": {**SLOW, "hot_pixel_fraction": 0.1, "hot_pixel_rate_hz": 300.0},
+    "physical, held long": {
+        **SLOW, "refractory_period_us": 4000, "cutoff_limit_hz": 10.0, "on_off_ratio": 1.5,
+        "sensor_seed": 4,
+    },
+    "physical, leak": {
+        "initial_phase": "random", "leak_rate_hz": 90.0, "refractory_period_us": 0,
+        "cutoff_hz": 0.0, "noise_scale": 0.0, "balance": 40.0,
+    },
+}  # fmt: skip
 
 
 MODELS = {
     **{name: (TexventSimulator, replace(PAPER, **one)) for name, one in TEXVENT.items()},
     **{name: (EsimSimulator, EsimConfig(**FEW, **one)) for name, one in ESIM.items()},
+    **{name: (PhysicalSimulator, PhysicalConfig(**one)) for name, one in PHYSICAL.items()},
 }
 CASES = [
     *((name, np.uint8) for name in MODELS),
-    *((name, np.float32) for name in ("paper", "current", "default", "esim")),
+    *((name, np.float32) for name in ("paper", "current", "default", "esim", "physical")),
 ]
 
 
@@ -200,8 +214,9 @@ def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, mess
     [
         (TexventConfig(noise="gaussian"), "noise 'gaussian'"),
         (EsimConfig(threshold_sigma=0.1), "threshold_sigma 0.1"),
-        (EsimConfig(refractory_period_us=5), "refractory_period_us is 5"),
-        (PhysicalConfig(), "'physical' does not run on a GPU"),
+        (EsimConfig(refractory_period_us=5), "refractory_period_us 5"),
+        (PhysicalConfig(scan_period_ns=7), "scan_period_ns 7"),
+        (V2eConfig(), "'v2e' does not run on a GPU; texvent, esim and physical do"),
     ],
 )
 def test_what_only_the_cpu_does_is_refused_by_name(config, message):

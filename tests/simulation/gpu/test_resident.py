@@ -14,7 +14,7 @@ from texvent.frames import Frame, Video
 from texvent.pipeline import video_to_events
 from texvent.runtime.devices import find_gpu
 from texvent.settings.resolution import resolve
-from texvent.simulation.gpu.support import RunDevice, check_supported, choose_device
+from texvent.simulation.gpu.support import MODELS, RunDevice, choose_device, find_model
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -23,9 +23,24 @@ pytest.importorskip("triton")
 from tests.interpolate.rife.rife_files import save_published  # noqa: E402
 
 HEIGHT, WIDTH, FRAMES = 16, 16, 3
+
+
+def runs_on_a_gpu(config):
+    try:
+        return bool(find_model(config))
+    except ConfigError:
+        return False
+
+
 PRESETS = [
-    (model, preset) for model in ("texvent", "esim") for preset in SIMULATORS.load(model).presets
+    (model, preset)
+    for model in MODELS
+    for config, preset in {
+        config: name for name, config in reversed(SIMULATORS.load(model).presets.items())
+    }.items()
+    if runs_on_a_gpu(config)
 ]
+"""One of those that are alike."""
 PIXELS = {
     "bytes": lambda grey: grey.astype(np.uint8),
     "colour": lambda grey: np.stack([grey, grey[:, ::-1], 255 - grey], -1).astype(np.uint8),
@@ -175,18 +190,15 @@ def test_events_store_the_device_that_made_them(device):
 @pytest.mark.parametrize("simulator", SIMULATORS.builtin)
 def test_a_model_runs_on_a_gpu_or_says_what_does(simulator):
     settings = resolve("simulate", {"simulator": simulator, "device": "cuda"})
-    try:
-        check_supported(settings.simulate)
-    except ConfigError:
+    if not runs_on_a_gpu(settings.simulate):
         with pytest.raises(ConfigError, match=f"device is 'cuda': .*{simulator}.*device='auto'"):
             choose_device(settings.run, settings.simulate)
-    else:
-        assert simulator in ("texvent", "esim")
+    assert runs_on_a_gpu(settings.simulate) == (simulator in MODELS)
 
 
 def test_a_model_of_another_package_keeps_its_own_pixels_whatever_its_options(held_back):
     settings = resolve("simulate", {"simulator": held_back, "device": "cuda"})
-    check_supported(settings.simulate)  # they are those of esim
+    find_model(settings.simulate)  # they are those of esim
     with pytest.raises(ConfigError, match="'held-back' does not run on a GPU"):
         choose_device(settings.run, settings.simulate)
 

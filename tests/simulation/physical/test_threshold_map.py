@@ -45,7 +45,7 @@ def test_pixels_that_were_not_measured_keep_what_is_drawn(path):
     def thresholds(**options):
         simulator = PhysicalSimulator(PhysicalConfig(sensor_seed=3, **options))
         simulator.step(Frame(np.zeros((1, 4)), 0))
-        return simulator._pixels._mismatch.threshold_on
+        return simulator._pixels._sensor.mismatch.threshold_on
 
     drawn, mixed = thresholds(), thresholds(threshold_map=path)
     assert mixed[3] == drawn[3]

@@ -34,10 +34,8 @@ from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation import gpu
-from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.gpu.launch import EXTRA
-from texvent.simulation.gpu.support import RunDevice
-from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
+from texvent.simulation.gpu.support import MODELS, RunDevice, find_model
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure import stream
 from texvent_lab.measure.generated_video import Wan, measure_generated
@@ -45,7 +43,8 @@ from texvent_lab.measure.speed.timing import quartiles, rounded
 
 HD = SensorSize(1280, 720)
 DARK, BRIGHT = 100, 150
-"""At δ = 0.2 one balanced event, ln(180 / 130) = 0.325, and two of ESIM, ln(150 / 100) = 0.405."""
+"""At δ = 0.2 one balanced event, ln(180 / 130) = 0.325, two of ESIM, ln(150 / 100) = 0.405, and at
+0.3 about two of `physical`, 2.2 · 0.405 = 0.89, whose photoreceptor follows slowly."""
 FRAME_US = 1_000
 FRAMES_PER_PAIR = 8
 CPU_WARM_UP = 3
@@ -193,7 +192,7 @@ def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[st
     cases: list[tuple[str, str, float, int]] = []
     cases += [("paper", "uint8", density, usual) for density in plan.densities]
     cases += [("paper", "uint8", 0.01, batch) for batch in plan.batches if batch != usual]
-    cases += [(model, "uint8", 0.01, usual) for model in ("accurate", "esim")]
+    cases += [(model, "uint8", 0.01, usual) for model in ("accurate", "esim", "physical")]
     cases += [("paper", "float32", 0.01, usual)]
     for model, pixels, density, batch in cases:
         frames = make_clips(plan, density, batch, pixels, device)
@@ -217,9 +216,9 @@ def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[st
         }
 
 
-def measure_cpu(config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> dict[str, Any]:
+def measure_cpu(config: Any, frames: Any, plan: Plan) -> dict[str, Any]:
     """Microseconds per frame of the CPU's kernels, frames in its memory."""
-    simulator = SIMULATORS.load("esim" if isinstance(config, EsimConfig) else "texvent")(config)
+    simulator = SIMULATORS.load(find_model(config))(config)
     clip = frames[0].cpu().numpy()
     times = []
     for index in range(CPU_WARM_UP + plan.repeats):
@@ -246,16 +245,16 @@ def make_clips(plan: Plan, density: float, batch: int, pixels: str, device: str)
     return clips
 
 
-def _config(model: str) -> TexventConfig | EsimConfig:
-    if model == "esim":
-        return EsimConfig()
-    return TexventSimulator.presets[model]
+def _config(model: str) -> Any:
+    """Options of a simulator's first preset, or of a preset of Texvent."""
+    presets = SIMULATORS.load(model if model in MODELS else "texvent").presets
+    return presets.get(model, next(iter(presets.values())))
 
 
 class _Clips:
     """A simulator that gets the same frames again and again, later every time."""
 
-    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> None:
+    def __init__(self, config: Any, frames: Any, plan: Plan) -> None:
         self.config = config
         self._simulator = gpu.GpuSimulator(config)
         self._frames = frames

@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import MissingDependencyError
+from texvent.extending import install_command
 from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 
-INSTALL = "pip install --no-deps event-pienet==1.1.3"
+INSTALL = install_command("--no-deps", "event-pienet==1.1.3")
 try:
     _package: Any = importlib.import_module("pie_net")
 except ImportError as error:

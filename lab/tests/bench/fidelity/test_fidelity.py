@@ -38,6 +38,7 @@ def report():
     return run_fidelity(QUICK)
 
 
+@pytest.mark.long
 def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
     """The two were written apart: each checks the other."""
     scene = oracle_scene("translate", 7)
@@ -54,6 +55,7 @@ def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
     assert scores["van_rossum"] < 0.02
 
 
+@pytest.mark.long
 def test_a_model_without_intermediate_frames_is_further_from_the_truth(report):
     clean, frames_only = report.scores[:2]
     assert frames_only.track == "frames"

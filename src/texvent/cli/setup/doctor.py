@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from texvent._registry import REGISTRIES
+from texvent._require import install_command
 from texvent._version import full_version
 from texvent.cli.options import parse_configs
 from texvent.runtime.kernel_cache import kernel_folder
@@ -93,7 +94,7 @@ def _package(name: str) -> ReportLine:
         version = metadata.version(name)
         importlib.import_module(MODULES.get(name, name.replace("-", "_")))
     except ImportError as error:
-        return ReportLine(name, False, f"cannot be imported: {error}", f"pip install {name}")
+        return ReportLine(name, False, f"cannot be imported: {error}", install_command(name))
     return ReportLine(name, True, version)
 
 
@@ -103,7 +104,7 @@ def _extra(name: str) -> ReportLine:
     if not missing:
         return ReportLine(f"[{name}]", True, "here")
     state = f"not here: {', '.join(missing)}"
-    return ReportLine(f"[{name}]", True, state, f"pip install 'texvent[{name}]'")
+    return ReportLine(f"[{name}]", True, state, install_command(f"texvent[{name}]"))
 
 
 def _is_installed(package: str) -> bool:
@@ -120,9 +121,9 @@ def _encoder() -> ReportLine:
         av = importlib.import_module("av")
         av.codec.Codec("libx264", "w")
     except ImportError:
-        return ReportLine("H.264 encoder", False, "PyAV is missing", "pip install av")
+        return ReportLine("H.264 encoder", False, "PyAV is missing", install_command("av"))
     except ValueError:
-        remedy = "pip install --force-reinstall --only-binary :all: av"
+        remedy = install_command("--force-reinstall", "--only-binary", ":all:", "av")
         return ReportLine("H.264 encoder", False, "PyAV was built without libx264", remedy)
     return ReportLine("H.264 encoder", True, "libx264")
 

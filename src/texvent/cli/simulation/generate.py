@@ -143,6 +143,7 @@ def _written(own: PromptOptions, settings: Settings) -> SceneValue:
 def _plan(prompt: Subject, settings: Settings) -> str | None:
     """Work that a learned generator has to do first; None if the video is stored."""
     part = GENERATORS.load(str(settings.generator))
+    check_takes(prompt, part, str(settings.generator))
     generator = part(settings.source, seed=settings.run.seed, size=settings.size)
     plan = getattr(generator, "plan", None)
     return None if plan is None else plan(prompt)
@@ -187,6 +188,8 @@ def _write_video(
 def _write_preview(prompt: Subject, settings: Settings, path: Path, output: OutputOptions) -> None:
     """Write the scene at its beginning, about its middle and its end; say what is shown.
 
+    Of a learned model that follows a scene: its control video.
+
     Raises:
         ConfigError: the name does not end in .png, or the generator is a learned model.
         InputError: the prompt cannot be shown.
@@ -196,21 +199,30 @@ def _write_preview(prompt: Subject, settings: Settings, path: Path, output: Outp
 
     if path.suffix.lower() != STILLS_EXTENSION:
         raise ConfigError(f"preview is {path}; its name must end in {STILLS_EXTENSION}")
-    if not getattr(GENERATORS.load(str(settings.generator)), "takes_scenes", False):
+    part_class = GENERATORS.load(str(settings.generator))
+    if not getattr(part_class, "takes_scenes", False):
         raise ConfigError(
             "--preview shows scenes of the embedded generator; a learned model must make its whole "
             "video first: use --video-only"
         )
     check_output(path, overwrite=output.overwrite)
-    settings = replace(settings, source=replace(settings.source, samples=1))  # a draft
-    with ConsoleProgress(is_quiet=output.quiet) as progress:
-        video = make_video(prompt, settings, progress=progress)
+    if is_steered := getattr(part_class, "makes_whole_videos", False):
+        video = part_class(settings.source, seed=settings.run.seed, size=None).draw(prompt)
+    else:
+        settings = replace(settings, source=replace(settings.source, samples=1))  # a draft
+        with ConsoleProgress(is_quiet=output.quiet) as progress:
+            video = make_video(prompt, settings, progress=progress)
     if not output.quiet:
         for line in describe_scene(video.metadata, with_words=True):
             say(line)
     scene: Any = video
-    end_us = frame_time_us(scene.frame_count - 1, scene.fps)
-    image = draw_stills(scene, (0, round(ABOUT_HALF * end_us), end_us))
+    last = scene.frame_count - 1
+    if is_steered:
+        frames = [scene[round(share * last)] for share in (0, ABOUT_HALF, 1)]
+    else:
+        end_us = frame_time_us(last, scene.fps)
+        frames = [scene.at(t_us) for t_us in (0, round(ABOUT_HALF * end_us), end_us)]
+    image = draw_stills(frames)
     with atomic_file(path, overwrite=output.overwrite) as part:
         part.write_bytes(image)
     if not output.quiet:

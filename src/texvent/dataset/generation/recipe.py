@@ -94,7 +94,8 @@ class Recipe:
                 raise ConfigError(
                     f"allow_classes names {shown(label)}; {suggest(label, recipe.items.labels)}"
                 )
-        check_truth(specification, recipe.items, is_stored=recipe.stores_videos)
+        is_cut_off = recipe.stores_videos and not recipe.follows_scenes
+        check_truth(specification, recipe.items, is_stored=is_cut_off)
         recipe.clips  # noqa: B018  (refuses splits that would be empty)
         if VIDEOS in (variant.name for variant in specification.variants):
             raise ConfigError(f"a variant cannot be called {VIDEOS}; that folder holds the videos")
@@ -133,6 +134,13 @@ class Recipe:
         return not renders_instants(GENERATORS.load(name))
 
     @property
+    def follows_scenes(self) -> bool:
+        """True if a learned generator makes videos of scenes, which are known when simulated."""
+        name = self.specification.options.get("generator", DEFAULT_GENERATOR)
+        part = None if self.items.are_videos else GENERATORS.load(name)
+        return bool(getattr(part, "makes_whole_videos", False) and part.takes_scenes)
+
+    @property
     def renders(self) -> bool:
         """True if clips are rendered while they are simulated."""
         return not (self.items.are_videos or self.stores_videos)
@@ -142,11 +150,15 @@ class Recipe:
         """Stage → the settings of its clips."""
         found, options, seed = {}, self.specification.options, self.specification.seed
         # A stored video cannot be rendered at any instant, whatever its generator could do.
-        basis = {"interpolate": InterpolateConfig.interpolate} if self.stores_videos else {}
+        is_cut_off = self.stores_videos and not self.follows_scenes
+        basis = {"interpolate": InterpolateConfig.interpolate} if is_cut_off else {}
         for name, variant in self.variants.items():
             own = {**basis, **options, **variant.options}
             found[name] = ClipSettings(self.command, own, seed)
-        return {VIDEOS: ClipSettings(self.command, options, seed), **found}
+        of_videos = dict(options)
+        if (least := self.specification.filters.least_control_agreement) is not None:
+            of_videos = {"on_failure": "retry", **options, "least_agreement": least}
+        return {VIDEOS: ClipSettings(self.command, of_videos, seed), **found}
 
     def _check_options(self) -> None:
         """Refuse options that some run would refuse, and those of a variant that change the video.
@@ -154,6 +166,11 @@ class Recipe:
         Raises:
             ConfigError, InputError, MissingDependencyError: as `texvent.run.prepare.check_run`.
         """
+        if self.specification.filters.least_control_agreement and not self.follows_scenes:
+            raise ConfigError(
+                "filters sets least_control_agreement, and no generator that follows scenes makes "
+                "the videos; leave it out, or name one in options (texvent generators)"
+            )
         for name, variant in self.variants.items():
             for settings in self.settings[name].extremes:
                 check_run(settings)

@@ -33,7 +33,7 @@ from texvent.errors import InputError, TexventError, warnings_to
 from texvent.frames import FrameStream
 from texvent.generation.kept_frames import KeptFrames
 from texvent.generation.videos.stored_video import EXTENSION, reopen, write_stream
-from texvent.pipeline import Simulation, fit_to_sensor, simulate_together
+from texvent.pipeline import Simulation, fit_to_sensor, simulate_together, with_scene
 from texvent.prompt_report import REPORT_KEY
 from texvent.run.prepare import make_video, prepare_video
 from texvent.runtime.device_names import AUTO
@@ -155,7 +155,9 @@ class ShardSamples:
             frames = self._making.frames
             simulation = prepare_clip(self._recipe, plan.clip, plan.settings, frames)
         else:
-            video = fit_to_sensor(self._stored.open(plan.clip, name), plan.settings)
+            made = self._recipe.settings[VIDEOS].of(plan.clip)
+            video = with_scene(self._stored.open(plan.clip, name), item.subject, made)
+            video = fit_to_sensor(video, plan.settings)
             simulation = prepare_video(video, plan.settings, prompt=item.prompt)
         recorder = record_truth(specification, item, simulation) if specification.truth else None
         on_frame = None if recorder is None else recorder.append

@@ -59,6 +59,17 @@ def _samples(dataset: StoredDataset, variant: str) -> Iterator[SampleRecord]:
     return (sample for shard in dataset.shards(variant) for sample in shard.samples)
 
 
+def _lacking(dataset: StoredDataset, layout: Layout, variant: str) -> Iterator[str]:
+    """Splits without some class: readers that number the folders they find number them anew."""
+    found: dict[str, set[str | None]] = {}
+    for shard in dataset.shards(variant):
+        labels = found.setdefault(layout.split_of(shard.record.split), set())
+        labels |= {sample.label for sample in shard.samples}
+    for split, labels in found.items():
+        if gone := [label for label in dataset.labels if label not in labels]:
+            yield f"split {split} has no {few(gone)}, so SpikingJelly numbers its classes otherwise"
+
+
 def folder_name(label: str) -> str:
     """A class as the name of a folder.
 
@@ -178,6 +189,7 @@ def doubts_of(
     if layout.numbers_classes:
         numbered = class_numbers(dataset.labels, layout.most_classes).items()
         doubts.append(f"its classes are {', '.join(f'{one} {name}' for name, one in numbered)}")
+        doubts += _lacking(dataset, layout, variant)
     splits: dict[str, list[str]] = {}
     for split in dataset.splits:
         splits.setdefault(layout.split_of(split), []).append(split)

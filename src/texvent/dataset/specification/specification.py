@@ -141,8 +141,12 @@ class Filters:
     """Most events of a sample; the simulation of one that has more is stopped."""
     failed_videos: bool = False
     """Whether videos that look failed (frozen, dark, flickering ...) are left out."""
+    least_control_agreement: float | None = None
+    """Least share of the edges and the motion of its scene that a learned model's video shows (0:
+    chance, 1: all); one that shows less is made again with up to three seeds, then left out."""
 
     def __post_init__(self) -> None:
+        check_range("least_control_agreement", self.least_control_agreement, 0.0, 1.0)
         check_range("min_events", self.min_events, 0)
         check_range("max_events", self.max_events, max(1, self.min_events))
 

@@ -38,6 +38,7 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     resolve_device,
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
+from texvent.generation.video_models.controls import check_class, check_control, find_control_part
 from texvent.generation.video_models.lora import check_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
@@ -106,6 +107,7 @@ class DiffusersGenerator:
             self.config,
             seed=self.seed,
             progress=progress,
+            find_fault=self._find_fault,
         )
 
     def plan(self, prompt: str) -> str | None:
@@ -152,6 +154,11 @@ class DiffusersGenerator:
     def _check(self, prompt: str) -> None:
         if not prompt.strip():
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
+        self._check_model()
+
+    def _check_model(self) -> None:
+        """Refuse options that the model does not take, and files that are not here."""
+        check_control(self.model, self.config)
         if self.config.image is not None:
             read_image(self.config.image)
         elif self.model.needs_image:
@@ -182,17 +189,24 @@ class DiffusersGenerator:
         self._check_before_loading()
         model, config, loras = self.model, self.config, self._loras
         files = find_files(model, progress.announce)
+        check_class(model, files.folder)
+        parts = find_control_part(model, config, files.folder, progress.announce)
         device, free = resolve_device()
         request = LoadRequest(
             folder=files.folder,
             content=" ".join(
-                [fingerprint(files.folder), *(_sha256(one.file) for one in self._loras)]
+                [
+                    fingerprint(files.folder),
+                    *(fingerprint(part) for _, part in parts),
+                    *(_sha256(one.file) for one in self._loras),
+                ]
             ),
             class_name=(model.image_pipeline if config.image else None) or model.pipeline,
             placement=place(model, config, device, free),
             decoder_in_float32=model.needs_float32_vae,
             loras=loras,
             scheduler=tuple(model.scheduler.items()),
+            parts=parts,
         )
         pipeline_class = find_pipeline_class(request)
         check_loras(loras, pipeline_class)
@@ -212,8 +226,14 @@ class DiffusersGenerator:
         self._request = request
         return request
 
+    def _find_fault(self, video: FinishedVideo) -> str | None:
+        """Fault of a video beside those of the checks."""
+
     def _levels(self, prompt: str, seed: int, progress: Progress) -> Tensor:
         """Frames as `call_pipeline` returns them."""
+        return self._call(prompt, seed, progress)
+
+    def _call(self, prompt: str, seed: int, progress: Progress, control: Any = None) -> Tensor:
         pipeline = load_pipeline(self._prepare(progress), progress.announce)
         if self._has_guardrail:
             check_prompt(getattr(pipeline, PART, None), prompt)
@@ -226,6 +246,7 @@ class DiffusersGenerator:
             # Of the CPU: the same noise on every device.
             generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
             progress=progress,
+            control=control,
         )
 
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> FinishedVideo:

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from importlib import metadata
 from typing import Any
 
-from texvent._require import require
+from texvent._require import install_command, require
 from texvent.errors import InputError, TexventError
 
 PACKAGE = "cosmos-guardrail"
@@ -70,7 +70,7 @@ def check_wiring(pipe: Any) -> None:
     if known is None or not isinstance(checker, known):
         raise TexventError(
             f"{type(pipe).__name__} does not use its guardrail, so nothing is generated; install "
-            f"it before Python starts: pip install {PACKAGE}"
+            f"it before Python starts: {install_command(PACKAGE)}"
         )
 
 

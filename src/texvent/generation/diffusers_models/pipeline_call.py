@@ -13,6 +13,7 @@ from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
 from texvent.generation.diffusers_models.guardrail import PART
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
+from texvent.generation.video_models.controls import PIPELINES
 from texvent.generation.videos.stored_video import to_16_bits_there
 from texvent.runtime.progress import Progress
 
@@ -47,6 +48,7 @@ def call_pipeline(
     fps: Fraction,
     generator: Any,
     progress: Progress,
+    control: Any = None,
 ) -> Any:
     """Run a pipeline once.
 
@@ -58,6 +60,7 @@ def call_pipeline(
         fps: passed where the model takes the rate as an input (it changes the pixels).
         generator: torch's source of noise.
         progress: receives denoising steps, where the pipeline reports them.
+        control: control video, [N, H, W, 3] uint8, for pipelines that follow one.
 
     Returns:
         Frames, [F, H, W, 3] int16 with the bits of 16-bit levels, on the decoder's device.
@@ -84,6 +87,8 @@ def call_pipeline(
         arguments[SOUND] = False
     if config.image is not None:
         arguments["image"] = _fitted_image(config.image, config, accepted)
+    if control is not None:
+        arguments |= _control_argument(pipe, control)
     if ON_STEP in accepted:
         arguments[ON_STEP] = _reporter(progress)
     # A guardrail looks at arrays of the host, which diffusers cannot make of bfloat16 tensors.
@@ -107,6 +112,7 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     has_guider = GUIDER in inspect.signature(pipeline_class).parameters
     for option, names in ARGUMENTS.items():
         is_taken = bool(set(names) & set(accepted)) or (option == "guidance" and has_guider)
+        is_taken |= option == "frames" and name in PIPELINES  # they are those of the control video
         if getattr(config, option) is not None and not is_taken:
             raise ConfigError(f"{option} is set, but {name} does not take it")
     if config.negative_prompt is not None and DISTILLED in accepted:
@@ -150,6 +156,17 @@ def _fitted_image(
     if all(isinstance(side, int) for side in size):
         image = require("PIL.ImageOps", extra=EXTRA).fit(image, tuple(size))
     return image
+
+
+def _control_argument(pipe: Any, control: Any) -> dict[str, Any]:
+    """A control video as a pipeline takes it."""
+    images = require("PIL.Image", extra=EXTRA)
+    frames: Any = [images.fromarray(one) for one in control]
+    argument = PIPELINES[type(pipe).__name__].argument
+    if argument == "reference_conditions":
+        module = require("diffusers.pipelines.ltx2", extra=EXTRA)
+        frames = [module.LTX2ReferenceCondition(frames=frames)]
+    return {argument: frames}
 
 
 def _reporter(progress: Progress) -> Any:

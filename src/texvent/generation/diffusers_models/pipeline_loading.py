@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from texvent._require import require
+from texvent._require import install_command, require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generation.diffusers_models.guardrail import (
     GUARDRAIL_SWITCH,
@@ -67,6 +67,8 @@ class LoadRequest:
     loras: tuple[Lora, ...] = ()
     scheduler: tuple[tuple[str, Any], ...] = ()
     """Settings of the noise schedule that replace the saved ones."""
+    parts: tuple[tuple[str, Path], ...] = ()
+    """Name and folder of networks that lie elsewhere."""
 
 
 def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
@@ -158,7 +160,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
     if pipeline_class is None:
         raise InputError(
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
-            "does not have; install a newer one: pip install -U diffusers"
+            f"does not have; install a newer one: {install_command('-U', 'diffusers')}"
         )
     return pipeline_class
 
@@ -167,6 +169,7 @@ def _load(request: LoadRequest) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
+    parts |= {name: _load_network(folder, request) for name, folder in request.parts}
     pipe = _from_pretrained(pipeline_class, request, parts)
     _check_embeddings(pipe, request.folder)
     if PART in parts:
@@ -193,6 +196,16 @@ def _load_guardrail_part(pipeline_class: Any, request: LoadRequest) -> dict[str,
     return {PART: load_guardrail(), **({GUARDRAIL_SWITCH: True} if has_switch else {})}
 
 
+def _load_network(folder: Path, request: LoadRequest) -> Any:
+    """A network with a folder of its own, such as a ControlNet."""
+    kind = require("diffusers", extra=EXTRA).AutoModel
+    dtype = getattr(require("torch", extra=EXTRA), request.placement.dtype)
+    with loading(folder, "a network"):
+        return kind.from_pretrained(
+            str(folder), dtype=dtype, local_files_only=True, use_safetensors=True
+        )
+
+
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
     torch = require("torch", extra=EXTRA)
     dtype: Any = getattr(torch, request.placement.dtype)
@@ -212,8 +225,8 @@ def _check_embeddings(pipe: Pipeline, folder: Path) -> None:
             if isinstance(module, torch.nn.Embedding) and not bool(module.weight.any()):
                 raise FileFormatError(
                     f"{folder}: an embedding of {name} is all 0, so no word would count; install "
-                    "the latest transformers (pip install -U transformers), or fetch the model "
-                    "again"
+                    f"the latest transformers ({install_command('-U', 'transformers')}), or fetch "
+                    "the model again"
                 )
 
 

@@ -8,7 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-from texvent.config import FPS_RANGE, check_range
+from texvent.config import FPS_RANGE, IdleOptions, check_range
+from texvent.generation.video_models.controls import PIPELINES, ControlPipeline
 from texvent.generation.video_models.lora import parse_lora
 from texvent.generation.video_models.model_files import NOT_READ
 
@@ -58,11 +59,23 @@ class DiffusersConfig(GeneratedVideoConfig):
     lora: tuple[str, ...] = ()
     """LoRA that diffusers loads: a .safetensors file, with :WEIGHT if it is not 1; may be
     repeated."""
+    control: Literal["depth", "edges", "ids", "flow"] | None = None
+    """Part of the scene that the video follows, for models that follow one: depth, edges, ids of
+    objects, or motion. The prompt, or a scene file, is staged by the embedded generator."""
+    look: str | None = None
+    """Words about the look, such as "a rainy street in Osaka", added to the scene's sentence."""
+    scene_seed: int | None = None
+    """Seed of the scene that the video follows, so that several looks share one; none: that of the
+    video."""
+    least_agreement: float | None = None
+    """Least share of the scene's edges and motion that the video must show (0: chance, 1: all);
+    one that shows less failed, see on_failure."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
     """Parts that wait in the computer's memory: none, whole parts that are not in use, or every
     layer (slow, fits small GPUs); auto: by the GPU's free memory."""
 
     repeated: ClassVar[tuple[str, ...]] = ("lora",)
+    idle_with: ClassVar[IdleOptions] = {"least_agreement": ("on_failure", ("ignore",))}
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -71,6 +84,8 @@ class DiffusersConfig(GeneratedVideoConfig):
         for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
             check_range(name, getattr(self, name), low, 65_535)
         check_range("guidance", self.guidance, 0.0, 1000.0)
+        check_range("scene_seed", self.scene_seed, 0, 2**63 - 1)
+        check_range("least_agreement", self.least_agreement, 0.0, 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,11 +140,22 @@ class VideoModel:
     """Whether the decoder should stay in float32 (Wan's page asks for it)."""
     ignores_fps: bool = False
     """Whether the rate is known not to change the frames."""
+    longest: int | None = None
+    """Most frames over which it follows a scene; None: no limit is known."""
+    control_revision: str = ""
+    """Branch with the network of a control, `{}` for its name; empty: it is among the parts."""
+    control_lora: str = ""
+    """Repository of the LoRA that follows a scene."""
 
     @property
     def is_low_fps(self) -> bool:
         """Whether the rate is below `LEAST_FPS`."""
         return self.fps is not None and self.fps < LEAST_FPS
+
+    @property
+    def steering(self) -> ControlPipeline | None:
+        """How its videos follow a scene; None: they follow none."""
+        return PIPELINES.get(self.pipeline or "")
 
     @property
     def licence_and_terms(self) -> str:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError, shown, warn
 from texvent.generation.video_models.config import LEAST_FPS, DiffusersConfig, VideoModel
+from texvent.generation.video_models.controls import with_controls
 from texvent.generation.video_models.model_files import HUB, REPOSITORY
 
 if TYPE_CHECKING:
@@ -49,15 +50,29 @@ class ModelGenerator:
     """A row as a part that the pipeline builds: the value of `GENERATORS.load("wan-1.3b")`."""
 
     model: VideoModel
-    default_interpolate: str = "flow"
     default_sensor: str | None = None
     """None: events have the size of the generated video."""
+    makes_whole_videos: bool = True
+
+    @property
+    def takes_scenes(self) -> bool:
+        """Whether its videos follow scenes."""
+        return self.model.steering is not None
+
+    has_ground_truth = takes_scenes
+
+    @property
+    def default_interpolate(self) -> str:
+        """Interpolator that suits its videos."""
+        return "motion" if self.takes_scenes else "flow"
 
     @property
     def config_type(self) -> Callable[[], DiffusersConfig]:
         """Factory of the options with this model's defaults."""
         names = ("fps", "frames", "width", "height", "steps", "guidance", "negative_prompt")
         defaults = {name: getattr(self.model, name) for name in names}
+        if self.model.steering is not None:
+            defaults["control"] = self.model.steering.controls[0]
         return functools.partial(DiffusersConfig, **defaults)
 
     def __call__(
@@ -66,7 +81,10 @@ class ModelGenerator:
         """The generator; `size` is left to the pipeline, which fits the finished frames."""
         del size  # the model has sizes of its own, which have nothing to do with a sensor
         from texvent.generation.diffusers_models.generator import DiffusersGenerator
+        from texvent.generation.diffusers_models.steered import SteeredGenerator
 
+        if self.takes_scenes:
+            return SteeredGenerator(config, model=self.model, seed=seed)
         return DiffusersGenerator(config, model=self.model, seed=seed)
 
 
@@ -105,9 +123,8 @@ def find(name: str) -> ModelGenerator | None:
         or (os.sep in name and path.is_dir())
     ):
         known = _row_like(path.name)
-        return ModelGenerator(
-            dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
-        )
+        model = dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
+        return ModelGenerator(with_controls(model))
     return None
 
 

@@ -10,7 +10,7 @@ import hashlib
 import json
 import logging
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,14 +54,14 @@ def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles
         MissingDependencyError: diffusers is not installed.
     """
     if model.folder is not None:
-        check_weight_files(model.folder)
+        check_weight_files(model.folder, elsewhere_parts(model))
         return ModelFiles(model.folder, None)
     folder = find_downloaded(model)
     if folder is None:
         require("diffusers", extra=EXTRA)  # before a download is announced that cannot begin
         announce(describe_terms(model))
         folder = _download(model)
-    check_weight_files(folder)
+    check_weight_files(folder, elsewhere_parts(model))
     return ModelFiles(folder, folder.name)
 
 
@@ -78,10 +78,42 @@ def find_downloaded(model: VideoModel) -> Path | None:
     # The index is the first file that is fetched; the rest may be missing after an interruption.
     folder = Path(found).parent
     try:
-        check_weight_files(folder)
+        check_weight_files(folder, elsewhere_parts(model))
     except InputError:
         return None
     return folder
+
+
+CONTROL_PART = "controlnet"
+
+
+def elsewhere_parts(model: VideoModel) -> tuple[str, ...]:
+    """Parts of a model that may lie in folders of their own."""
+    return (CONTROL_PART,) if model.control_revision else ()
+
+
+def find_network(repo: str, revision: str, announce: Callable[[str], None]) -> Path:
+    """Folder of a single network of the model hub, fetched if it is not here.
+
+    Raises:
+        TexventError: it is not here and cannot be fetched.
+    """
+    hub = require("huggingface_hub", extra=EXTRA)
+    wanted = [CONFIG, "*.safetensors", "*.safetensors.index*.json"]
+    try:
+        return Path(
+            hub.snapshot_download(
+                repo, revision=revision, allow_patterns=wanted, local_files_only=True
+            )
+        )
+    except (OSError, ValueError):
+        announce(f"fetching {repo}@{revision} from the model hub")
+    try:
+        return Path(hub.snapshot_download(repo, revision=revision, allow_patterns=wanted))
+    except (OSError, ValueError) as error:
+        raise TexventError(
+            f"{repo}@{revision} is not on this machine and cannot be fetched: {one_line(error)}"
+        ) from error
 
 
 def describe_terms(model: VideoModel) -> str:
@@ -162,8 +194,12 @@ def read_pipeline_index(folder: Path) -> dict[str, Any]:
     return index
 
 
-def check_weight_files(folder: Path) -> None:
+def check_weight_files(folder: Path, elsewhere_parts: Collection[str] = ()) -> None:
     """Refuse a model folder with missing or pickled weights, by file name.
+
+    Args:
+        folder: of the model.
+        elsewhere_parts: parts that lie in folders of their own.
 
     Raises:
         InputError: a part lacks its weights, or has them only as a pickle.
@@ -172,7 +208,8 @@ def check_weight_files(folder: Path) -> None:
     index = read_pipeline_index(folder)
     for part, entry in index.items():
         is_part = isinstance(entry, list) and len(entry) == 2 and entry[0] is not None
-        if not part.startswith("_") and is_part and part != "safety_checker":
+        elsewhere = part == "safety_checker" or part in elsewhere_parts
+        if not part.startswith("_") and is_part and not elsewhere:
             _check_part(folder / part, str(entry[1]))
 
 

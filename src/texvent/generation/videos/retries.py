@@ -9,7 +9,7 @@ from texvent.errors import TexventError
 from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.stored_video import FinishedVideo
 from texvent.runtime.progress import NoProgress, Progress
-from texvent.video_check.checks import VideoReport, check_video
+from texvent.video_check.checks import check_video
 
 RETRIES = 3
 """Further seeds with --on-failure retry."""
@@ -21,8 +21,11 @@ def generate_checked(
     *,
     seed: int,
     progress: Progress | None,
+    find_fault: Callable[[FinishedVideo], str | None] = lambda video: None,
 ) -> FinishedVideo:
     """A video that passes the failure filter, or the response of `on_failure`.
+
+    `find_fault` names a fault that the filter does not know.
 
     Returns:
         The video, with the filter's findings in its metadata.
@@ -37,13 +40,14 @@ def generate_checked(
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
         video = make(attempt_seed, progress)
-        report = check_video(video)
-        if report.is_fine or config.on_failure == "warn":
-            if not report.is_fine:
-                progress.announce(f"warning: the generated video looks failed: {report.summary}")
+        report, fault = check_video(video), find_fault(video)
+        faults = "; ".join(filter(None, ("" if report.is_fine else report.summary, fault)))
+        if not faults or config.on_failure == "warn":
+            if faults:
+                progress.announce(f"warning: the generated video looks failed: {faults}")
             return video.with_metadata(check=report.as_facts())
-        progress.announce(f"seed {attempt_seed} is refused: {report.summary}")
-    raise TexventError(_refusal(report, tries))
+        progress.announce(f"seed {attempt_seed} is refused: {faults}")
+    raise TexventError(_refusal(faults, tries))
 
 
 def nth_seed(seed: int, attempt: int) -> int:
@@ -61,9 +65,9 @@ def nth_seed(seed: int, attempt: int) -> int:
     return int.from_bytes(digest[:4], "big") >> 1
 
 
-def _refusal(report: VideoReport, tries: int) -> str:
+def _refusal(faults: str, tries: int) -> str:
     seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
     return (
-        f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "
+        f"{seeds} failed the check of generated videos: {faults}. Reword the prompt, try "
         "another `seed`, or accept it with on_failure='warn'"
     )

@@ -182,7 +182,7 @@ def write_stream(video: FrameStream, path: Path, *, overwrite: bool) -> StoredVi
     """
     if video.fps is None:
         raise InputError("the video has no frame rate, so it cannot be written; give `fps`")
-    frames = (_full_scale(frame) for frame in video)
+    frames = (_full_scale(frame) for frame in getattr(video, "plain", video))
     return write_video(frames, path, video.fps, video.metadata, overwrite=overwrite)
 
 

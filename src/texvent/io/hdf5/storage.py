@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._require import require
+from texvent._require import install_command, require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, shown
 from texvent.io.block_writer import BlockWriter, WriteBlock
 from texvent.io.input_checks import reporting_damage
@@ -127,7 +127,7 @@ def check_filters(dataset: Any, path: Path) -> None:
     except MissingDependencyError as error:
         raise MissingDependencyError(
             f"{path} is compressed with an HDF5 filter that h5py does not bring (blosc in DSEC "
-            "files); install it with: pip install hdf5plugin"
+            f"files); install it with: {install_command('texvent[blosc]')}"
         ) from error
 
 

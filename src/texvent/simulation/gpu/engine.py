@@ -5,29 +5,31 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._registry import SIMULATORS
 from texvent._require import require
-from texvent.config import check_range
+from texvent.config import check_whole
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.options.arrays import whole_numbers
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulation.esim.config import EsimConfig
-from texvent.simulation.esim.gpu.pixels import EsimGpuPixels
 from texvent.simulation.gpu.intervals import Clock, Span
 from texvent.simulation.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
 from texvent.simulation.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
 from texvent.simulation.gpu.ordering import order_events
 from texvent.simulation.gpu.passes import GpuPixels, run_passes
-from texvent.simulation.gpu.support import check_supported
+from texvent.simulation.gpu.support import MODELS, find_model
+from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.random.draws import frame_keys
 from texvent.simulation.texvent.config import TexventConfig
 from texvent.simulation.texvent.gpu.noise import noise_rules
-from texvent.simulation.texvent.gpu.pixels import TexventPixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +132,7 @@ class GpuSimulator:
 
     def __init__(
         self,
-        config: TexventConfig | EsimConfig | None = None,
+        config: TexventConfig | EsimConfig | PhysicalConfig | None = None,
         *,
         seed: int | Sequence[int] = 0,
     ) -> None:
@@ -146,18 +148,19 @@ class GpuSimulator:
         """
         self.config = config if config is not None else TexventConfig()
         self._seed = seed
-        _make_pixels(self.config, len(_seeds_of(seed, None)))  # refuses what it cannot run
+        _seeds_of(seed, None)  # refuses what is out of range
+        self._model = SIMULATORS.load(find_model(self.config))(self.config)
         self.reset()
 
     @property
     def contrast_threshold(self) -> float:
         """δ that Eq. 4 should count with, log units; as `protocol.Simulator` has it."""
-        return self.config.contrast_threshold
+        return float(self._model.contrast_threshold)
 
     @property
     def balance(self) -> float:
         """α that Eq. 4 should count with, on the 0..255 scale; as `protocol.Simulator` has it."""
-        return self.config.balance
+        return float(self._model.balance)
 
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""
@@ -201,7 +204,7 @@ class GpuSimulator:
         check_device(frames.device)
         count, _, height, width = frames.shape
         seeds = _seeds_of(self._seed, count)
-        pixels = _make_pixels(self.config, count)
+        pixels = _make_pixels(self.config, seeds)
         pixels.begin(frames[:, 0])
         return _ClipStates(checked_size(width, height), Clock(count), seeds, pixels, None)
 
@@ -216,6 +219,7 @@ class GpuSimulator:
             return _no_events(clips, frames)
         first, frames = _of_one_type(first, frames)
         call, noise = self._call(clips, first, frames, span)
+        clips.pixels.prepare(call, span)
         is_adaptive = isinstance(self.config, TexventConfig) and self.config.noise == "adaptive"
         found = run_passes(clips.pixels, call, noise, on_resting=is_adaptive)
         count, intervals = frames.shape[:2]
@@ -262,23 +266,26 @@ class GpuSimulator:
         return Call(layout, Intervals(*plan), alignment(area, strides[0], strides[1])), rules
 
 
-def _make_pixels(config: object, clips: int) -> GpuPixels[Any]:
-    check_supported(config)
-    if isinstance(config, TexventConfig):
-        return TexventPixels(config, clips)
-    return EsimGpuPixels(cast("EsimConfig", config))
+def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
+    name = find_model(config)
+    module = import_module(f"texvent.simulation.{name}.gpu.pixels")
+    return cast("GpuPixels[Any]", getattr(module, MODELS[name].pixels)(config, seeds))
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
     """A seed per clip; `clips` None: as many as are given."""
-    if isinstance(seed, int):
-        seeds = tuple(range(seed, seed + (clips or 1)))
+    if np.ndim(seed) == 0:
+        check_whole("seed", seed, 0, 2**63 - 1)
+        first = int(cast("int", seed))
+        seeds = tuple(range(first, first + (clips or 1)))
     else:
-        seeds = tuple(int(one) for one in seed)
-        if clips is not None and len(seeds) != clips:
-            raise ConfigError(f"there are {len(seeds)} seeds for {clips} clips; give one per clip")
+        given = whole_numbers(seed, "seed", "one whole number per clip")
+        seeds = tuple(given.ravel().tolist())
+        if given.ndim > 1 or (clips is not None and len(seeds) != clips):
+            shape = " x ".join(map(str, given.shape))
+            raise ConfigError(f"there are {shape} seeds for {clips} clips; give one per clip")
     for one in seeds:
-        check_range("seed", one, 0, 2**63 - 1)
+        check_whole("seed", one, 0, 2**63 - 1)
     return seeds
 
 

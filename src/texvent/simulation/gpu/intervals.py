@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
+from texvent.frames import LATEST_US
 from texvent.options.arrays import as_array, whole_numbers
 
 Int64Array = NDArray[np.int64]
@@ -72,6 +73,11 @@ class Clock:
         """
         times = self._spread("times_us", times_us, frames)
         times = whole_numbers(times, "times_us", "whole microseconds")
+        if (beyond := (times > LATEST_US) | (times < -LATEST_US)).any():
+            raise InputError(
+                f"times_us holds {times[beyond][0]} µs, beyond ±{LATEST_US} µs (285 years); give "
+                "times in µs, not ns, that count from a later moment"
+            )
         flags = np.ones((self._clips, frames), np.bool_)
         if is_source is not None:
             flags = self._spread("is_source", is_source, frames).astype(np.bool_)

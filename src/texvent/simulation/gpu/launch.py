@@ -74,6 +74,8 @@ BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
 """Launch of Texvent's scan by brightness."""
 RAMP_LAUNCH = LaunchSize(512, 4)
 """Launch of ESIM's scan."""
+CIRCUIT_LAUNCH = LaunchSize(32, 1)
+"""Launch of the `physical` model's scan. A thread per pixel: those that may fire hold up few."""
 RECORD_BLOCK = 512
 """Records that a program takes at a time to give them times or order them."""
 

@@ -59,10 +59,13 @@ class GpuPixels(abc.ABC, Generic[Config]):
             shares[:, 0] = 1.0
         return shares
 
+    def prepare(self, call: Call, span: Span) -> None:
+        """Make what both passes over the frames of a call read; nothing by default."""
+
     def advance(self, span: Span) -> None:
         """Update what is kept on the host after a call; nothing by default."""
 
-    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: PassCounts, records: Records | Tensor | None) -> None:
         """Count the events of all intervals (`records` None), or write them and move on."""
         kernel, rules, state = self._scan(call)
         kernel[pixel_grid(call, self.block)](
@@ -83,12 +86,11 @@ class GpuPixels(abc.ABC, Generic[Config]):
         """The kernel that finds events, the rules it reads and the state it moves along."""
 
     @abc.abstractmethod
-    def records(self, count: int) -> Records:
-        """Room for `count` events."""
+    def records(self, count: int, words: Tensor) -> Records | Tensor:
+        """Room for `count` events; `words` itself where `find_events` knows their times."""
 
-    @abc.abstractmethod
     def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
-        """Give every record its time, and write it to `words`."""
+        """Give every record its time, and write it to `words`; nothing where it has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +143,7 @@ def run_passes(
     host_ends, host_noise_ends = np.split(counts[1:], 2)
     signal = int(host_ends[-1])
     words = torch.empty(signal + int(host_noise_ends[-1]), dtype=torch.int64, device=device)
-    records = pixels.records(signal)
+    records = pixels.records(signal, words)
     pixels.find_events(call, tally._replace(events=starts, bad=None), records)
     if signal:
         pixels.timestamp(call, records, ends, words)

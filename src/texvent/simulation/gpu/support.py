@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, InputError
@@ -12,10 +13,53 @@ from texvent.runtime.device_names import AUTO, CPU
 from texvent.runtime.devices import Device, describe_device, find_gpu, total_bytes, triton_fault
 from texvent.sensor import SensorSize
 from texvent.simulation.esim.config import EsimConfig
+from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.texvent.config import TexventConfig
 
-MODELS = "texvent", "esim"
-"""Simulators that have kernels."""
+
+class GpuModel(NamedTuple):
+    """A simulator that has kernels."""
+
+    config: type
+    """Type of its options."""
+    pixels: str
+    """Its `GpuPixels` in `simulation/NAME/gpu/pixels.py`."""
+    refused: Mapping[str, tuple[Callable[[Any], bool], str]]
+    """Option → whether kernels lack a value of it, and the rest of the sentence that says so."""
+
+
+_NORMAL = "normal numbers for every pixel and frame, which is not done on a GPU"
+MODELS: Mapping[str, GpuModel] = {
+    "texvent": GpuModel(
+        TexventConfig,
+        "TexventPixels",
+        {
+            "noise": (
+                lambda noise: noise == "gaussian",
+                f"draws {_NORMAL}; use noise 'adaptive', 'random' or 'none'",
+            )
+        },
+    ),
+    "esim": GpuModel(
+        EsimConfig,
+        "EsimGpuPixels",
+        {
+            "refractory_period_us": (bool, "is not kept on a GPU; use 0"),
+            "threshold_sigma": (bool, f"draws {_NORMAL}; use 0"),
+        },
+    ),
+    "physical": GpuModel(
+        PhysicalConfig,
+        "PhysicalGpuPixels",
+        {
+            "scan_period_ns": (
+                bool,
+                "lets events wait for a scan of the columns, which is not done on a GPU; use 0",
+            )
+        },
+    ),
+}
+"""Simulators that have kernels, by name."""
 BYTES_PER_PIXEL = 64
 """Memory of references, two frames and counts on a GPU, for each pixel; what is between comes on
 top."""
@@ -86,7 +130,7 @@ def choose_device(run: RunConfig, config: Any) -> RunDevice:
     try:
         if run.simulator not in MODELS:  # of another package, which may have their options
             raise _unknown(run.simulator)
-        check_supported(config)
+        find_model(config)
     except ConfigError as error:
         obstacle = str(error)
     # A model without kernels is refused where there is no GPU too.
@@ -99,34 +143,24 @@ def choose_device(run: RunConfig, config: Any) -> RunDevice:
 
 
 def _unknown(model: str) -> ConfigError:
-    return ConfigError(f"simulator {model!r} does not run on a GPU; {' and '.join(MODELS)} do")
+    *most, last = MODELS
+    known = f"{', '.join(most)} and {last}"
+    return ConfigError(f"simulator {model!r} does not run on a GPU; {known} do")
 
 
-def check_supported(config: object) -> None:
-    """Refuse a model, or an option of one, that has no GPU kernels.
+def find_model(config: object) -> str:
+    """Name of the simulator with these options, which has kernels for them.
 
     Args:
         config: options of the model, whose type says which it is.
 
     Raises:
-        ConfigError: with the model or option, and what to use.
+        ConfigError: it has none; with the model or option, and what to use.
     """
-    if isinstance(config, TexventConfig):
-        if config.noise == "gaussian":
-            raise ConfigError(
-                "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
-                "done on a GPU; use noise 'adaptive', 'random' or 'none'"
-            )
-    elif isinstance(config, EsimConfig):
-        if config.refractory_period_us > 0:
-            raise ConfigError(
-                f"refractory_period_us is {config.refractory_period_us}, which is not kept on a "
-                "GPU; use 0"
-            )
-        if config.threshold_sigma > 0:
-            raise ConfigError(
-                f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
-                "pixel and frame, which is not done on a GPU; use 0"
-            )
-    else:
-        raise _unknown(type(config).__name__.removesuffix("Config").lower())
+    for name, model in MODELS.items():
+        if isinstance(config, model.config):
+            for option, (is_refused, reason) in model.refused.items():
+                if is_refused(value := getattr(config, option)):
+                    raise ConfigError(f"{option} {value!r} {reason}")
+            return name
+    raise _unknown(type(config).__name__.removesuffix("Config").lower())

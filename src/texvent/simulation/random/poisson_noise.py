@@ -156,13 +156,17 @@ class PoissonNoise:
             rate_hz: events per second of each pixel, both polarities together, [H, W].
             stream: 0..65535, a different one for each process of the same sensor.
         """
-        self._cumulative_hz: Float64Array = np.cumsum(rate_hz, axis=1, dtype=np.float64)
-        self._stream = stream
+        self.cumulative_hz: Float64Array = np.cumsum(rate_hz, axis=1, dtype=np.float64)
+        """Rate of each pixel plus those of its row before it, 1/s, [H, W]."""
+        self.stream = stream
+        """As given."""
+        self.total_hz = float(self.cumulative_hz[:, -1].sum())
+        """Events of all pixels, per second."""
 
     @property
     def is_silent(self) -> bool:
         """Whether no pixel ever makes noise."""
-        return not self._cumulative_hz[:, -1].any()
+        return self.total_hz == 0
 
     def draw(
         self,
@@ -186,9 +190,9 @@ class PoissonNoise:
         """
         if self.is_silent:
             return UnsortedEvents.none()
-        check_event_number(float(self._cumulative_hz[:, -1].sum()) * interval.duration_s)
+        check_event_number(self.total_hz * interval.duration_s)
         pixel, fraction, kept, polarity = draw_arrivals(
-            self._cumulative_hz, interval.duration_s, interval.key, self._stream
+            self.cumulative_hz, interval.duration_s, interval.key, self.stream
         )
         if rate_fraction is not None:
             # Thinning: keeping events of a Poisson process at random gives one of a lower rate.

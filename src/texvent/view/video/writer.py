@@ -99,6 +99,24 @@ def write_images(frames: Iterable[Frame], folder: Path, *, overwrite: bool) -> N
         (part / TIMES).write_text("".join(sink.times), encoding="utf-8")
 
 
+def write_clips(
+    clips: Iterable[tuple[str, Iterable[Frame]]], folder: Path, *, overwrite: bool
+) -> None:
+    """A folder with a folder of images per clip, complete or not there; see `write_images`.
+
+    Args:
+        clips: (name, frames), read one after the other.
+        folder: to write.
+        overwrite: whether a folder of such folders may be replaced.
+
+    Raises:
+        OutputError: it exists already, holds other files, or cannot be written.
+    """
+    with atomic_folder(folder, overwrite=overwrite, is_own=_is_own, is_nested=True) as part:
+        for name, frames in clips:
+            write_images(frames, part / name, overwrite=False)
+
+
 class _VideoSink:
     def __init__(self, video: VideoEncoder, rows: int, columns: int) -> None:
         self._video = video

@@ -209,7 +209,7 @@ _LUMA = np.array([0.2126, 0.7152, 0.0722])
 """Luma weights of linear RGB, Rec. 709."""
 _UNDERWATER_SIGHT_M = 16.0
 _WET = 0.85
-"""Share of rain water on roads while it rains."""
+"""Share of rain water on roads while it rains, and after it."""
 _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
 
@@ -290,7 +290,7 @@ def build_environment(
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=_cloud_share(description, place, lighting),
-        wetness=_WET if said.weather == "rain" else 0.0,
+        wetness=_WET if said.weather == "rain" or said.is_wet else 0.0,
         wave_height=said.wave_height,
         sun_direction=_unit(lighting.sun_direction),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Self, TypeAlias
+from typing import Any, Literal, Self, TypeAlias
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, MissingDependencyError
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.extending import INTERPOLATORS, SIMULATORS
 from texvent.frames import FrameStream
-from texvent.io.files import is_event_path, open_events
 from texvent.run.prepare import prepare_video
-from texvent.sensor import SensorSize
+from texvent.run.rate_search import ThresholdMatch, find_threshold
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulation.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent_lab.bench.kept_frames import keep_frames
@@ -112,6 +112,27 @@ class Entry:
             return contrast_threshold_of(self.settings(0).simulate)
         except ConfigError:
             return None
+
+    def fit(
+        self, count_events: Callable[[float | None], int], target: int
+    ) -> tuple[ThresholdMatch | None, float]:
+        """The threshold at which the simulator makes as many events as there truly were.
+
+        Args:
+            count_events: threshold, or None for the preset's own → number of events.
+            target: true events.
+
+        Returns:
+            The match, None without a threshold; events per true event before the search.
+        """
+        default = self.default_threshold
+        count = cache(count_events)
+        ratio = count(default) / target if target else math.nan
+        if default is None:
+            return None, ratio
+        if not target:
+            return ThresholdMatch(default, math.nan, 0), ratio
+        return find_threshold(count, target, start=default), ratio
 
     def simulate(self, scene: Scene, seed: int, threshold: float | None) -> EventStream:
         """Events of one run on a scene of the oracle.
@@ -227,57 +248,6 @@ class ConfigEntry(Entry):
         """
         options = {"interpolate": self.interpolate, **dict(self.options), "seed": seed}
         return resolve("simulate", options, config=self.path)
-
-
-@dataclass(frozen=True, kw_only=True)
-class FileEntry(Entry):
-    """A row whose events another program made of the recordings; nothing is simulated for it."""
-
-    simulator: str = "texvent"
-    interpolate: str = "none"
-    program: str
-    default_threshold: ClassVar[None] = None
-    files: Mapping[str, Path]
-    """Recording → event file, on the clock of its frames."""
-
-    @classmethod
-    def find(cls, name: str, folder: Path, recordings: Sequence[str]) -> FileEntry:
-        """The row of a folder with an event file per recording, named as it.
-
-        Raises:
-            InputError: a recording has none there, or several.
-        """
-        events = [one for one in sorted(folder.iterdir()) if is_event_path(one)]
-        found = {
-            recording: [one for one in events if f"{one.name}.".startswith(f"{recording}.")]
-            for recording in recordings
-        }
-        wrong = [recording for recording, files in found.items() if len(files) != 1]
-        if wrong:
-            raise InputError(
-                f"{folder} has not one event file each of {', '.join(wrong)}; it needs one per "
-                f"recording, named as it, such as {wrong[0]}.h5"
-            )
-        return cls(program=name, files={one: files[0] for one, files in found.items()})
-
-    @property
-    def name(self) -> str:
-        """The program's."""
-        return self.program
-
-    def packets(self, recording: str, size: SensorSize, span_us: tuple[int, int]) -> EventPackets:
-        """The events of a recording in a span of time.
-
-        Raises:
-            InputError: there are none, or they have another size.
-        """
-        packets = open_events(self.files[recording], size=size).cut(*span_us)
-        if not any(map(len, packets)):
-            raise InputError(
-                f"{self.files[recording]} has no event from {span_us[0]} to {span_us[1]} µs; times "
-                f"must be on the clock of the frames of {recording}"
-            )
-        return packets
 
 
 def read_ablations(

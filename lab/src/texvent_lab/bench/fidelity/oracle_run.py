@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
+from texvent.view.video.writer import write_clips
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
+from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent_lab.bench.fidelity.run import NULL, measure_bounds, score_entries, score_recorded
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
@@ -24,7 +28,13 @@ from texvent_lab.bench.oracle.pixel import (
     SENSOR_SEED,
     TARGETS,
 )
-from texvent_lab.bench.oracle.recording import oracle_scene, record
+from texvent_lab.bench.oracle.recording import (
+    LAST_US,
+    SIZE,
+    oracle_scene,
+    record,
+    render_video,
+)
 from texvent_lab.bench.oracle.scenes import check_scene, scene_names
 from texvent_lab.bench.perturbations import perturb
 
@@ -62,6 +72,13 @@ class FidelityPlan:
                 f"targets {list(self.targets)}, fit seeds {list(self.fit_seeds)}, score seeds "
                 f"{list(self.score_seeds)}: targets are {', '.join(TARGETS)}, seeds at least one"
             )
+
+    @property
+    def clips(self) -> list[tuple[str, int]]:
+        """(scene, texture) of every video."""
+        return list(
+            itertools.product(self.scenes, dict.fromkeys((*self.fit_seeds, *self.score_seeds)))
+        )
 
 
 FULL = FidelityPlan(
@@ -104,7 +121,31 @@ class OracleTruth:
         return [self._simulate(entry, seed, threshold) for seed in self.scored]
 
     def _simulate(self, entry: Entry, seed: int, threshold: float | None) -> EventStream:
+        if isinstance(entry, FileEntry):
+            span_us, clip = (0, LAST_US + 1), clip_name(self.scene, seed)
+            return entry.packets(clip, SIZE, span_us, threshold).collect()
         return entry.simulate(oracle_scene(self.scene, seed), seed, threshold)
+
+
+def clip_name(scene: str, seed: int) -> str:
+    """Name of the frames of a scene with one texture, and of the files of their events."""
+    return f"{scene}-{seed}"
+
+
+def write_frames(plan: FidelityPlan, folder: Path, *, overwrite: bool) -> None:
+    """The frames that simulators get, for programs that are not texvent's simulators.
+
+    Args:
+        plan: scenes and textures, those to fit and those to score.
+        folder: gets a folder per scene and texture: `mixed-7` and so on, of 8-bit PNG files with
+            their times in timestamps.txt, s.
+        overwrite: whether a folder of such folders may be replaced.
+
+    Raises:
+        OutputError: the folder holds something else, or cannot be written.
+    """
+    rendered = ((clip_name(*pair), render_video(oracle_scene(*pair))) for pair in plan.clips)
+    write_clips(rendered, folder, overwrite=overwrite)
 
 
 def run_fidelity(
@@ -119,12 +160,16 @@ def run_fidelity(
 
     Raises:
         ConfigError: the plan names something that does not exist, or jobs is below 1.
+        InputError, FileFormatError: events of another program are damaged, or not of these frames.
     """
     check_range("jobs", jobs, 1)
     start = time.perf_counter()
     entries = list(plan.entries) or choose_entries()
+    spans_us = {clip_name(*pair): (0, LAST_US) for pair in plan.clips}
     for entry in entries:
         entry.settings(0)
+        if isinstance(entry, FileEntry):
+            entry.check(SIZE, spans_us)
     found: list[tuple[OracleTruth, Reference, Score]] = []
     for several in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
         found += several

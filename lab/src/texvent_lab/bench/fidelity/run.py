@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import itertools
-import math
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from texvent.errors import TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.protocol import Metric
-from texvent.run.rate_search import ThresholdMatch, find_threshold
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.fidelity.results import Reference, Score
 from texvent_lab.bench.jobs import Progress, run_jobs
@@ -88,10 +86,8 @@ def score_entry(truth: Truth, entry: Entry, metrics: Metrics) -> Score | tuple[s
         The score, or (name of the entry, why it cannot run).
     """
     try:
-        match, default_ratio = fit_threshold(
-            lambda threshold: truth.count(entry, threshold),
-            truth.fit_count,
-            entry.default_threshold,
+        match, default_ratio = entry.fit(
+            lambda threshold: truth.count(entry, threshold), truth.fit_count
         )
         start = time.perf_counter()
         simulated = truth.simulate(entry, match.threshold if match else None)
@@ -148,34 +144,6 @@ def measure_bounds(
         floor=compare_all(floors, truth.references, metrics),
         null=compare_all(nulls, truth.references, metrics),
     )
-
-
-def fit_threshold(
-    count_events: Callable[[float | None], int], target: int, default: float | None
-) -> tuple[ThresholdMatch | None, float]:
-    """The threshold at which a simulator makes as many events as there truly were.
-
-    Args:
-        count_events: threshold, or None for the preset's own → number of events.
-        target: true events.
-        default: where the search starts, log units; None for a simulator without a threshold.
-
-    Returns:
-        The match, None without a threshold; events per true event before the search.
-    """
-    counts: dict[float | None, int] = {}
-
-    def count(threshold: float | None) -> int:
-        if threshold not in counts:
-            counts[threshold] = count_events(threshold)
-        return counts[threshold]
-
-    ratio = count(default) / target if target else math.nan
-    if default is None:
-        return None, ratio
-    if not target:
-        return ThresholdMatch(default, math.nan, 0), ratio
-    return find_threshold(count, target, start=default), ratio
 
 
 def compare_all(

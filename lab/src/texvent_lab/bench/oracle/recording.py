@@ -25,6 +25,9 @@ STEP_RATE = Fraction(4800)
 Name = TypeVar("Name")
 """Key of a recording."""
 
+LAST_US = frame_time_us(FRAMES - 1, FPS)
+"""Time of the last frame of a video, and of the last true event at most."""
+
 
 def render_video(scene: Scene, *, frames: int = FRAMES) -> Video:
     """The scene at 24 frames per second in 8 bits, as any camera would give it."""

@@ -9,8 +9,9 @@ from typing import ClassVar
 
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError
 from texvent.sensor import as_size
+from texvent_lab.bench.fidelity.event_files import named_folders
 from texvent_lab.bench.paper.published_tables import FIGURES, TABLES
 from texvent_lab.frame_recordings import (
     WITH_FRAMES,
@@ -114,8 +115,7 @@ class PaperConfig:
         if self.events and not (self.all or self.figure or self.table in FROM_FILES):
             tables = ", ".join(map(str, FROM_FILES))
             raise ConfigError(f"events fills columns of tables {tables}; name one with --table")
-        if len(self.event_folders) < len(self.events):
-            raise ConfigError(f"events names a column twice: {' '.join(self.events)}")
+        named_folders(self.events, TABLES[self.table or 1].columns)
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
 
@@ -146,18 +146,10 @@ class PaperConfig:
         """Column → folder of its events; a name that the table has not is a column of its own.
 
         Raises:
-            ConfigError: a text is not NAME=FOLDER, or there is no such folder.
+            ConfigError: a text is not NAME=FOLDER, there is no such folder, or a column is named
+                twice.
         """
-        folders: dict[str, Path] = {}
-        for text in self.events:
-            name, _, place = text.partition("=")
-            folder = Path(place).expanduser()
-            if not (name and place and folder.is_dir()):
-                allowed = "it must be NAME=FOLDER, a folder that exists"
-                raise ConfigError(f"events is {shown(text)}; {allowed}")
-            columns = {one.lower(): one for one in TABLES[self.table or 1].columns}
-            folders[columns.get(name.lower(), name)] = folder
-        return folders
+        return named_folders(self.events, TABLES[self.table or 1].columns)
 
     @property
     def named_recordings(self) -> tuple[str, ...]:

@@ -20,7 +20,6 @@ from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.motion import draw_flow
 from texvent.view.drawing.palettes import get_palette
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.fidelity.run import fit_threshold
 from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import FIGURES
@@ -101,9 +100,7 @@ def _threshold(scene: RealScene, entry: Entry, config: PaperConfig) -> float | N
     """δ that gives the recorded number of events, if the simulator has one that is to be fitted."""
     if not config.match_rate or entry.default_threshold is None:
         return None
-    found, _ = fit_threshold(
-        lambda one: scene.count(entry, one), scene.fit_count, entry.default_threshold
-    )
+    found, _ = entry.fit(lambda one: scene.count(entry, one), scene.fit_count)
     return None if found is None else found.threshold
 
 

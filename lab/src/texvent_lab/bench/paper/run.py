@@ -21,9 +21,9 @@ from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import (
     ConfigEntry,
     Entry,
-    FileEntry,
     missing_rife,
 )
+from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.paper.augmentation import (

@@ -16,7 +16,8 @@ from texvent.events import EventStream
 from texvent.frames import MICROSECONDS, Frame, Video
 from texvent.options.values import option_names
 from texvent.settings.resolution import Settings, apply_options
-from texvent_lab.bench.fidelity.entries import Entry, FileEntry, simulate_video
+from texvent_lab.bench.fidelity.entries import Entry, simulate_video
+from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.frame_recordings import (
     FrameRecording,
     locate_source,
@@ -87,7 +88,8 @@ class RealScene:
     def _simulate(self, entry: Entry, span: TimeSpan, threshold: float | None) -> EventStream:
         if isinstance(entry, FileEntry):
             start_us, stop_us = (edge - self.offset_us for edge in span)
-            found = entry.packets(self.scene, self.video.size, (start_us, stop_us)).collect()
+            span_us = start_us, stop_us
+            found = entry.packets(self.scene, self.video.size, span_us, threshold).collect()
             return dataclasses.replace(found, t=found.t + self.offset_us)
         settings = adapt_settings(entry.settings(SEED), self.frames_gamma)
         return simulate_video(self.frames_around(span), settings, threshold).cut(*span)
@@ -142,7 +144,7 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
     recording = open_recording(path)
     offset_us = offset_us if part.offset_us is None else part.offset_us
     gamma = DISPLAY_GAMMA if is_dsec(path) else LINEAR_GAMMA
-    frames = list(_used_frames(recording, part, offset_us))
+    frames = [Frame(one.pixels, one.t_us + offset_us) for one in used_frames(recording, part)]
     times_us = [frame.t_us for frame in frames]
     if len(frames) < 2:
         raise InputError(f"{source} has {len(frames)} frames in the part that is used; it needs 2")
@@ -159,7 +161,8 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
     )
 
 
-def _used_frames(recording: FrameRecording, part: RecordingPart, offset_us: int) -> Iterator[Frame]:
+def used_frames(recording: FrameRecording, part: RecordingPart) -> Iterator[Frame]:
+    """The frames of a part of a recording, on their own clock."""
     first_us: int | None = None
     for frame in recording.frames:
         first_us = frame.t_us if first_us is None else first_us
@@ -167,7 +170,7 @@ def _used_frames(recording: FrameRecording, part: RecordingPart, offset_us: int)
         if since_us > part.seconds * MICROSECONDS:
             return
         if since_us >= 0:
-            yield Frame(frame.pixels, frame.t_us + offset_us)
+            yield frame
 
 
 def _used_events(recording: FrameRecording, start_us: int, stop_us: int) -> EventStream:

@@ -27,7 +27,8 @@ from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate
 from texvent.simulation.model_options import contrast_threshold_of
-from texvent_lab.bench.fidelity.entries import Entry, FileEntry
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.kept_frames import keep_frames
 from texvent_lab.bench.perturbations import scatter

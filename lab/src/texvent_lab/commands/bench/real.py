@@ -11,9 +11,16 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.data.catalogue import DATA_SETS
+from texvent.view.video.writer import write_clips
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
+from texvent_lab.bench.fidelity.event_files import FileEntry, named_folders
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
-from texvent_lab.bench.real.recording import LINEAR_GAMMA, RecordingPart, open_scene
+from texvent_lab.bench.real.recording import (
+    LINEAR_GAMMA,
+    RecordingPart,
+    open_scene,
+    used_frames,
+)
 from texvent_lab.bench.real.run import INTERPOLATIONS, real_entries, run_real
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
@@ -22,7 +29,13 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
-from texvent_lab.frame_recordings import WITH_FRAMES, FrameRecording, locate_source, open_recording
+from texvent_lab.frame_recordings import (
+    WITH_FRAMES,
+    FrameRecording,
+    locate_source,
+    open_recording,
+    recording_name,
+)
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import find_network, load_reconstructor
 
@@ -40,6 +53,7 @@ class RealOptions:
     """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources",)
+    outputs: ClassVar[tuple[str, ...]] = ("write_frames",)
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
         "start", "seconds", "simulators", "interpolations", "config", "baseline", "network", "out",
@@ -74,6 +88,12 @@ class RealOptions:
     """File with the network's weights; pie-net's package has its own."""
     match_rate: bool = False
     """With network: fit each contrast threshold to the number of recorded events."""
+    events: tuple[str, ...] = ()
+    """NAME=FOLDER of one more row, of another program: an event file per recording, named as it and
+    on the clock of its frames; or a sub-folder of such files per contrast threshold (0.15, 0.2), of
+    which the one is scored that fits the number of recorded events."""
+    write_frames: Path | None = None
+    """Write the frames of each recording into a folder here, for other programs, and end."""
     jobs: int = 2
     """Processes to use; with network, one."""
 
@@ -91,12 +111,15 @@ def run(arguments: Sequence[str]) -> None:
         description=DESCRIPTION,
     )
     output.check()
+    part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
+    if options.write_frames is not None:
+        _write_frames(options.sources, options.write_frames, part, output)
+        return
     entries = _choose_entries(options)
     if options.network is not None:
         _score_images(options, options.network, entries, output)
         return
     check_baseline(options.baseline, [entry.name for entry in entries])
-    part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
     report = run_real(scenes, entries, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
@@ -121,6 +144,20 @@ def _score_images(
     write_out(reconstruction_tables(report))
 
 
+def _write_frames(
+    sources: Sequence[str], folder: Path, part: RecordingPart, output: ResultOptions
+) -> None:
+    """Write the used frames of each recording, on their own clock, and say what to do with them."""
+    recordings = ((one, open_recording(locate_source(one)[0])) for one in sources)
+    used = ((recording_name(source), used_frames(one, part)) for source, one in recordings)
+    write_clips(used, folder, overwrite=output.overwrite)
+    write_out(
+        f"frames of {', '.join(map(recording_name, sources))} in {folder}, their times in "
+        f"timestamps.txt\nnext: simulate each on that clock into {recording_name(sources[0])}.h5 "
+        "and so on, then texvent bench real --events NAME=FOLDER\n"
+    )
+
+
 def _open_whole(source: str) -> FrameRecording:
     recording = open_recording(locate_source(source)[0])
     return replace(recording, name=source) if source in DATA_SETS else recording
@@ -136,4 +173,6 @@ def _choose_entries(options: RealOptions) -> list[Entry]:
         entries = choose_entries(options.simulators, names)
     if options.config is not None:
         entries.append(ConfigEntry.read(options.config))
+    recordings = [recording_name(source) for source in options.sources]
+    entries += [FileEntry.find(*row, recordings) for row in named_folders(options.events).items()]
     return entries

@@ -6,6 +6,7 @@ count the events and once to write them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -185,11 +186,12 @@ def crossing_share(first: tl.tensor, last: tl.tensor, level: tl.tensor) -> tl.te
 class EsimGpuPixels(GpuPixels[EsimConfig]):
     """The pixels of a batch of clips under ESIM."""
 
-    def __init__(self, config: EsimConfig) -> None:
+    def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
+            seeds: one per clip; nothing is drawn.
         """
         super().__init__(config, RAMP_LAUNCH)
 
@@ -212,7 +214,7 @@ class EsimGpuPixels(GpuPixels[EsimConfig]):
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
         return scan_ramp, self._rules, self._reference
 
-    def records(self, count: int) -> Records:
+    def records(self, count: int, words: Tensor) -> Records:
         """See `GpuPixels`."""
         return make_records(count, self._reference, has_order=True)
 

@@ -30,18 +30,16 @@ from texvent.simulation.texvent.gpu import rules, scan_triton
 class TexventPixels(GpuPixels[TexventConfig]):
     """The pixels of a batch of clips under Eqs. 5 and 7."""
 
-    def __init__(self, config: TexventConfig, clips: int) -> None:
+    def __init__(self, config: TexventConfig, seeds: Sequence[int]) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
-            clips: how many there are.
+            seeds: one per clip.
         """
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(config, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH)
-        self._schedules = [
-            CacheSchedule(config.cache, config.residual_decay_hz) for _ in range(clips)
-        ]
+        self._schedules = [CacheSchedule(config.cache, config.residual_decay_hz) for _ in seeds]
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
@@ -77,7 +75,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         self._reference = self._reference.to(call.frames.pixels.dtype)
         return scan_triton.scan_levels, self._rules, self._reference
 
-    def records(self, count: int) -> Records:
+    def records(self, count: int, words: Tensor) -> Records:
         """See `GpuPixels`."""
         return make_records(count, self._reference, has_order=self.config.multi_event)
 

@@ -1,0 +1,162 @@
+"""Events that other programs made of the same frames, as rows of the benchmarks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.errors import ConfigError, InputError, few, shown
+from texvent.event_packets import EventPackets
+from texvent.io.files import is_event_path, open_events
+from texvent.run.rate_search import ThresholdMatch
+from texvent.sensor import SensorSize
+from texvent_lab.bench.fidelity.entries import Entry
+
+
+def named_folders(texts: Iterable[str], known: Sequence[str] = ()) -> dict[str, Path]:
+    """Row → folder of its events.
+
+    Args:
+        texts: NAME=FOLDER each.
+        known: rows whose names are taken in any case.
+
+    Raises:
+        ConfigError: a text is not NAME=FOLDER, there is no such folder, or a row is named twice.
+    """
+    folders: dict[str, Path] = {}
+    spelled = {one.lower(): one for one in known}
+    for text in texts:
+        name, _, place = text.partition("=")
+        folder = Path(place).expanduser()
+        if not (name and place and folder.is_dir()):
+            allowed = "it must be NAME=FOLDER, a folder that exists"
+            raise ConfigError(f"events is {shown(text)}; {allowed}")
+        row = spelled.get(name.lower(), name)
+        if row in folders:
+            raise ConfigError(f"events names {row} twice; give each row one folder")
+        folders[row] = folder
+    return folders
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileEntry(Entry):
+    """A row whose events another program made of the recordings; nothing is simulated for it."""
+
+    simulator: str = "texvent"
+    interpolate: str = "none"
+    program: str
+    default_threshold: ClassVar[None] = None
+    files: Mapping[float | None, Mapping[str, Path]]
+    """Contrast threshold, or None alone where the program had one setting → recording → event file,
+    on the clock of its frames."""
+
+    @classmethod
+    def find(cls, name: str, folder: Path, recordings: Sequence[str]) -> FileEntry:
+        """The row of a folder with an event file per recording, named as it.
+
+        Sub-folders named by numbers are runs at these thresholds, one of which is then fitted.
+
+        Raises:
+            InputError: a recording has no file there, or several; files lie beside thresholds.
+        """
+        inside = sorted(folder.iterdir())
+        runs = {_threshold_of(one.name): one for one in inside if one.is_dir()}
+        runs.pop(None, None)
+        if runs and any(is_event_path(one) for one in inside if one not in runs.values()):
+            raise InputError(
+                f"{folder} holds event files beside folders of thresholds "
+                f"({next(iter(runs.values())).name} ...); it must hold the ones or the others"
+            )
+        places = runs or {None: folder}
+        files = {one: _files_of(place, recordings) for one, place in places.items()}
+        return cls(program=name, files=files)
+
+    @property
+    def name(self) -> str:
+        """The program's."""
+        return self.program
+
+    def fit(
+        self, count_events: Callable[[float | None], int], target: int
+    ) -> tuple[ThresholdMatch | None, float]:
+        """The run whose number of events comes closest; see `Entry.fit`."""
+        thresholds = [one for one in self.files if one is not None]
+        if not thresholds:
+            return super().fit(count_events, target)
+        counts = {one: count_events(one) for one in thresholds}
+        best = min(thresholds, key=lambda one: abs(counts[one] - target))
+        ratio = counts[best] / target if target else math.nan
+        return ThresholdMatch(best, ratio, len(counts)), math.nan
+
+    def check(self, size: SensorSize, spans_us: Mapping[str, tuple[int, int]]) -> None:
+        """Read all files, which may hold nothing but events of their frames.
+
+        Args:
+            size: of the frames.
+            spans_us: recording → time of its first frame, and of its last.
+
+        Raises:
+            InputError, FileFormatError: a file is damaged, of another size or another clock.
+        """
+        for files in self.files.values():
+            for recording, (first_us, last_us) in spans_us.items():
+                for packet in open_events(files[recording], size=size):
+                    if len(packet) and not first_us <= packet.t[0] <= packet.t[-1] <= last_us:
+                        t_us = packet.t[0] if packet.t[0] < first_us else packet.t[-1]
+                        raise InputError(
+                            f"{files[recording]} has an event at {t_us} µs; the frames of "
+                            f"{recording} are from {first_us} to {last_us} µs, and events must be "
+                            "on their clock"
+                        )
+
+    def packets(
+        self,
+        recording: str,
+        size: SensorSize,
+        span_us: tuple[int, int],
+        threshold: float | None = None,
+    ) -> EventPackets:
+        """The events of a recording in a span of time.
+
+        Raises:
+            InputError: all are outside it, they have another size, or thresholds wait for a fit.
+        """
+        if threshold not in self.files:
+            raise InputError(
+                f"{self.program} has runs at several thresholds, and none is fitted here; give the "
+                "folder of one of them"
+            )
+        packets = open_events(self.files[threshold][recording], size=size)
+        found = packets.cut(*span_us)
+        if not any(map(len, found)) and any(map(len, packets)):
+            raise InputError(
+                f"{self.files[threshold][recording]} has no event from {span_us[0]} to "
+                f"{span_us[1]} µs; times must be on the clock of the frames of {recording}"
+            )
+        return found
+
+
+def _threshold_of(name: str) -> float | None:
+    try:
+        number = float(name)
+    except ValueError:
+        return None
+    return number if 0 < number < math.inf else None
+
+
+def _files_of(folder: Path, recordings: Sequence[str]) -> dict[str, Path]:
+    events = [one for one in sorted(folder.iterdir()) if is_event_path(one)]
+    found = {
+        recording: [one for one in events if f"{one.name}.".startswith(f"{recording}.")]
+        for recording in recordings
+    }
+    wrong = [recording for recording, files in found.items() if len(files) != 1]
+    if wrong:
+        raise InputError(
+            f"{folder} has not one event file each of {few(wrong, 4)}; it needs one per "
+            f"recording, named as it, such as {wrong[0]}.h5"
+        )
+    return {one: files[0] for one, files in found.items()}

@@ -1,0 +1,145 @@
+"""Events of other projects' simulators for the benchmarks, by their own programs.
+
+    texvent bench fidelity --write-frames frames
+    python -m texvent_lab.measure.peer_events eventcv frames eventcv-events
+    texvent bench fidelity --events eventcv=eventcv-events
+
+Each program runs in an environment that has it (`pip install 'texvent-lab[peers]'`; v2e from a
+clone of its repository, `--path CLONE`), as its authors' defaults have it but for the contrast
+threshold: there is a folder of event files per threshold. Programs get the frames alone; v2e's
+network for interpolation, whose weights are not in its repository, is left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.image_folder import ImageFolder
+from texvent.events import EventStream
+from texvent.frames import MICROSECONDS, Frame
+from texvent.io.atomic import atomic_folder
+from texvent.sensor import SensorSize
+
+Columns = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
+"""x, y, px; t, µs; p, above 0 for ON."""
+Simulate = Callable[[list[Frame], float], Columns]
+"""8-bit grey frames and contrast threshold → events."""
+LOWEST, RATIO, COUNT = 0.05, 1.15, 20
+"""Thresholds: the lowest, each next over the one before, their number."""
+
+
+def _load_eventcv() -> Simulate:
+    eventcv: Any = importlib.import_module("eventcv")
+
+    def simulate(frames: list[Frame], threshold: float) -> Columns:
+        pixels = np.stack([frame.pixels for frame in frames])
+        fps = MICROSECONDS * (len(frames) - 1) / (frames[-1].t_us - frames[0].t_us)
+        found = eventcv.simulate(pixels, fps=fps, pos_thres=threshold, neg_thres=threshold)
+        x, y, t, p = np.asarray(found.numpy()).T
+        return x, y, t + frames[0].t_us, p
+
+    return simulate
+
+
+def _load_evlib() -> Simulate:
+    evlib: Any = importlib.import_module("evlib.simulation")
+
+    def simulate(frames: list[Frame], threshold: float) -> Columns:
+        config = evlib.ESIMConfig(
+            positive_threshold=threshold, negative_threshold=threshold, device="cpu"
+        )
+        core = evlib.ESIMSimulator(config)
+        parts = [core.process_frame(one.pixels, one.t_us / MICROSECONDS) for one in frames]
+        x, y, t, p = (np.concatenate(column) for column in zip(*parts, strict=True))
+        return x, y, t * MICROSECONDS, p
+
+    return simulate
+
+
+def _load_v2e() -> Simulate:
+    emulator: Any = importlib.import_module("v2ecore.emulator")
+
+    def simulate(frames: list[Frame], threshold: float) -> Columns:
+        core = emulator.EventEmulator(
+            pos_thres=threshold, neg_thres=threshold, seed=1, device="cpu"
+        )
+        made = [core.generate_events(one.pixels, one.t_us / MICROSECONDS) for one in frames]
+        rows = np.concatenate([np.empty((0, 4)), *(part for part in made if part is not None)])
+        t, x, y, p = rows.T[:4]
+        return x, y, t * MICROSECONDS, p
+
+    return simulate
+
+
+PROGRAMS: Mapping[str, Callable[[], Simulate]] = {
+    "eventcv": _load_eventcv, "evlib": _load_evlib, "v2e": _load_v2e
+}  # fmt: skip
+"""Name → loader, which raises ImportError where the program is not installed."""
+
+
+def as_events(columns: Columns, size: SensorSize) -> EventStream:
+    """The events in the order of their times, in whole µs."""
+    x, y, t, p = columns
+    t_us = np.rint(t).astype(np.int64)
+    order = np.argsort(t_us, kind="stable")
+    whole = (one[order].astype(np.int64) for one in (x, y, t_us, p > 0))
+    return EventStream.from_columns(*whole, size=size)
+
+
+def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool) -> None:
+    """A folder per threshold with an event file per clip.
+
+    Args:
+        simulate: the program.
+        frames: folder of `--write-frames`.
+        out: folder to write.
+        overwrite: whether a folder of event files may be replaced.
+
+    Raises:
+        OutputError: it exists already, or holds other files.
+        InputError: the frames cannot be read.
+    """
+    clips = [one for one in sorted(frames.iterdir()) if one.is_dir()]
+    with atomic_folder(
+        out, overwrite=overwrite, is_own=lambda one: one.suffix == ".h5", is_nested=True
+    ) as part:
+        for number in range(COUNT):
+            threshold = round(LOWEST * RATIO**number, 4)
+            (part / str(threshold)).mkdir()
+            for clip in clips:
+                video = ImageFolder(clip)
+                events = as_events(simulate(list(video), threshold), video.size)
+                events.save(part / str(threshold) / f"{clip.name}.h5")
+            print(f"threshold {threshold}: {len(clips)} clips", file=sys.stderr)
+
+
+def main() -> int:
+    """Run a program; 2 where it is not installed."""
+    parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.peer_events")
+    parser.add_argument("program", choices=list(PROGRAMS))
+    parser.add_argument("frames", type=Path, help="folder of texvent bench ... --write-frames")
+    parser.add_argument("out", type=Path, help="folder to write")
+    parser.add_argument("--path", type=Path, help="clone of the program's repository")
+    parser.add_argument("--overwrite", action="store_true")
+    chosen = parser.parse_args()
+    if chosen.path is not None:
+        sys.path.insert(0, str(chosen.path))
+    try:
+        simulate = PROGRAMS[chosen.program]()
+    except ImportError as error:
+        print(f"error: {chosen.program} cannot be imported here: {error}", file=sys.stderr)
+        return 2
+    write_events(simulate, chosen.frames, chosen.out, overwrite=chosen.overwrite)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,148 @@
+"""Rows of other programs: the frames they get, and the event files they give."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from texvent.capture.image_folder import ImageFolder
+from texvent.cli.app import main
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent_lab.bench.fidelity import oracle_run
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.fidelity.event_files import FileEntry, named_folders
+from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, clip_name, record_truths
+from texvent_lab.bench.fidelity.run import score_entry
+from texvent_lab.bench.oracle.recording import LAST_US, SIZE, oracle_scene, render_video
+from texvent_lab.bench.real.recording import RecordingPart, open_scene
+
+PLAN = FidelityPlan(
+    scenes=("translate",), targets=("ideal",), fit_seeds=(7,), score_seeds=(21,), metrics=("stpp",)
+)
+OURS = Entry(simulator="esim", interpolate="none", is_rate_matched=False)
+CLIPS = [clip_name(*pair) for pair in PLAN.clips]
+
+
+def save_runs(folder, threshold=None):
+    """Events of ours as the files of another program."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for scene, seed in PLAN.clips:
+        events = OURS.simulate(oracle_scene(scene, seed), seed, threshold)
+        events.save(folder / f"{clip_name(scene, seed)}.h5")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Runs at three thresholds, a folder each."""
+    folder = tmp_path_factory.mktemp("runs")
+    for threshold in (0.1, 0.2, 0.9):
+        save_runs(folder / str(threshold), threshold)
+    return folder
+
+
+def test_a_program_gets_the_frames_that_simulators_get(tmp_path, capsys):
+    given = ["bench", "fidelity", "--scenes", "translate", "--write-frames", str(tmp_path / "f")]
+    assert main(given) == 0
+    assert "translate-7.h5 and so on, times from 0" in capsys.readouterr().out
+    true = render_video(oracle_scene("translate", 21))
+    clip = tmp_path / "f" / "translate-21"
+    read = list(ImageFolder(clip))
+    assert [one.t_us for one in read] == list(true.times_us)
+    assert all(np.array_equal(one.pixels, two) for one, two in zip(read, true.pixels, strict=True))
+    assert main(given) == 3
+    assert main([*given, "--overwrite"]) == 0
+    (tmp_path / "f" / "mine.txt").touch()
+    assert main([*given, "--overwrite"]) == 3
+    assert "holds other files ('mine.txt')" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def truth():
+    """True events of the plan."""
+    ((truth, _, _),) = record_truths(PLAN, "translate")
+    return truth
+
+
+def test_files_score_as_the_simulator_that_wrote_them(runs, truth):
+    rows = FileEntry.find("Mine", runs / "0.2", CLIPS), OURS
+    files, ours = (score_entry(truth, row, PLAN.metrics) for row in rows)
+    assert (files.entry, ours.entry) == ("Mine", "esim, none")
+    assert files.threshold is None
+    # ESIM's own threshold is 0.2.
+    assert files.values == ours.values
+    assert files.default_ratio == ours.default_ratio
+
+
+def test_of_several_thresholds_that_one_is_scored_whose_count_is_nearest(runs, truth):
+    row = FileEntry.find("Mine", runs, CLIPS)
+    counts = {0.1: 900, 0.2: 400, 0.9: 30}
+    for target, best in ((1000, 0.1), (700, 0.1), (600, 0.2), (10, 0.9), (0, 0.9)):
+        match, _ = row.fit(counts.__getitem__, target)
+        assert match.threshold == best
+        assert match.ratio == counts[best] / target if target else math.isnan(match.ratio)
+    score = score_entry(truth, row, PLAN.metrics)
+    alone = FileEntry.find("Mine", runs / str(score.threshold), CLIPS)
+    assert score.values == score_entry(truth, alone, PLAN.metrics).values
+    with pytest.raises(InputError, match="several thresholds, and none is fitted here"):
+        row.packets(CLIPS[0], SIZE, (0, LAST_US))
+
+
+@pytest.mark.parametrize("fault", ["size", "late", "missing", "beside", "damaged"])
+def test_files_that_are_not_of_these_frames_are_named_before_any_work(
+    runs, tmp_path, monkeypatch, capsys, fault
+):
+    monkeypatch.setattr(oracle_run, "record_truths", lambda *_: pytest.fail("work was done"))
+    folder = save_runs(tmp_path / "mine")
+    for seed in (33, 54, 68, 85, 97):
+        EventStream.empty(SIZE).save(folder / f"translate-{seed}.h5")
+    path, t_us = folder / "translate-54.h5", LAST_US + 1 if fault == "late" else 5
+    size = "8x6" if fault == "size" else SIZE
+    path.unlink()
+    if fault != "missing":
+        EventStream.from_columns([1], [2], [t_us], [1], size=size).save(path)
+    if fault == "beside":
+        (folder / "0.2").mkdir()
+    if fault == "damaged":
+        path.write_bytes(path.read_bytes()[:900])
+    given = ["bench", "fidelity", "--scenes", "translate", "--events", f"Mine={folder}"]
+    assert main([*given, "--simulators", "esim", "--interpolations", "none"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert {
+        "size": "8x6",
+        "late": f"an event at {LAST_US + 1} µs; the frames of translate-54 are from 0 to {LAST_US}",
+        "missing": "not one event file each of translate-54",
+        "beside": "event files beside folders of thresholds (0.2 ...)",
+        "damaged": "translate-54.h5",
+    }[fault] in line
+
+
+def test_rows_are_named_once_by_folders_that_exist(tmp_path):
+    assert named_folders([f"v2CE={tmp_path}"], ("V2CE",)) == {"V2CE": tmp_path}
+    for texts, message in (
+        (["Mine"], "'Mine'; it must be NAME=FOLDER"),
+        ([f"Mine={tmp_path}/no"], "a folder that exists"),
+        ([f"Mine={tmp_path}", f"Mine={tmp_path}"], "events names Mine twice"),
+    ):
+        with pytest.raises(ConfigError, match=message):
+            named_folders(texts)
+
+
+def test_frames_and_events_of_a_recording_are_on_its_own_clock(pan_folder, tmp_path, capsys):
+    given = ["bench", "real", str(pan_folder), "--offset-us", "5000"]
+    assert main([*given, "--write-frames", str(tmp_path / "f")]) == 0
+    name = pan_folder.name
+    assert f"{name}.h5" in capsys.readouterr().out
+    first = (tmp_path / "f" / name / "timestamps.txt").read_text().split()[0]
+    scene = open_scene(str(pan_folder), RecordingPart(offset_us=5_000))
+    assert round(float(first) * 1e6) + 5_000 == scene.video.times_us[0]
+    own = replace(scene.events, t=scene.events.t - 5_000)
+    for threshold, events in (("0.1", own[::2]), ("0.2", own), ("0.3", own[::3])):
+        (tmp_path / "runs" / threshold).mkdir(parents=True)
+        events.save(tmp_path / "runs" / threshold / f"{name}.h5")
+    row = FileEntry.find("Mine", tmp_path / "runs", [name])
+    match, _ = row.fit(lambda one: scene.count(row, one), scene.fit_count)
+    assert (match.threshold, match.ratio) == (0.2, 1.0)
+    assert scene.simulate(row, 0.2) == scene.references

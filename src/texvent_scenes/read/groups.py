@@ -1,0 +1,180 @@
+"""Noun groups of a prompt: a head with its determiner, number and adjectives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token
+
+_HEADS = ("noun", "place", "effect", "pose", "scene")
+"""Senses that a noun group may end with."""
+MODIFIERS = ("field", "scene", "adverb")
+"""Senses of the words before a head."""
+_STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
+"""Senses of words that no noun group holds."""
+_PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
+"""Begin phrases that stand alone: "at night"."""
+
+
+def _counts(token: Token) -> list[float]:
+    """Numbers of things that a word means."""
+    return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Noun group: a head with its determiner, number and adjectives."""
+
+    head: Token | None
+    """None: it is not known."""
+    modifiers: tuple[Token, ...] = ()
+    unknown: tuple[Token, ...] = ()
+    """Tokens without effect: words that are not known, or that another word stands before."""
+    article: str = ""
+    of: Phrase | None = None
+    """Phrase with "of" that follows: "of apples"."""
+
+    @property
+    def noun(self) -> NounSense | None:
+        """Its noun, in the number that is said: "two glasses" are no spectacles."""
+        senses = [one.value for one in self.head.all("noun")] if self.head else []
+        is_many = any(count > 1 for one in self.modifiers for count in _counts(one))
+        return next((one for one in senses if one.is_plural or not is_many), (*senses, None)[0])
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it is a noun alone, as in headlines: "fast ball"."""
+        is_counted = any(_counts(one) for one in self.modifiers)
+        return bool(self.head and self.head.has("noun")) and not self.article and not is_counted
+
+    @property
+    def is_plural(self) -> bool:
+        """Whether it names several things: "two dogs", "fish"."""
+        counts = [count for one in self.modifiers for count in _counts(one)]
+        if counts or self.head is None:
+            return any(count > 1 for count in counts)
+        if self.head.has("effect") and not self.head.has("noun"):
+            return self.head.text.endswith("s")
+        senses = [one.value for one in self.head.all("noun")]
+        is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
+        is_open = is_name and self.article not in ("a", "an")
+        same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
+        return any(one.is_plural for one in same)
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """Preposition with its groups; without any, a pronoun follows: "behind them"."""
+
+    preposition: Token
+    groups: tuple[Group, ...]
+
+
+@dataclass
+class GroupReader:
+    """Position in the tokens; each method reads on from there."""
+
+    _tokens: Sequence[Token]
+    _at: int = 0
+
+    def _token(self, ahead: int = 0) -> Token:
+        at = self._at + ahead
+        return self._tokens[at] if 0 <= at < len(self._tokens) else NO_TOKEN
+
+    def _take(self) -> Token:
+        self._at += 1
+        return self._token(-1)
+
+    def _starts_group(self, ahead: int = 0) -> bool:
+        token, after = self._token(ahead), self._token(ahead + 1)
+        if token.has("articles"):
+            return not (after.text.endswith("camera") or after.has("camera") or after.is_sign)
+        is_view = token.has("shot") and not token.has("noun", "place")
+        is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
+        if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
+            return False
+        if token.has("noun", "place", "effect", "pose", "field"):
+            return True
+        is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
+        if is_before and after.has("noun", "place", *MODIFIERS) and not after.has("relation"):
+            return True
+        return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
+
+    def _group(self) -> Group:
+        modifiers: list[Token] = []
+        unknown: list[Token] = []
+        head, article = None, self._token().text if self._token().has("articles") else ""
+        while self._token().has("articles"):
+            self._take()
+        first = self._at
+        while head is None and not self._ends_group(first) and self._agrees(article, first):
+            token = self._take()
+            if token.is_unknown:
+                unknown.append(token)
+                if article in ("a", "an"):  # "a six axis arm" is one
+                    modifiers = [one for one in modifiers if not _counts(one)]
+            elif not token.has(*_HEADS) or self._stands_before(token):
+                modifiers.append(token)
+            elif self._is_compound(article, first):
+                unknown.append(token)
+            else:
+                head = token
+        if self._at == first and self._token() is not NO_TOKEN:
+            unknown.append(self._take())
+        tail = [self._take() for _ in range(self._tail() if head else 0)]
+        known, lost = (modifiers, []) if head else ([], modifiers)
+        of = None
+        if self._token().text == "of" and self._starts_group(1):
+            of = Phrase(self._take(), (self._group(),))
+        lost = [*lost, *unknown, *tail[:-1]]
+        return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
+
+    def _tail(self) -> int:
+        """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""
+        ahead = 0
+        while self._token(ahead).is_unknown:
+            ahead += 1
+        return ahead + 1 if self._token(ahead).has("hollow") else 0
+
+    def _ends_group(self, first: int) -> bool:
+        token = self._token()
+        if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
+            return True
+        if token.has(*_HEADS, *MODIFIERS):
+            return token.has("relation") and self._at > first
+        before = self._token(-1)
+        if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
+            return self._at > first  # "travellers pulling"
+        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
+
+    def _stands_before(self, token: Token) -> bool:
+        """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
+        after = self._token()
+        is_before = token.has(*MODIFIERS) and not after.has("relation")
+        return is_before and after.has(*_HEADS, "field")
+
+    def _is_compound(self, article: str, first: int) -> bool:
+        """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
+        after = self._token()
+        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        is_head = is_head and self._agrees(article, first) and not self._has_object()
+        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
+        is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
+        is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
+        return (is_head or is_word) and not is_many
+
+    def _agrees(self, article: str, first: int) -> bool:
+        """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
+        senses = [one.value for one in self._token().all("noun")]
+        words, is_one = self._tokens[first : self._at], article in ("a", "an")
+        is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
+        counts = [count for one in words for count in _counts(one) if not is_other]
+        if not senses or not (counts or is_one):
+            return True
+        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
+
+    def _has_object(self, ahead: int = 0) -> bool:
+        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
+        token = self._token(ahead)
+        return token.text.endswith("s") and self._token(ahead + 1).has("articles")

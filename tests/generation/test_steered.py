@@ -1,0 +1,199 @@
+"""Videos that follow a scene: control videos, agreement, motion and truth, without a network."""
+
+import dataclasses
+from fractions import Fraction
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from texvent._registry import GENERATORS
+from texvent.capture.prepare import PreparedFrames
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError
+from texvent.frames import Video
+from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
+from texvent.generation.steered_video import SteeredVideo
+from texvent.generation.video_models.controls import PIPELINES, check_control
+from texvent.generation.video_models.known_models import MODELS
+from texvent.pipeline import video_to_events
+from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
+from texvent.truth.source import TruthSource
+from texvent.video_check.control_agreement import measure_agreement
+
+SENTENCE = "a red car drives left past a tree"
+STEERED = {name: row for name, row in MODELS.items() if row.steering is not None}
+
+
+def stage(width=64, height=48):
+    kind = GENERATORS.load("procedural")
+    config = dataclasses.replace(kind.config_type(), fps=Fraction(16), duration=0.26)
+    return kind(config, seed=1, size=SensorSize(width, height)).generate(SENTENCE)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return stage()
+
+
+@pytest.fixture(scope="module")
+def rendered(scene):
+    return np.stack([np.clip(frame.pixels, 0, 255).astype(np.uint8) for frame in scene])
+
+
+def steer(scene, pixels):
+    """A video as a model would make it, of these pixels."""
+    video = Video(pixels, times_of(scene), scene.fps, {"generator": "test"})
+    shape = scene.fps, scene.size, scene.frame_count
+    return SteeredVideo(*shape, video.metadata, video=video, scene=scene)
+
+
+def truths(scene):
+    times = times_of(scene)
+    return [scene.ground_truth(*pair) for pair in zip(times, [*times[1:], times[-1]], strict=True)]
+
+
+def test_every_control_that_a_model_takes_is_drawn_frame_by_frame(scene):
+    taken = {control for one in PIPELINES.values() for control in one.controls}
+    assert taken == set(KINDS)
+    for kind in KINDS:
+        control = draw_control(scene, kind)
+        assert control.dtype == np.uint8
+        assert control.shape == (scene.frame_count, *scene.size.shape, 3)
+        assert len(np.unique(control)) > 1, kind
+
+
+def test_depth_is_inverse_over_the_clip_and_ids_are_flat_colours(scene):
+    known = truths(scene)
+    inverse = 1 / np.stack([one.depth for one in known]).astype(float)
+    wanted = np.rint(255 * (inverse - inverse.min()) / (inverse.max() - inverse.min()))
+    depth = draw_control(scene, "depth")
+    assert np.abs(depth - wanted[..., None]).max() <= 1
+    assert (depth[~np.isfinite(np.stack([one.depth for one in known]))] == 0).all()
+    ids = np.stack([one.instance for one in known])
+    colours = id_colours(int(ids.max()))
+    assert len(np.unique(colours, axis=0)) == len(colours)
+    assert np.array_equal(draw_control(scene, "ids"), colours[ids])
+
+
+def test_rest_is_white_and_motion_to_the_left_cyan(scene):
+    flow = draw_control(scene, "flow")
+    vectors = truths(scene)[0].flow
+    rests = np.hypot(*np.moveaxis(vectors, -1, 0)) == 0
+    left = vectors[..., 0] < 0.6 * np.nanmin(vectors[..., 0])
+    assert (flow[1][rests] == 255).all()
+    red, green, blue = np.median(flow[1][left], axis=0)
+    assert red < min(green, blue)
+    assert np.array_equal(flow[0], flow[1])
+
+
+def test_agreement_tells_a_video_of_the_scene_from_others(scene, rendered):
+    noise = np.random.default_rng(0).integers(0, 255, rendered.shape, np.uint8)
+    still = np.repeat(rendered[:1], len(rendered), axis=0)
+    own, other, resting, back, moved = (
+        measure_agreement(steer(scene, pixels).plain, scene)
+        for pixels in (rendered, noise, still, rendered[::-1], np.roll(rendered, 16, axis=2))
+    )
+    assert own["edges"] > 0.5
+    assert own["flow"] > 0.5
+    assert max(other.values()) < 0.3
+    assert resting["flow"] < 0.1
+    assert back["flow"] < 0.2
+    assert moved["edges"] < 0.5 * own["edges"]
+
+
+def test_truth_is_the_scenes_and_motion_leads_to_both_neighbours(scene, rendered):
+    video = steer(scene, rendered)
+    times = times_of(scene)
+    frames = list(video)
+    assert np.array_equal(np.stack([frame.pixels for frame in frames]), rendered)
+    for index, frame in enumerate(frames):
+        forward, backward = frame.motion.forward, frame.motion.backward
+        if index + 1 < len(frames):
+            wanted = scene.ground_truth(times[index], times[index + 1])
+            assert np.array_equal(forward, wanted.flow, equal_nan=True)
+            assert np.array_equal(frame.motion.depth, wanted.depth)
+        if index:
+            wanted = scene.ground_truth(times[index], times[index - 1])
+            assert np.array_equal(backward, wanted.flow, equal_nan=True)
+    assert frames[0].motion.backward is None
+    assert frames[-1].motion.forward is None
+    parts = ("flow", "flow-back", "depth", "ids", "boxes", "poses")
+    of_video, of_scene = (TruthSource(one, parts).at(frames[1], times[0], times[2])
+                          for one in (video, scene))  # fmt: skip
+    for part, row in of_scene.rows.items():
+        for name, values in row.items():
+            found = of_video.rows[part][name]
+            assert np.array_equal(found, values, equal_nan=part in ("flow", "flow-back")), part
+
+
+@pytest.mark.parametrize("kind", ["depth", "ids"])
+def test_events_of_a_model_that_returns_its_control_move_with_the_scene(scene, kind):
+    """Between two frames the control is drawn where it is at that instant, not blended."""
+    settings = resolve("generate", {"interpolate": "motion", "noise": "none", "fixed_count": 1})
+    run = video_to_events(steer(scene, draw_control(scene, kind)), settings)
+    between = [frame for frame, _ in run.steps() if not frame.is_source]
+    assert len(between) == scene.frame_count - 1
+    finer = SimpleNamespace(
+        fps=2 * scene.fps, frame_count=2 * scene.frame_count - 1, ground_truth=scene.ground_truth
+    )
+    there = draw_control(finer, kind).astype(float) @ [0.299, 0.587, 0.114]
+    for index, frame in enumerate(between):
+        ends = there[2 * index], there[2 * index + 2]
+        exact = there[2 * index + 1]
+        changed = np.abs(ends[1] - ends[0]) > 8
+        blended = np.abs((ends[0] + ends[1]) / 2 - exact)[changed].mean()
+        moved = np.abs(frame.luma - exact)[changed].mean()
+        assert moved < 0.5 * blended
+
+
+def test_truth_of_frames_that_are_fitted_to_a_sensor_is_that_of_the_part_it_sees(scene, rendered):
+    small = PreparedFrames(steer(scene, rendered), CaptureConfig(), size=SensorSize(24, 24))
+    frames = list(small)
+    times = times_of(scene)
+    parts = ("flow", "depth", "ids", "boxes", "poses", "events")
+    source = TruthSource(small, parts)
+    truth = source.at(frames[1], times[0], times[2])
+    window = slice(8, 56)
+    ids = scene.ground_truth(times[1], times[1]).instance[:, window]
+    assert np.array_equal(truth.rows["ids"]["instance"], ids[1::2, 1::2])
+    flow = scene.ground_truth(times[1], times[2]).flow[1::2, window][:, 1::2] / 2
+    assert np.allclose(truth.rows["flow"]["flow"], flow, equal_nan=True)
+    box = truth.rows["boxes"]["boxes"][0]
+    assert np.isfinite(truth.rows["boxes"]["visibility"]).all()
+    assert 0 <= box["x"] < box["x"] + box["w"] <= 24
+    fx, _, cx, _ = truth.rows["poses"]["intrinsics"]
+    whole = TruthSource(scene, parts).at(frames[1], times[0], times[2]).rows["poses"]["intrinsics"]
+    assert fx == pytest.approx(whole[0] / 2)
+    assert cx == pytest.approx(11.5)
+    points = np.array([[6.25, 12.25], [18.25, 20.25]])
+    wanted = scene.instances_at(times[1], points * 2 + [8, 0])
+    assert np.array_equal(source.video.instances_at(times[1], points), wanted)
+
+
+@pytest.mark.parametrize("name", STEERED)
+def test_controls_lengths_and_sizes_that_a_row_does_not_take_are_refused_before_loading(name):
+    row = STEERED[name]
+    lora = {"lora": ("x.safetensors",)} if row.steering.needs_lora else {}
+    usual = dataclasses.replace(GENERATORS.load(name).config_type(), **lora)
+    assert (usual.frames - 1) % row.steering.step == 0
+    assert usual.control == row.steering.controls[0]
+    check_control(row, usual)
+    faults = {"frames": usual.frames + 1, "width": usual.width + 8, "control": None}
+    if row.longest is not None:
+        faults |= {"frames ": row.longest + row.steering.step}
+    for control in set(KINDS) - set(row.steering.controls):
+        faults |= {f"control{' ' * (1 + len(faults))}": control}
+    for option, value in faults.items():
+        with pytest.raises(ConfigError, match=f"{option.strip()} is .*{name} "):
+            check_control(row, dataclasses.replace(usual, **{option.strip(): value}))
+    if lora:
+        with pytest.raises(ConfigError, match="follows a scene by a LoRA, and none is given"):
+            check_control(row, dataclasses.replace(usual, lora=()))
+
+
+def test_a_model_that_follows_no_scene_says_which_do():
+    config = dataclasses.replace(GENERATORS.load("wan-1.3b").config_type(), look="rain")
+    with pytest.raises(ConfigError, match=r"wan-1\.3b follows no scene; models that do: wan-vace"):
+        check_control(MODELS["wan-1.3b"], config)
