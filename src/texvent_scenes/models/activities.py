@@ -58,7 +58,7 @@ class KeyTrack:
 
 
 @dataclass(frozen=True)
-class Track:
+class ChannelTrack:
     """Channels of a body over time."""
 
     series: Mapping[str, tuple[Series, ...]]
@@ -90,13 +90,13 @@ def _sum_up(series: Series, time_s: float) -> float:
     return total
 
 
-def read_track(row: Mapping[str, Any]) -> Track:
+def read_track(row: Mapping[str, Any]) -> ChannelTrack:
     """A track of a table: its channels, and those under `keys`, one table or several."""
     own = {name: value for name, value in row.items() if name != "keys"}
     series = {name: tuple(map(_series, _numbers(name, value))) for name, value in _channels(own)}
     tables = row.get("keys", [])
     tables = [tables] if isinstance(tables, Mapping) else tables
-    return Track(series, tuple(_read_keys(table) for table in tables))
+    return ChannelTrack(series, tuple(_read_keys(table) for table in tables))
 
 
 def _read_keys(table: Mapping[str, Any]) -> KeyTrack:
@@ -243,7 +243,7 @@ def motion_of(table: str, activity: str) -> dict[str, Any]:
 
 
 @cache
-def _find_track(table: str, activity: str) -> Track:
+def _find_track(table: str, activity: str) -> ChannelTrack:
     rows = read_table(table)
     usual = rows.get(USUAL, {})
     return read_track({**usual, **motion_of(table, activity if activity in rows else "stand")})

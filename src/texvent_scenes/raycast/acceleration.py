@@ -51,6 +51,15 @@ CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], 
 """[8, 3] corners of the box around a unit shape."""
 
 
+class ImagePlane(NamedTuple):
+    """Image without distortion that holds all rays."""
+
+    size: SensorSize
+    coarsest_angle: float = 1.0
+    coarsest_step: float = 1.0
+    """These two as `lens.LensReach` has them."""
+
+
 class Bins(NamedTuple):
     """Shapes that may lie in each cell of a grid: `items[start[cell] : start[cell + 1]]`."""
 
@@ -207,29 +216,20 @@ def build_world(
     if getattr(numba.config, "DISABLE_JIT", False):
         # Python takes the fields of these alone as attributes.
         instant = instant.view(np.recarray)
-    plane_size, coarseness = size, (1.0, 1.0)
+    plane = ImagePlane(size)
     if lens is not None and lens.distortion != "none":
-        plane_size, coarseness = _describe_distortion(instant[0], lens, size)
+        plane = _describe_distortion(instant[0], lens, size)
     shapes = np.zeros(len(primitives.shape), dtype=SHAPE_RECORD)
     describe_rays(instant[0], rays)
     describe_surroundings(instant[0], environment, shadows)
     describe_materials(instant, shapes, primitives, environment)
     surfaces = describe_surfaces(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
-    is_round = primitives.shape == Shape.ELLIPSOID
-    bounds, depth = screen_bounds(is_round, primitives.to_world, rays, plane_size)
-    shapes["kind"] = primitives.shape
     shapes["inverse"] = inverse
-    shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
     shapes["sun"] = inverse[:, :, :3] @ instant["sun"][0]
-    shapes["depth"] = depth
-    shapes["window"] = bounds + coarseness[1] * WINDOW_MARGIN_PX * np.array([-1.0, 1.0, -1.0, 1.0])
-    wanted = _wanted_widths(primitives, rays, coarseness[0] * THIN_PROBES / samples)
-    shapes["shrink"] = np.minimum(shapes["extent"] / wanted[:, None], 1.0)
-    shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
-    shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
+    wanted = _describe_view(shapes, primitives, rays, plane, samples)
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
-    tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
+    tiles = _tile_lists(shapes["window"] - corner, shapes["depth"], exists, plane.size)
     casts = exists & (np.asarray(primitives.emission) <= 0.0) & (instant["shadows"] != 0)
     sun_cells = _describe_sun_cells(instant[0], shapes, primitives, casts, wanted)
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
@@ -244,6 +244,29 @@ def build_world(
         glows=np.zeros(0, dtype=GLOW_RECORD),
         mirrored=list_mirrored(primitives, inverse, environment),
     ).addressed()
+
+
+def _describe_view(
+    shapes: NDArray[Any], primitives: Primitives, rays: Rays, plane: ImagePlane, samples: int
+) -> Float64Array:
+    """Write how shapes stand before the camera, by their inverse maps and extents in the records.
+
+    Returns:
+        [n] widths that thin shapes are widened to, m.
+    """
+    is_round = primitives.shape == Shape.ELLIPSOID
+    bounds, depth = screen_bounds(is_round, primitives.to_world, rays, plane.size)
+    margin = plane.coarsest_step * WINDOW_MARGIN_PX
+    inverse = shapes["inverse"]
+    shapes["kind"] = primitives.shape
+    shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
+    shapes["depth"] = depth
+    shapes["window"] = bounds + margin * np.array([-1.0, 1.0, -1.0, 1.0])
+    wanted = _wanted_widths(primitives, rays, plane.coarsest_angle * THIN_PROBES / samples)
+    shapes["shrink"] = np.minimum(shapes["extent"] / wanted[:, None], 1.0)
+    shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
+    shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
+    return wanted
 
 
 def _describe_sun_cells(
@@ -271,20 +294,14 @@ def _describe_sun_cells(
     return cells
 
 
-def _describe_distortion(
-    instant: NDArray[Any], lens: Lens, size: SensorSize
-) -> tuple[SensorSize, tuple[float, float]]:
-    """Write the lens into the record.
-
-    Returns:
-        Size of the image without distortion that holds all rays, and how much coarser its
-        pixels may be: in angle, and in pixels of that image.
-    """
+def _describe_distortion(instant: NDArray[Any], lens: Lens, size: SensorSize) -> ImagePlane:
+    """Write the lens into the record."""
     reach = lens_reach(lens, size)
     left, top = (math.floor(edge) - 1 for edge in reach.plane[:2])
     right, bottom = (math.ceil(edge) + 1 for edge in reach.plane[2:])
     describe_lens(instant, lens, (left, top))
-    return SensorSize(right - left, bottom - top), (reach.coarsest_angle, reach.coarsest_step)
+    plane = SensorSize(right - left, bottom - top)
+    return ImagePlane(plane, reach.coarsest_angle, reach.coarsest_step)
 
 
 def _join_lists(first: Bins, second: Bins) -> NDArray[np.int32]:

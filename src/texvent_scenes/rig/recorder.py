@@ -15,11 +15,11 @@ from texvent.runtime.displays.progress_option import ProgressOption, open_progre
 from texvent.runtime.progress import Progress
 from texvent.settings.resolution import Settings, resolve
 from texvent_scenes.rig.config import RigConfig
-from texvent_scenes.rig.layouts import bag, dsec, native
+from texvent_scenes.rig.layouts import bag, dsec, hdf5
 from texvent_scenes.rig.layouts.parts import FACTS, Tally, write_facts
 from texvent_scenes.rig.recording import prepare_recording
 
-LAYOUTS = {"hdf5": native, "dsec": dsec, "rosbag1": bag, "mcap": bag}
+LAYOUTS = {"hdf5": hdf5, "dsec": dsec, "rosbag1": bag, "mcap": bag}
 """By the name that option `layout` takes: modules with `check`, which refuses rigs that the layout
 cannot hold before any work, and `write`, which fills an empty folder."""
 

@@ -124,6 +124,50 @@ def _crossing_share(start: tl.tensor, stop: tl.tensor, level: tl.tensor, is_on: 
 
 
 @triton.jit
+def _fire(
+    made: tl.tuple,
+    frame: tl.tuple,
+    levels: tl.tuple,
+    state: tl.tuple,
+    shape: tl.tuple,
+    PASS: tl.constexpr,
+) -> tl.tuple:
+    """Events of pixels between two frames.
+
+    Args:
+        made: as `scan_clips` has it.
+        frame: window, when it opened, time of the first frame, and from it to the second, in us.
+        levels: brightness over the reference at both frames, signed step, and how many are crossed.
+        state: pixels, when they fired last, their refractory period, and the next event's place.
+        shape: area, bins.
+        PASS: count, add or write.
+
+    Returns:
+        When the pixels fired last, and the next event's place.
+    """
+    window, opened_us, start_us, duration = frame
+    start, stop, step, number = levels
+    at, fired_us, refractory_us, place = state
+    area, _ = shape
+    for k in range(tl.max(number)):
+        share = _crossing_share(start, stop, (k + 1) * step, step > 0)
+        t_us = start_us + tl.minimum(tl.floor(share * duration), duration - 1.0).to(tl.int64)
+        fires = (k < number) & (t_us - fired_us >= refractory_us)
+        fired_us = tl.where(fires, t_us, fired_us)
+        if PASS == _ADD:
+            _add_event(made, window, (at, t_us, step > 0, fires), opened_us, shape)
+        elif PASS == _COUNT:
+            tl.atomic_min(made[0] + window, tl.min(tl.where(fires, t_us, 2**62)))
+            tl.atomic_max(made[1] + window, tl.max(tl.where(fires, t_us, 0)))
+        else:
+            rank = tl.cumsum(fires.to(tl.int64), 0) - fires.to(tl.int64)
+            word = ((t_us * area + at) << 1) | (step > 0).to(tl.int64)
+            tl.store(made[6] + place + rank, word, mask=fires)
+        place += tl.sum(fires.to(tl.int64))
+    return fired_us, place
+
+
+@triton.jit
 def scan_clips(
     clips: tl.tuple,
     made: tl.tuple,
@@ -176,21 +220,9 @@ def scan_clips(
         now = tl.load(table + byte.to(tl.int32))
         stop, start = now - reference, before - (reference + (noise + hot))
         step, number = _count_steps(stop, on, off, inside)
-        for k in range(tl.max(number)):
-            share = _crossing_share(start, stop, (k + 1) * step, step > 0)
-            t_us = start_us + tl.minimum(tl.floor(share * duration), duration - 1.0).to(tl.int64)
-            fires = (k < number) & (t_us - fired_us >= refractory_us)
-            fired_us = tl.where(fires, t_us, fired_us)
-            if PASS == _ADD:
-                _add_event(made, window, (at, t_us, step > 0, fires), opened_us, (area, bins))
-            elif PASS == _COUNT:
-                tl.atomic_min(made[0] + window, tl.min(tl.where(fires, t_us, 2**62)))
-                tl.atomic_max(made[1] + window, tl.max(tl.where(fires, t_us, 0)))
-            else:
-                rank = tl.cumsum(fires.to(tl.int64), 0) - fires.to(tl.int64)
-                word = ((t_us * area + at) << 1) | (step > 0).to(tl.int64)
-                tl.store(made[6] + place + rank, word, mask=fires)
-            place += tl.sum(fires.to(tl.int64))
+        frame, levels = (window, opened_us, start_us, duration), (start, stop, step, number)
+        state = at, fired_us, refractory_us, place
+        fired_us, place = _fire(made, frame, levels, state, (area, bins), PASS)
         reference += number.to(tl.float64) * step
         before = now
     if PASS == _COUNT:

@@ -17,7 +17,7 @@ from texvent_scenes.models.activities import (
     SEATED,
     SINGLE_ACTS,
     USUAL,
-    Track,
+    ChannelTrack,
     Values,
     ease,
     flattened,
@@ -90,7 +90,7 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Va
 
 
 @cache
-def _find_track(activity: str) -> Track | None:
+def _find_track(activity: str) -> ChannelTrack | None:
     row = motion_of("activities", activity)
     return read_track(row) if row else None
 
@@ -105,9 +105,9 @@ def _read_channels(values: Values) -> Values:
             name: values.get(f"{limb}.{name}", values.get(f"{both}.{name}"))
             for name in (end, "elbow", "knee", "pitch", "fixed")
         }
-        if said[end] is not None:
+        if (at := said[end]) is not None:
             is_free = both == "arms" and said["fixed"] is None
-            found |= place_limb(limb, said[end], said["elbow"] or said["knee"],
+            found |= place_limb(limb, at, said["elbow"] or said["knee"],
                                 is_free=is_free, pitch=(said["pitch"] or (0.0,))[0])  # fmt: skip
     return found
 

@@ -128,7 +128,7 @@ def add_up(terms: Iterable[Term], time_s: float) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class Anchor:
+class Attachment:
     """Axes that another body carries: its own, those of a named place, or of a part."""
 
     carrier: Track
@@ -165,7 +165,7 @@ class Track:
     """`BodyState.pivot_m` of what does not roll."""
     is_facing: bool = False
     """Whether it shows its front to the camera all along."""
-    anchor: Anchor | None = None
+    anchor: Attachment | None = None
     """Carries it up to `release_s`."""
     release_s: float = math.inf
     activity: str | None = None
@@ -262,7 +262,7 @@ def attached(
     axes: Callable[[float], Float64Array] | None = None,
 ) -> Track:  # fmt: skip
     """A track fixed to axes that a body carries, else to its own: `offset` [3, 4] is in them."""
-    anchor = Anchor(carrier, axes or (lambda time_s: carrier.at(time_s).to_world()), offset)
+    anchor = Attachment(carrier, axes or (lambda time_s: carrier.at(time_s).to_world()), offset)
     return Track((0.0, 0.0, 0.0), anchor=anchor, activity=activity)
 
 
