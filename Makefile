@@ -23,7 +23,7 @@ AUDIT_TOOLS := cyclonedx-bom pip-audit reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
 BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
 SBOM_OUT ?= dist/texvent.cdx.json
-PROMPT ?= a man juggles four balls at night
+PROMPT ?= a white horse trots past a tree at dusk
 DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
