@@ -55,10 +55,11 @@ IN_PYTHON := $(addprefix tests/, simulation/kernels simulation/crossing simulati
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo picture test nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
+	@echo "make picture the demo, and README's picture of it"
 	@echo "make test    the default test suite, of texvent and of lab/"
 	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
 	@echo "make coverage     make test, with the share of the code that it runs; fails below the floor"
@@ -88,6 +89,9 @@ demo: $(VENV)/.base
 	@mkdir -p $(dir $(DEMO_OUT))
 	$(VENV)/bin/texvent generate "$(PROMPT)" --duration 1 -o $(DEMO_OUT) --overwrite
 	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
+
+picture: demo
+	cp $(basename $(DEMO_OUT)).events.png docs/images/demo.png
 
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5
