@@ -45,7 +45,7 @@ PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 # Empty: all combinations of rows of tables, and the long tests whole.
-BRIEF ?= --brief
+BRIEF ?= --brief --hypothesis-profile brief
 # Seconds after which one of the long tests hangs.
 UNHURRIED := --timeout 3600 -o faulthandler_timeout=3660
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt

@@ -83,14 +83,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--brief",
         action="store_true",
-        help="of a test over several tables so many combinations that each row has its turn, of "
-        "one marked long an eighth of the rows, of properties 20 examples",
+        help="of a test over several tables, so many combinations that each row has its turn; of "
+        "one marked long, an eighth of the rows",
     )
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    if config.getoption("brief"):
-        settings.load_profile("brief")
 
 
 def choose_rows(items: list[pytest.Item]) -> set[str]:

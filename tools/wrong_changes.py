@@ -21,6 +21,8 @@ SCENES = "texvent_scenes"
 """The package beside it, whose tests are in tests/scenes."""
 ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
 """Tests of every file, after those that are near it."""
+ALWAYS_OF_SCENES = ("tests/scenes/golden/test_golden_scenes.py",)
+"""Of every file of `SCENES`, too."""
 MOST_TESTS = 60
 """Files of tests that a change is held to, the nearest first."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
@@ -347,5 +349,6 @@ def near_tests(file: str, root: Path) -> list[str]:
     for one in importing:
         if one.is_relative_to(SOURCES.parent):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
-    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
-    return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]
+    last = (*(ALWAYS_OF_SCENES if inner.parts[0] == SCENES else ()), *ALWAYS)
+    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in last]
+    return near[:MOST_TESTS] + [one for one in last if (root / one).exists()]

@@ -1,6 +1,7 @@
 """The camera: how near it goes, its moves, and the route that it travels."""
 
 import math
+import re
 from typing import get_args
 
 import numpy as np
@@ -176,3 +177,21 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
     gaps = np.array(depths)
     np.testing.assert_allclose(gaps[:, 0], gaps[0, 0], atol=0.05)
     assert gaps[0, 1] - gaps[2, 1] > 20.0
+
+
+@pytest.mark.parametrize(
+    ("noun", "motion"),
+    [("bullet", Motion("fly", "left", speed_m_s=200)), ("arrow", Motion("rise", speed_m_s=100))],
+)
+def test_who_crosses_the_view_is_in_it_for_as_long_as_is_said(noun, motion):
+    staged = stage(SceneObject(noun, motions=(motion,)))
+    (note,) = staged.camera_path.notes
+    lasts_s, from_s = map(float, re.findall(r"[\d.]+(?= s\b)", note))
+    times = np.linspace(0.9, 1.1, 4001)
+    corners = [project(staged.camera(time), SIZE, staged.actors[0].corners(time)) for time in times]
+    low, high = (np.array([end(one, axis=0) for one in corners]) for end in (np.min, np.max))
+    is_seen = ((high[:, :2] > 0) & (low[:, :2] < [SIZE.width, SIZE.height])).all(axis=1)
+    seen_s = times[is_seen & (low[:, 2] > 0)]
+    # A ball around the body is said to cross.
+    assert np.ptp(seen_s) == pytest.approx(lasts_s, rel=0.3)
+    assert seen_s[0] == pytest.approx(from_s, abs=0.01)
