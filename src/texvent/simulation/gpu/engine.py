@@ -145,6 +145,7 @@ class GpuSimulator:
 
         Raises:
             ConfigError: an option or a model that only the CPU has, or a seed out of range.
+            InputError: a list of seeds holds something else than whole numbers.
         """
         self.config = config if config is not None else TexventConfig()
         self._seed = seed
@@ -165,6 +166,7 @@ class GpuSimulator:
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""
         self._clips: _ClipStates | None = None
+        self._is_broken = False
 
     def step(self, frames: Tensor, times_us: Any, is_source: Any = None) -> EventBatch:
         """Events between the last frame of the call before and the last of these.
@@ -183,17 +185,28 @@ class GpuSimulator:
 
         Raises:
             InputError: another shape, type or device than allowed or before, times that do not
-                increase, or an intensity that is NaN, infinite or negative. The state is then as
-                it was.
+                increase, or an intensity that is NaN, negative or too high: the state is then as
+                it was. Or a call before broke off, such as for want of memory.
             ConfigError: the frames are not on a GPU.
         """
         torch = require("torch", extra=EXTRA)
         _check_frames(torch, frames)
         clips = self._clips or self._begin(frames)
         _check_alike(clips, frames)
-        with on_device(frames.device), torch.no_grad():
-            span = clips.clock.read(frames.shape[1], times_us, is_source)
-            events = self._advance(clips, frames, span)
+        if self._is_broken:
+            raise InputError(
+                "a call before broke off and left the clips between two frames; call reset() and "
+                "give them again from their first"
+            )
+        span = clips.clock.read(frames.shape[1], times_us, is_source)
+        self._is_broken = True
+        try:
+            with on_device(frames.device), torch.no_grad():
+                events = self._advance(clips, frames, span)
+        except InputError:  # nothing has moved
+            self._is_broken = False
+            raise
+        self._is_broken = False
         clips.pixels.advance(span)
         clips.clock.advance()
         self._clips = clips
@@ -283,7 +296,8 @@ def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
         seeds = tuple(given.ravel().tolist())
         if given.ndim > 1 or (clips is not None and len(seeds) != clips):
             shape = " x ".join(map(str, given.shape))
-            raise ConfigError(f"there are {shape} seeds for {clips} clips; give one per clip")
+            count = "" if clips is None else f" for {clips} clips"
+            raise ConfigError(f"there are {shape} seeds{count}; give one per clip")
     for one in seeds:
         check_whole("seed", one, 0, 2**63 - 1)
     return seeds
