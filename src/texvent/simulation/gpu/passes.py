@@ -79,6 +79,7 @@ class GpuPixels(abc.ABC, Generic[Config]):
             ALIGN=call.align,
             BLOCK=self.block,
             num_warps=self._launch.warps,
+            maxnreg=self._launch.registers,
             **LAUNCH,
         )
 
