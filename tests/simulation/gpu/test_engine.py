@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.events import NOISE
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.simulator import EsimSimulator
@@ -192,6 +192,27 @@ def test_a_bad_intensity_is_refused_and_changes_nothing(device):
     whole = GpuSimulator().step(frames, times_us)
     late = whole.stream(1)
     assert again.stream(1).equals(late[late.t >= times_us[1, 1]])
+
+
+def test_frames_of_0_to_1_bring_a_warning_and_dark_ones_do_not(device):
+    frames = torch.linspace(0, 1, 6, device=device).reshape(1, 2, 1, 3)
+    simulator = GpuSimulator()
+    with pytest.warns(TexventWarning, match=r"above 1, while 255 is white: give frames \* 255"):
+        simulator.step(frames, [0, 1])
+    simulator.step(frames, [2, 3])
+    for quiet in (frames * 255, frames * 0, frames.to(torch.uint8)):
+        GpuSimulator().step(quiet, [0, 1])
+    GpuSimulator(is_scale_known=True).step(frames, [0, 1])
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_eq_4_counts_with_the_numbers_of_the_cpu(name):
+    model, config = MODELS[name]
+    expected, found = model(config), GpuSimulator(config)
+    assert (found.contrast_threshold, found.balance) == (
+        expected.contrast_threshold,
+        expected.balance,
+    )
 
 
 def test_a_call_that_breaks_off_leaves_nothing_to_go_on_with(device, monkeypatch):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._registry import SIMULATORS
 from texvent._require import require
 from texvent.config import check_whole
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, warn
 from texvent.events import EventStream
 from texvent.options.arrays import whole_numbers
 from texvent.represent.tensors import EventTensors
@@ -135,6 +135,7 @@ class GpuSimulator:
         config: TexventConfig | EsimConfig | PhysicalConfig | None = None,
         *,
         seed: int | Sequence[int] = 0,
+        is_scale_known: bool = False,
     ) -> None:
         """Prepare a simulator that has seen no frame.
 
@@ -142,13 +143,15 @@ class GpuSimulator:
             config: options of the model, whose type says which it is; default: Texvent's default
                 preset.
             seed: one per clip; or one number, and clip b has `seed + b`. 0..2⁶³−1.
+            is_scale_known: False: a warning where float frames are probably 0..1, for which the
+                host waits once.
 
         Raises:
             ConfigError: an option or a model that only the CPU has, or a seed out of range.
             InputError: a list of seeds holds something else than whole numbers.
         """
         self.config = config if config is not None else TexventConfig()
-        self._seed = seed
+        self._seed, self._is_scale_known = seed, is_scale_known
         _seeds_of(seed, None)  # refuses what is out of range
         self._model = SIMULATORS.load(find_model(self.config))(self.config)
         self.reset()
@@ -209,6 +212,8 @@ class GpuSimulator:
         self._is_broken = False
         clips.pixels.advance(span)
         clips.clock.advance()
+        if self._clips is None and not self._is_scale_known:
+            _check_scale(frames)
         self._clips = clips
         return events
 
@@ -312,6 +317,15 @@ def _check_frames(torch: Any, frames: Any) -> None:
         )
     if frames.dtype not in (torch.uint8, torch.float32):
         raise InputError(f"frames must be uint8 or float32; got {frames.dtype}")
+
+
+def _check_scale(frames: Tensor) -> None:
+    """Warn of frames that are probably 0..1."""
+    if frames.is_floating_point() and 0 < (highest := float(frames.max())) <= 1:
+        warn(
+            f"no pixel of the frames is above {highest:g}, while 255 is white: give frames * 255 "
+            "if 1 means white, or is_scale_known=True if they really are that dark"
+        )
 
 
 def _check_alike(clips: _ClipStates, frames: Tensor) -> None:
