@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.events import NOISE
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.simulator import EsimSimulator
@@ -183,7 +183,7 @@ def test_a_bad_intensity_is_refused_and_changes_nothing(device):
     frames = torch.from_numpy(clips).to(device)
     simulator = GpuSimulator()
     simulator.step(frames[:, :2], times_us[:, :2])
-    for value in (float("nan"), -1.0, float("inf")):
+    for value in (float("nan"), -1.0, 2e9):
         bad = frames[:, 2:].clone()
         bad[1, 1, 3, 3] = value
         with pytest.raises(InputError, match="have 1 pixel"):
@@ -192,6 +192,62 @@ def test_a_bad_intensity_is_refused_and_changes_nothing(device):
     whole = GpuSimulator().step(frames, times_us)
     late = whole.stream(1)
     assert again.stream(1).equals(late[late.t >= times_us[1, 1]])
+
+
+def test_frames_of_0_to_1_bring_a_warning_and_dark_ones_do_not(device):
+    frames = torch.linspace(0, 1, 6, device=device).reshape(1, 2, 1, 3)
+    simulator = GpuSimulator()
+    with pytest.warns(TexventWarning, match=r"above 1, while 255 is white: give frames \* 255"):
+        simulator.step(frames, [0, 1])
+    simulator.step(frames, [2, 3])
+    for quiet in (frames * 255, frames * 0, frames.to(torch.uint8)):
+        GpuSimulator().step(quiet, [0, 1])
+    GpuSimulator(is_scale_known=True).step(frames, [0, 1])
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_eq_4_counts_with_the_numbers_of_the_cpu(name):
+    model, config = MODELS[name]
+    expected, found = model(config), GpuSimulator(config)
+    assert (found.contrast_threshold, found.balance) == (
+        expected.contrast_threshold,
+        expected.balance,
+    )
+
+
+def test_a_call_that_breaks_off_leaves_nothing_to_go_on_with(device, monkeypatch):
+    clips, times_us = random_clips(np.uint8)[..., :4, :4].copy(), random_times()
+    early, late = slice(0, 2), slice(2, None)
+    frames = torch.from_numpy(clips).to(device)
+    simulator = GpuSimulator(seed=np.uint8(5))
+    expected = simulator.step(frames, times_us).stream(1)
+    simulator.reset()
+    simulator.step(frames[:, early], times_us[:, early])
+    with monkeypatch.context() as patch:
+        patch.setattr(torch, "sort", lambda words: bytearray(2**62))
+        with pytest.raises(MemoryError):
+            simulator.step(frames[:, late], times_us[:, late])
+    with pytest.raises(InputError, match=r"call reset\(\)"):
+        simulator.step(frames[:, late], times_us[:, late])
+    simulator.reset()
+    assert simulator.step(frames, times_us).stream(1).equals(expected)
+
+
+@pytest.mark.parametrize(
+    ("seed", "message"),
+    [
+        (-1, "seed is -1; it must be"),
+        (0.5, "seed is 0.5; it must be"),
+        ([0, 0.5], "must hold one whole number per clip"),
+        ([0, -1], "seed is -1; it must be"),
+        ([[1, 2]], "there are 1 x 2 seeds; give one per clip"),
+        ([1, 2, 3], "there are 3 seeds for 2 clips"),
+    ],
+)
+def test_seeds_that_are_no_whole_number_per_clip_are_refused(seed, message, device):
+    frames = torch.zeros(2, 1, 3, 4, dtype=torch.uint8, device=device)
+    with pytest.raises((ConfigError, InputError), match=message):
+        GpuSimulator(seed=seed).step(frames, [0])
 
 
 @pytest.mark.parametrize(
@@ -203,6 +259,7 @@ def test_a_bad_intensity_is_refused_and_changes_nothing(device):
         (torch.zeros(1, 2, 3, 4), [0, 0], "strictly increase"),
         (torch.zeros(1, 2, 3, 4), [0], r"must be \[2\] or \[1, 2\]"),
         (torch.zeros(1, 2, 3, 4), [0.0, 0.5], "whole microseconds"),
+        (torch.zeros(1, 2, 3, 4), [0, 2**60], "1152921504606846976 µs, beyond"),
     ],
 )
 def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, message, device):

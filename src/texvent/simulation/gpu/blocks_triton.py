@@ -5,6 +5,7 @@ from __future__ import annotations
 import triton
 import triton.language as tl
 
+from texvent.frames import HIGHEST_INTENSITY
 from texvent.simulation.gpu import kernel_types
 from texvent.simulation.random import draws
 
@@ -37,6 +38,7 @@ def to_uniform(word: tl.tensor) -> tl.tensor:
     return (word >> 11).to(tl.float64) * _UNIT
 
 
+HIGHEST = tl.constexpr(HIGHEST_INTENSITY)
 _PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
 
 
@@ -100,11 +102,11 @@ def read_before(
 
 @triton.jit
 def count_bad(intensity: tl.tensor, inside: tl.tensor) -> tl.tensor:
-    """1 where an intensity is NaN, infinite or negative, int32."""
+    """1 where an intensity is NaN, negative or above `HIGHEST_INTENSITY`, int32."""
     if intensity.dtype == tl.int32:
         bad = tl.zeros(intensity.shape, tl.int32)
     else:
-        is_good = (intensity >= 0) & (intensity < float("inf"))
+        is_good = (intensity >= 0) & (intensity <= HIGHEST)
         bad = (inside & (is_good == 0)).to(tl.int32)
     return bad
 

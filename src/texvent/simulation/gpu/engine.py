@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._registry import SIMULATORS
 from texvent._require import require
 from texvent.config import check_whole
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, warn
 from texvent.events import EventStream
 from texvent.options.arrays import whole_numbers
 from texvent.represent.tensors import EventTensors
@@ -135,6 +135,7 @@ class GpuSimulator:
         config: TexventConfig | EsimConfig | PhysicalConfig | None = None,
         *,
         seed: int | Sequence[int] = 0,
+        is_scale_known: bool = False,
     ) -> None:
         """Prepare a simulator that has seen no frame.
 
@@ -142,12 +143,15 @@ class GpuSimulator:
             config: options of the model, whose type says which it is; default: Texvent's default
                 preset.
             seed: one per clip; or one number, and clip b has `seed + b`. 0..2⁶³−1.
+            is_scale_known: False: a warning where float frames are probably 0..1, for which the
+                host waits once.
 
         Raises:
             ConfigError: an option or a model that only the CPU has, or a seed out of range.
+            InputError: a list of seeds holds something else than whole numbers.
         """
         self.config = config if config is not None else TexventConfig()
-        self._seed = seed
+        self._seed, self._is_scale_known = seed, is_scale_known
         _seeds_of(seed, None)  # refuses what is out of range
         self._model = SIMULATORS.load(find_model(self.config))(self.config)
         self.reset()
@@ -165,6 +169,7 @@ class GpuSimulator:
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""
         self._clips: _ClipStates | None = None
+        self._is_broken = False
 
     def step(self, frames: Tensor, times_us: Any, is_source: Any = None) -> EventBatch:
         """Events between the last frame of the call before and the last of these.
@@ -183,19 +188,32 @@ class GpuSimulator:
 
         Raises:
             InputError: another shape, type or device than allowed or before, times that do not
-                increase, or an intensity that is NaN, infinite or negative. The state is then as
-                it was.
+                increase, or an intensity that is NaN, negative or too high: the state is then as
+                it was. Or a call before broke off, such as for want of memory.
             ConfigError: the frames are not on a GPU.
         """
         torch = require("torch", extra=EXTRA)
         _check_frames(torch, frames)
         clips = self._clips or self._begin(frames)
         _check_alike(clips, frames)
-        with on_device(frames.device), torch.no_grad():
-            span = clips.clock.read(frames.shape[1], times_us, is_source)
-            events = self._advance(clips, frames, span)
+        if self._is_broken:
+            raise InputError(
+                "a call before broke off and left the clips between two frames; call reset() and "
+                "give them again from their first"
+            )
+        span = clips.clock.read(frames.shape[1], times_us, is_source)
+        self._is_broken = True
+        try:
+            with on_device(frames.device), torch.no_grad():
+                events = self._advance(clips, frames, span)
+        except InputError:  # nothing has moved
+            self._is_broken = False
+            raise
+        self._is_broken = False
         clips.pixels.advance(span)
         clips.clock.advance()
+        if self._clips is None and not self._is_scale_known:
+            _check_scale(frames)
         self._clips = clips
         return events
 
@@ -283,7 +301,8 @@ def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
         seeds = tuple(given.ravel().tolist())
         if given.ndim > 1 or (clips is not None and len(seeds) != clips):
             shape = " x ".join(map(str, given.shape))
-            raise ConfigError(f"there are {shape} seeds for {clips} clips; give one per clip")
+            count = "" if clips is None else f" for {clips} clips"
+            raise ConfigError(f"there are {shape} seeds{count}; give one per clip")
     for one in seeds:
         check_whole("seed", one, 0, 2**63 - 1)
     return seeds
@@ -298,6 +317,15 @@ def _check_frames(torch: Any, frames: Any) -> None:
         )
     if frames.dtype not in (torch.uint8, torch.float32):
         raise InputError(f"frames must be uint8 or float32; got {frames.dtype}")
+
+
+def _check_scale(frames: Tensor) -> None:
+    """Warn of frames that are probably 0..1."""
+    if frames.is_floating_point() and 0 < (highest := float(frames.max())) <= 1:
+        warn(
+            f"no pixel of the frames is above {highest:g}, while 255 is white: give frames * 255 "
+            "if 1 means white, or is_scale_known=True if they really are that dark"
+        )
 
 
 def _check_alike(clips: _ClipStates, frames: Tensor) -> None:

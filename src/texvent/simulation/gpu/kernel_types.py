@@ -70,7 +70,7 @@ class PassCounts(NamedTuple):
     fired: Tensor
     """[S, area / 4 rounded up] uint8, or None: a bit per pixel that fired, lowest bit first."""
     bad: Tensor
-    """[1] int32: intensities that are NaN, infinite or negative; None in the second pass."""
+    """[1] int32: intensities that are refused; None in the second pass."""
 
 
 class Records(NamedTuple):

@@ -65,6 +65,8 @@ class LaunchSize(NamedTuple):
     """Pixels of a program, at least 8."""
     warps: int
     """Threads of a program, in groups of 32."""
+    registers: int | None = None
+    """Most registers of a thread; None: as the compiler likes."""
 
 
 LEVELS_LAUNCH = LaunchSize(128, 1)
@@ -74,8 +76,9 @@ BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
 """Launch of Texvent's scan by brightness."""
 RAMP_LAUNCH = LaunchSize(512, 4)
 """Launch of ESIM's scan."""
-CIRCUIT_LAUNCH = LaunchSize(32, 1)
-"""Launch of the `physical` model's scan. A thread per pixel: those that may fire hold up few."""
+CIRCUIT_LAUNCH = LaunchSize(32, 1, registers=168)
+"""Launch of the `physical` model's scan. A thread per pixel: those that may fire hold up few. Left
+alone, the compiler takes 128 registers and spills others."""
 RECORD_BLOCK = 512
 """Records that a program takes at a time to give them times or order them."""
 

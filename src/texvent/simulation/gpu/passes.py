@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
+from texvent.frames import HIGHEST_INTENSITY
 from texvent.simulation.gpu.intervals import Float64Array, Span
 from texvent.simulation.gpu.kernel_types import (
     PIXELS_PER_MARK,
@@ -78,6 +79,7 @@ class GpuPixels(abc.ABC, Generic[Config]):
             ALIGN=call.align,
             BLOCK=self.block,
             num_warps=self._launch.warps,
+            maxnreg=self._launch.registers,
             **LAUNCH,
         )
 
@@ -117,7 +119,7 @@ def run_passes(
         on_resting: whether noise falls on dark, resting pixels only.
 
     Raises:
-        InputError: an intensity is NaN, infinite or negative; the state is then as before.
+        InputError: an intensity is NaN, negative or too high; the state is then as before.
     """
     torch = require("torch", extra=EXTRA)
     device, area = call.frames.pixels.device, call.frames.area
@@ -172,6 +174,7 @@ def scan_counts(counts: Tensor, segments: int) -> tuple[Tensor, Tensor]:
 def _refuse_bad(bad: int) -> None:
     if bad:
         raise InputError(
-            f"the frames have {bad} pixel(s) that are NaN, infinite or negative; intensities must "
-            "be finite and at least 0"
+            f"the frames have {bad} pixel(s) that are NaN, negative or above "
+            f"{HIGHEST_INTENSITY:g}; intensities must be 0..{HIGHEST_INTENSITY:g}, where 255 is "
+            "white"
         )

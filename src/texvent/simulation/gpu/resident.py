@@ -35,7 +35,7 @@ class ResidentSimulator:
             device: torch.device of the kernels.
         """
         self._model, self._device = model, device
-        self._kernels = GpuSimulator(config, seed=seed)
+        self._kernels = GpuSimulator(config, seed=seed, is_scale_known=True)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._model, name)

@@ -107,7 +107,8 @@ def advance_together(
             is_first = kernels is None
             if kernels is None:
                 begun = [(number, one) for number, one in begun if one.frames]
-                kernels = GpuSimulator(config, seed=[seeds[number] for number, _ in begun])
+                own = [seeds[number] for number, _ in begun]
+                kernels = GpuSimulator(config, seed=own, is_scale_known=True)
             packets = _step(kernels, [one for _, one in begun], min(counts), is_first)
         for (number, one), made in zip(begun, packets, strict=True):
             if not all(take(number, frame, packet) for frame, packet in made):

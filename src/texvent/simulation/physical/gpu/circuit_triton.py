@@ -97,9 +97,7 @@ def scan_circuit(
             level = before - level
             since_us = tl.zeros([BLOCK], tl.int64) + start_us
         cell = find_cell(tally, segment)
-        place = tl.full([], 0, tl.int64)
-        if tally.bad is None:
-            place = tl.load(cell)
+        place = tl.load(cell) if tally.bad is None else tl.full([], 0, tl.int64)
         output, level, since, number, arrival, place = _advance_interval(
             (at, inside, frames.area),
             (before, now, cutoff, cutoff_now),

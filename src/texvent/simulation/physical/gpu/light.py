@@ -8,6 +8,7 @@ import numpy as np
 import triton
 import triton.language as tl
 
+from texvent.simulation.gpu.blocks_triton import HIGHEST
 from texvent.simulation.gpu.elementary_triton import exponential, natural_log
 from texvent.simulation.gpu.kernel_types import Tensor
 from texvent.simulation.gpu.launch import to_device
@@ -76,7 +77,7 @@ _WHITE, _ALMOST_BLACK = tl.constexpr(circuit.WHITE), tl.constexpr(circuit.ALMOST
 @triton.jit
 def _linearize(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
     """See `circuit.linearize`; float64. 0 for intensities that are refused after the pass."""
-    is_good = (intensity >= 0) & (intensity < float("inf"))
+    is_good = (intensity >= 0) & (intensity <= HIGHEST)
     level = tl.where(is_good, intensity, 0.0).to(tl.float64)
     if rules.is_coded:
         gamma = tl.load(rules.numbers + _GAMMA)
