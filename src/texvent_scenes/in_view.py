@@ -56,8 +56,9 @@ _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
 _TURNS, _RESTS = ("spin", "work", "rotate"), ("stand", "hang", "work", "sit", "lie")
 """Motions that only a picture tells, and those that nothing needs to show."""
-_INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
-"""Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
+_INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
+"""Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
+both, no usual rate makes whole turns."""
 _SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
 """Fields of a place that pictures must show."""
 
@@ -167,7 +168,8 @@ def _find_unshown(
     yield from _find_rest(scene, description, times)
     turning = [one for one in description.objects
                if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
-    if turning and not description.camera.is_moving and not _differs(scene, scene, times, _LATER_S):
+    is_still = turning and not description.camera.is_moving
+    if is_still and not any(_differs(scene, scene, times, later_s) for later_s in _LATER_S):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
     alike = (one for one in PLACES.values() if one.ground is place.ground)

@@ -28,6 +28,8 @@ _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "p
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
+_ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
+"""Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
@@ -98,8 +100,13 @@ def find_violations(
             said = one.kind.replace("front", "in front of")
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
+    passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
+        side = _ON_SIDES.get(thing.placement or "", 0.0) if index not in passing else 0.0
+        if own and side and not any(np.mean(side * one.seen[:, 0]) > _ASIDE for one in own):
+            yield Violation("placement", str(thing.placement), f"{names[index]} on the "
+                            f"{thing.placement}")  # fmt: skip
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
             axis, sign = _AXES[motion.direction]

@@ -131,6 +131,11 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a dog in falling snow", "falling snow", None),
         ("a cloudy sky over a field", "cloudy", None),
         ("a ball spins", "spins", None),
+        ("a propeller at 6000 rpm", "6000 rpm", None),
+        ("a man on the right waves", "on the right", "the man on the right"),
+        ("a red ball on the left and a cube on the right", "on the right", None),
+        ("a dog on a wet road", "wet", None),
+        ("a dog in a wet forest", "wet", "wet"),
     ],
 )
 def test_a_word_is_reported_unless_the_picture_shows_it(prompt, word, line):
