@@ -308,7 +308,7 @@ def flags_of(texts: Mapping[str, str]) -> list[str]:
     """Flags of the page's fields."""
     names = ["simulator", "preset", "sensor", "seed", "palette"]
     if not texts.get("video"):
-        names += ["generator", "duration", "frames"]
+        names += ["generator", "duration", "frames", "fps"]
     return [f"--{name}={texts[name]}" for name in names if texts.get(name)]
 
 
@@ -318,9 +318,14 @@ def _words(query: Mapping[str, str]) -> Answer:
 
 
 def list_generators() -> dict[str, dict[str, Any]]:
-    """Generators by name: option that sets the length of the video, its default, and a note."""
+    """Generators by name: option that sets the length of the video, its default, and a note.
+
+    Those that need an image are left out.
+    """
     found = {}
     for name in GENERATORS.names():
+        if name in MODELS and MODELS[name].needs_image:
+            continue
         source = read_basis("generate", {"generator": name}).defaults.source
         length = "duration" if "duration" in option_names(type(source)) else "frames"
         note = (GENERATORS.load(name).__doc__ or "").strip().splitlines()[0]

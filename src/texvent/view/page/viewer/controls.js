@@ -97,5 +97,7 @@ const startPage = () => {
 startPage();
 // A page that frames this one may make room for all of it.
 if (parent !== window) {
-  new ResizeObserver(() => parent.postMessage({ height: document.body.offsetHeight }, "*")).observe(document.body);
+  const tell = () => parent.postMessage({ height: document.body.offsetHeight }, "*");
+  tell(); // out of sight nothing is observed
+  new ResizeObserver(tell).observe(document.body);
 }
