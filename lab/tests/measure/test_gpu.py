@@ -9,10 +9,12 @@ import pytest
 torch = pytest.importorskip("torch")
 pytest.importorskip("triton")
 
+from texvent.generation.video_models.known_models import MODELS  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 from texvent.simulation.gpu.support import MODELS, RunDevice  # noqa: E402
 from texvent_lab.measure import gpu  # noqa: E402
 from texvent_lab.measure.generated_video import Wan, measure_generated  # noqa: E402
+from texvent_lab.measure.real_size import PUBLISHED, RealSize, measure_real_size  # noqa: E402
 
 pytestmark = pytest.mark.torch
 TINY = SensorSize(24, 16)
@@ -60,6 +62,17 @@ def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
         assert (row["frames"], row["size"]) == (5, "16x16")
         assert 0 < row["check_s"] < row["last_event_s"]
         assert row["file_s"] > 0
+
+
+@pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
+def test_a_model_of_real_size_goes_from_its_files_to_events():
+    pytest.importorskip("diffusers")
+    size = RealSize(2, 12, 2, 32, 32, 1, 4)
+    shape = {"frames": 5, "width": 32, "height": 32, "steps": 2, "on_failure": "ignore"}
+    row = measure_real_size("wan-vace-1.3b", size, "cpu", **shape)
+    assert (row["size"], row["frames"]) == ("32x32", 5)
+    assert {"loading", "denoise 2 of 2", "decode and check", "simulate"} <= set(row["seconds"])
+    assert set(PUBLISHED) <= set(MODELS)
 
 
 def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):

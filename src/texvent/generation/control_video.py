@@ -82,10 +82,10 @@ def id_colours(highest: int) -> Pixels:
 
     Example:
         >>> id_colours(2).tolist()
-        [[0, 0, 0], [45, 77, 230], [230, 209, 45]]
+        [[0, 0, 0], [46, 99, 230], [153, 230, 46]]
     """
     hues = [colorsys.hsv_to_rgb(number * HUE_STEP % 1, 0.8, 0.9) for number in range(highest + 1)]
-    colours = np.rint(255 * np.array(hues)).astype(np.uint8)
+    colours: Pixels = np.rint(255 * np.array(hues)).astype(np.uint8)
     colours[0] = 0
     return colours
 

@@ -143,6 +143,10 @@ class GeneratorOptions(TypedDict, total=False):
     negative_prompt: str | None
     image: str | Path | None
     lora: Sequence[str] | None
+    control: Literal["depth", "edges", "ids", "flow"] | None
+    look: str | None
+    scene_seed: int | None
+    least_agreement: float | None
     offload: Literal["auto", "none", "model", "sequential"] | None
 
 

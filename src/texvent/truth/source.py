@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
@@ -289,7 +289,7 @@ class FittedScene:
         self.size, self.fps, self.is_live = video.size, video.fps, video.is_live
         self.frame_count, self.metadata = video.frame_count, video.metadata
         self.class_names: Mapping[int, str] = getattr(scene, "class_names", {})
-        self._fitted = partial(fit_motion, size=self.size, fit=fit)
+        self._fitted: Callable[..., Any] = partial(fit_motion, size=self.size, fit=fit)
         self._scale, self._shift = fit_place(scene.size, self.size, fit)
         self._is_even = fit != "stretch"
 

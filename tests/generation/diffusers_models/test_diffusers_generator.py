@@ -330,6 +330,7 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
     assert "GPU memory 74 GB, 24.4 GB with --offload model, torch finds" in absent
+    assert absent.endswith("; download not known, time not known")
 
 
 def test_damaged_weights_are_one_line(models, tmp_path):

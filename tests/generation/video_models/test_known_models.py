@@ -30,7 +30,9 @@ def test_a_row_gives_its_own_defaults_to_the_options():
 
 def test_a_model_avoids_what_its_publishers_program_avoids_unless_told_otherwise():
     for name, row in known_models.MODELS.items():
-        assert bool(row.negative_prompt) == (name.startswith("wan") or name == "ltx"), name
+        assert bool(row.negative_prompt) == (
+            name.startswith(("wan", "cogvideox-fun")) or name == "ltx"
+        ), name
     assert "过曝" in resolve("generate", {"generator": "wan-14b"}).source.negative_prompt
     told = resolve("generate", {"generator": "wan-14b", "negative_prompt": ""})
     assert told.source.negative_prompt == ""
@@ -67,3 +69,11 @@ def test_a_copy_of_a_known_model_keeps_its_facts():
     mirror = GENERATORS.load("hub:mirror/CogVideoX-2b")
     assert mirror.config_type().fps == 8
     assert mirror.model.repo == "mirror/CogVideoX-2b"
+
+
+def test_minutes_and_downloads_of_a_row_have_a_source_and_are_told():
+    for row in known_models.MODELS.values():
+        known = bool(row.minutes) or row.download_gb is not None
+        assert known == bool(row.cost_source), row.name
+        assert ("not known" in row.cost) == (not row.minutes or row.download_gb is None)
+    assert "time about 4 min on RTX 4090" in known_models.MODELS["wan-1.3b"].cost

@@ -1,6 +1,6 @@
 """Time of the GPU backend, beside the copy bandwidth of the same GPU in the same run.
 
-    python -m texvent_lab.measure.gpu [--json FILE]
+    python -m texvent_lab.measure.gpu [--json FILE] [--real-size MODEL]
 
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
 wait for their number included. A few calls follow each other without another wait, as in a loop
@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import json
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -39,6 +40,7 @@ from texvent.simulation.gpu.support import MODELS, RunDevice, find_model
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure import stream
 from texvent_lab.measure.generated_video import Wan, measure_generated
+from texvent_lab.measure.real_size import PUBLISHED, measure_real_size
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
 HD = SensorSize(1280, 720)
@@ -322,6 +324,9 @@ def main() -> int:
     """Measure, print, write; 2 without a GPU."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.gpu")
     parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument(
+        "--real-size", choices=PUBLISHED, help="a model of published size, random weights, alone"
+    )
     chosen = parser.parse_args()
     if not require("torch", extra=EXTRA).cuda.is_available():
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
@@ -331,6 +336,12 @@ def main() -> int:
         if chosen.json is not None:
             write_document(chosen.json, document, overwrite=True)
 
+    if chosen.real_size is not None:
+        name = chosen.real_size
+        row = measure_real_size(name, PUBLISHED[name], "cuda", steps=8)
+        save(row)
+        print(json.dumps(row, indent=1))
+        return 0
     document = measure(Plan(), "cuda", save)
     print(as_markdown(document))
     return 0

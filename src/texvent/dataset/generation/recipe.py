@@ -137,7 +137,7 @@ class Recipe:
     def follows_scenes(self) -> bool:
         """True if a learned generator makes videos of scenes, which are known when simulated."""
         name = self.specification.options.get("generator", DEFAULT_GENERATOR)
-        part = None if self.items.are_videos else GENERATORS.load(name)
+        part: Any = None if self.items.are_videos else GENERATORS.load(name)
         return bool(getattr(part, "makes_whole_videos", False) and part.takes_scenes)
 
     @property

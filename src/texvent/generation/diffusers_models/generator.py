@@ -126,6 +126,9 @@ class DiffusersGenerator:
         else:  # all files are here: options that do not fit them are refused too
             self._prepare(NoProgress())
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
+        cost = self.model.cost
+        if config.frames != self.model.frames or config.steps != self.model.steps:
+            cost += f" (for {self.model.frames} frames, {self.model.steps} steps)"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
         device, free = resolve_device()
@@ -133,7 +136,7 @@ class DiffusersGenerator:
         return (
             f"the video is not made yet: {self.model.name} would make it"
             f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
-            f"; {self.model.memory}, torch finds {found}"
+            f"; {self.model.memory}, torch finds {found}; {cost}"
         )
 
     @property

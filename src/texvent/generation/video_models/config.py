@@ -134,6 +134,12 @@ class VideoModel:
     """GPU memory with every part on the device, GB, as makers or users report it."""
     offload_gb: float | None = None
     """GPU memory with parts moved to the device when used, GB."""
+    download_gb: float | None = None
+    """Size of its files, GB, where its publisher states it."""
+    minutes: Mapping[str, float] = field(default_factory=dict, hash=False)
+    """GPU → minutes for the row's frames, size and steps, where its publisher states them."""
+    cost_source: str = ""
+    """Publisher's file in which minutes and size of the files were read."""
     dtype: str = "bfloat16"
     """Number format on a GPU."""
     needs_float32_vae: bool = False
@@ -168,6 +174,13 @@ class VideoModel:
         parts = [f"{self.gpu_gb:g} GB"] if self.gpu_gb else []
         parts += [f"{self.offload_gb:g} GB with --offload model"] if self.offload_gb else []
         return f"GPU memory {', '.join(parts) or 'not known'}"
+
+    @property
+    def cost(self) -> str:
+        """Download and time that it needs, for messages."""
+        size = "not known" if self.download_gb is None else f"{self.download_gb:g} GB"
+        told = ", ".join(f"{value:g} min on {card}" for card, value in self.minutes.items())
+        return f"download {size}, time {f'about {told}' if told else 'not known'}"
 
     @property
     def source(self) -> str:
