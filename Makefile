@@ -23,7 +23,7 @@ AUDIT_TOOLS := cyclonedx-bom pip-audit reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
 BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
 SBOM_OUT ?= dist/texvent.cdx.json
-PROMPT ?= a man juggles four balls at night
+PROMPT ?= a white horse trots past a tree at dusk
 DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
@@ -57,10 +57,11 @@ IN_PYTHON := $(addprefix tests/, simulation/kernels simulation/crossing simulati
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test test-all nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo picture test test-all nightly coverage test-newest test-newest-releases test-lowest-releases fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck advisories dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
+	@echo "make picture the demo, and README's picture of it"
 	@echo "make test    the default test suite, of texvent and of lab/: each row of each table once"
 	@echo "make test-all     make test with all combinations of rows, and the long tests whole; part of CI"
 	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
@@ -91,6 +92,9 @@ demo: $(VENV)/.base
 	@mkdir -p $(dir $(DEMO_OUT))
 	$(VENV)/bin/texvent generate "$(PROMPT)" --duration 1 -o $(DEMO_OUT) --overwrite
 	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
+
+picture: demo
+	cp $(basename $(DEMO_OUT)).events.png docs/images/demo.png
 
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5 $(BRIEF)

@@ -34,7 +34,7 @@ NOTEBOOK = Path(__file__).parents[1] / "notebooks/first-events.ipynb"
 WIDTH, HEIGHT, STRIP, RATE = 960, 360, 56, 24
 GROUND, INK, FAINT = (23, 24, 27), (240, 240, 240), (150, 155, 165)
 PALETTE = get_palette("paper")
-LEAST_US = 6_000
+LEAST_US = 10_000
 """Events of the last milliseconds stay in sight, so that slow motion shows outlines."""
 
 
@@ -82,8 +82,8 @@ def typed(text: str, *, seconds: int) -> Iterator[Image]:
     for number in range(seconds * RATE):
         image = blank(WIDTH, HEIGHT, GROUND)
         shown = text[: 1 + len(text) * 2 * number // (seconds * RATE)]
-        left = (WIDTH - text_width(text, 13)) // 2
-        draw_text(image, shown, left, HEIGHT // 2, height=13, colour=INK)
+        left = (WIDTH - text_width(text, 17)) // 2
+        draw_text(image, shown, left, HEIGHT // 2, height=17, colour=INK)
         yield image
 
 
@@ -97,7 +97,7 @@ def played(story: dict[str, Any], seconds: int, speed: float) -> Iterator[Image]
 def beside(story: dict[str, Any], t_us: int, window_us: int) -> Image:
     """The last frame, and the last events."""
     frame = [image for start_us, image in story["shown"] if start_us <= t_us][-1]
-    events = story["events"].between(max(0, t_us - window_us), t_us)
+    events = _between(story["events"], t_us - window_us, t_us)
     return tile([_enlarged(frame, "smooth"), _enlarged(_drawn(events), "blocks")], 2, GROUND)
 
 
@@ -105,7 +105,7 @@ def grids(story: dict[str, Any], *, seconds: int) -> Iterator[Image]:
     """Voxel grids of 100 ms, later and later."""
     last = story["events"].time_range[1] - 100_000
     for start_us in np.linspace(0, last, seconds * RATE).astype(int):
-        part = story["events"].between(int(start_us), int(start_us) + 100_000)
+        part = _between(story["events"], start_us, start_us + 100_000)
         bins = np.rint(4 * part.represent("voxel-e2vid", bins=5)).astype(int)
         panels = [draw_events(np.stack([-one, one]).clip(0), PALETTE) for one in bins]
         row = tile(panels, 5, GROUND, gap=8)
@@ -115,7 +115,7 @@ def grids(story: dict[str, Any], *, seconds: int) -> Iterator[Image]:
         for number in range(5):
             label = f"{(start_us + 20_000 * number) / 1000:.0f} ms"
             x = left + number * row.shape[1] // 5
-            draw_text(image, label, x, top - 12, height=10, colour=FAINT)
+            draw_text(image, label, x, top - 14, height=14, colour=FAINT)
         yield image
 
 
@@ -129,15 +129,20 @@ def named(story: dict[str, Any]) -> Iterator[Image]:
         for moment in range(RATE):
             t_us = 200_000 * (moment + 1) // RATE
             image = blank(WIDTH, HEIGHT, GROUND)
-            image[:, :480] = _enlarged(_drawn(clip.between(max(0, t_us - 30_000), t_us)), "blocks")
-            draw_text(image, guess, 530, 170, height=20, colour=INK)
+            image[:, :480] = _enlarged(_drawn(_between(clip, 0, t_us)), "blocks")
+            draw_text(image, guess, 530, 170, height=28, colour=INK)
             score = f"{right} of {place} named right"
-            draw_text(image, score, 530, 220, height=13, colour=FAINT)
+            draw_text(image, score, 530, 226, height=17, colour=FAINT)
             yield image
 
 
 def _starts(story: dict[str, Any]) -> np.ndarray:
     return np.array([start_us for start_us, _ in story["shown"]])
+
+
+def _between(events: EventStream, start_us: int, stop_us: int) -> EventStream:
+    """As `EventStream.between`, which warns where there is none."""
+    return events[slice(*np.searchsorted(events.t, [start_us, stop_us]))]
 
 
 def _drawn(events: EventStream) -> Image:
@@ -150,7 +155,7 @@ def _enlarged(image: Image, how: Any) -> Image:
 
 def _captioned(image: Image, caption: str) -> Image:
     strip = blank(WIDTH, STRIP, GROUND)
-    draw_text(strip, caption, 24, STRIP // 2 + 8, height=15, colour=INK)
+    draw_text(strip, caption, 24, STRIP // 2 + 10, height=20, colour=INK)
     return np.vstack([strip, image])
 
 

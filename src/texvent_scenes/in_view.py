@@ -84,7 +84,7 @@ def find_unseen(
     """
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
     cameras = [scene.camera(time_s) for time_s in times]
-    views = count_pixels(scene, list(scene.class_names), size, times)
+    views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     pixels = {one: view.pixels for one, view in views.items()}
     related = {i for one in description.relations for i in one.targets}
     outside, small, bodies = list[str](), list[str](), list[list[Body]]()

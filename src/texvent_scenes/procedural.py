@@ -73,7 +73,7 @@ class ProceduralConfig:
     enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
-    point_spread: float = 0.7
+    point_spread: float = 0.5
     """Standard deviation of the lens' image of a point, in pixels; 0 = a perfect lens."""
     vignetting: bool = True
     """Whether the lens passes less light off its axis: cos⁴ of the angle to it."""
@@ -213,15 +213,8 @@ class ProceduralVideo(NotebookFrames):
         return self.kept.once(key, make, bytes_per_pixel * self.size.width * self.size.height)
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """Frames of luma at times between two frames, each part drawn as often as it changes.
-
-        Light that beats is drawn at every instant: two frames and their middle may all show the
-        same moment of its beat.
-        """
-        if self.flicker_hz is not None:
-            images = (self.at(t_us).float_luma for t_us in times_us)
-        else:
-            images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
+        """Frames of luma at times between two frames, each part drawn as often as it changes."""
+        images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
         frames = (
             Frame(image, t_us, is_source=False, transfer=self.transfer)
             for image, t_us in zip(images, times_us, strict=True)
@@ -266,10 +259,10 @@ class ProceduralVideo(NotebookFrames):
     def _make_renderer(self) -> IncrementalRenderer:
         from texvent_scenes.raycast.incremental import IncrementalRenderer
 
-        samples, shadows, code = self.config.samples, self.config.shadows, self._code
         return IncrementalRenderer(
-            self.scene, self.size, samples=samples, shadows=shadows, code=code, optics=self.optics
-        )
+            self.scene, self.size, samples=self.config.samples, shadows=self.config.shadows,
+            code=self._code, optics=self.optics, beat_s=1.0 / (self.flicker_hz or 1e-9),
+        )  # fmt: skip
 
     @property
     def optics(self) -> Optics:

@@ -87,6 +87,8 @@ class Texture(IntEnum):
     PANE = 51
     """Window glass, and what is dark behind it."""
     MIRROR = 52
+    PRINT = 53
+    """Headings, lines of letters and pictures in the second colour: labels, covers, adverts."""
 
 
 FIRST_SURFACE = Texture.VARIATION

@@ -21,6 +21,7 @@ __all__ = [
     "is_scene",
     "is_scene_file",
     "list_nouns",
+    "list_vocabulary",
     "load_scene",
     "read",
     "save_scene",
@@ -34,6 +35,13 @@ __all__ = [
 def is_scene(value: Any) -> bool:
     """Whether a value is a scene."""
     return isinstance(value, Scene)
+
+
+def list_vocabulary() -> dict[str, list[tuple[str, ...]]]:
+    """The words of prompts: family → words, each with its other names."""
+    from texvent_scenes import vocabulary  # brings the lexicon
+
+    return vocabulary.list_vocabulary()
 
 
 def write_scene(prompt: str, url: str, model: str) -> tuple[Scene, PromptReport]:

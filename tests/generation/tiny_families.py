@@ -242,8 +242,8 @@ def cosmos_transfer():
         scheduler=flow_unipc(),
         transformer=transformer,
         controlnet=diffusers.CosmosControlNetModel(
-            n_controlnet_blocks=1,
-            in_channels=16,
+            n_controlnet_blocks=2,
+            in_channels=18,
             latent_channels=18,
             model_channels=32,
             num_attention_heads=2,

@@ -68,8 +68,8 @@ COMMANDS_TRIED: dict[str, Command] = {
         )
         for one in SIMULATORS.builtin
     },
-    "generate": Command(f"{SCENE} -o o.npz", shared=("keep-partial", *SIMULATION)),
-    "batch": Command(BATCH, shared=("shadows", "hdr", "samples", *LENS, *SIMULATION)),
+    "generate": Command(f"{SCENE} -o o.npz", shared=("keep-partial", "palette", *SIMULATION)),
+    "batch": Command(BATCH, shared=("palette", "shadows", "hdr", "samples", *LENS, *SIMULATION)),
     "rig": Command(RIG, "files", shared=("shadows", "hdr", "samples", *LENS, *SIMULATION)),
     "check": Command("check ../clip.npy --fps 5 --json", "printed", shared=("quiet",)),
     "calibrate": Command(REST, "said", shared=("capture", "interpolate")),

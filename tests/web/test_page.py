@@ -13,15 +13,21 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import urlencode, urlsplit
 
 import pytest
+from tests.cli.running import refused, run
 from tests.web.opened import open_entry
 
 import texvent
+from texvent._registry import GENERATORS
+from texvent.cli.app import OF_THE_PAGE
+from texvent.generation.subjects import scenes
 from texvent.web import server as server_module
-from texvent.web.job_page import Job, JobServer, page_html
-from texvent.web.server import CALL_BYTES, MOST_CONNECTIONS
+from texvent.web.job_page import Job, JobServer, flags_of, list_examples, list_generators, page_html
+from texvent.web.server import CALL_BYTES, FILE_BYTES, MOST_CONNECTIONS
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.places import PLACES
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3",
@@ -30,7 +36,7 @@ SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed"
 
 @pytest.fixture
 def page():
-    with JobServer() as server:
+    with JobServer(CLIP.parent) as server:
         yield server
     assert not server.folder.exists()
 
@@ -64,13 +70,17 @@ def generate(page, prompt, **options):
 
 @pytest.mark.long
 def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
-    state, text = generate(page, "a wug and a red ball bounce")
+    state, text = generate(page, "a wug and a red ball bounce", palette="paper-dark")
     options = {"duration": 0.1, "sensor": "48x36", "seed": 3, "simulator": "esim"}
     with pytest.warns(texvent.TexventWarning, match="wug"):
         whole = texvent.generate("a wug and a red ball bounce", **options)
     assert state == "done"
     assert f"\nevents   {len(whole):,} in " in text
-    assert "wug" in text
+    assert text.count("wug") == 1  # the stills and the run say it
+    job = json.loads(ask(page, "/job")[2])
+    assert job["name"] == "a-wug-and-a-red-ball-bounce"
+    assert job["step"] == {"stage": "frames", "done": 3, "total": 3, "left_s": 0}
+    assert ask(page, "/stills")[2].startswith(b"\x89PNG")
     status, headers, body = ask(page, "/video")
     assert (status, headers["Content-Type"], body[4:8]) == (200, "video/mp4", b"ftyp")
     status, headers, body = ask(page, "/page")
@@ -88,10 +98,92 @@ def test_the_text_of_a_scene_file_is_a_scene(page):
     assert generate(page, text.replace("ball", "bal"))[0] == "failed"
 
 
+@pytest.mark.parametrize("name", list(GENERATORS.names()))
+def test_the_flags_of_every_generator_are_its_own(name, capsys):
+    one = list_generators()[name]
+    flags = flags_of({"generator": name, one["length"]: str(one["default"]), "seed": "1"})
+    assert run("generate", *flags, "--print-config", "a ball") == 0
+    assert f"{one['length']} = {one['default']}\n" in capsys.readouterr().out
+
+
+def test_every_example_is_understood_and_has_a_picture(tmp_path):
+    for one in list_examples():
+        if "title" in one:
+            (tmp_path / "scene.toml").write_text(one["text"])
+            scenes().check_words(scenes().load_scene(tmp_path / "scene.toml"))
+        else:
+            assert scenes().read(one["text"]).not_understood == ()
+        assert len(one["picture"]) > 300
+
+
+def test_the_words_of_the_page_are_all_that_can_be_said(page):
+    said = {
+        name
+        for words in json.loads(ask(page, "/words")[2]).values()
+        for names in words
+        for name in names
+    }
+    assert said >= {*NOUNS, *PLACES, "juggle", "dusk", "clockwise", "orbit"}
+
+
 @pytest.mark.long
 def test_a_video_is_named_by_its_path_and_keeps_its_size(page):
-    assert generate(page, "", video=str(CLIP), sensor="")[0] == "done"
+    assert generate(page, "", video=CLIP.name, sensor="")[0] == "done"
     assert texvent.load(page.job.folder / "events.h5").size == (320, 180)
+
+
+@pytest.mark.parametrize(
+    ("name", "kept"),
+    [("a (1).mp4", "a-1-.mp4"), ("../../x.mp4", "x.mp4"), ("..", "-"), ("", "file"), (".a", "-a"),
+     ("c:\\x\0.mp4", "c-x-.mp4"), ("/" + "n" * 300 + ".mp4", "n" * 56 + ".mp4")],
+)  # fmt: skip
+def test_a_file_that_is_sent_has_a_clean_name_and_may_be_used(page, name, kept):
+    for content in (b"one", bytes(3_000_000)):
+        place = f"/file?{urlencode({'name': name})}"
+        status, _, answer = ask(page, place, "POST", content)
+        path = Path(json.loads(answer)["path"])
+        assert (status, path.parent, path.name) == (200, page.folder / "sent", kept)
+        assert path.read_bytes() == content
+    assert [*path.parent.iterdir()] == [path]
+    assert ask(page, "/run", "POST", json.dumps({"video": str(path)}))[0] == 200
+
+
+def test_files_that_are_too_large_or_break_off_are_not_kept(page):
+    status, _, answer = ask(page, "/file?name=a", "POST", b"", content_length=str(FILE_BYTES + 1))
+    assert (status, answer) == (413, b"the request is larger than 4,294,967,296 bytes")
+    assert ask(page, "/file?name=a", "POST", transfer_encoding="chunked")[0] == 411
+    place = urlsplit(page.address)
+    with socket.create_connection((place.hostname, place.port), 60) as connection:
+        head = f"POST /file?name=a HTTP/1.1\r\nHost: {place.netloc}\r\nContent-Length: 9\r\n"
+        connection.sendall(f"{head}Cookie: {page.cookie}={page.token}\r\n\r\nabc".encode())
+        connection.shutdown(socket.SHUT_WR)
+        assert b"did not arrive whole; send it again" in connection.makefile("rb").read()
+    assert not [*page.folder.rglob("sent/*")]
+
+
+PICTURE = '[[objects]]\nnoun = "billboard"\npicture = { kind = "file", value = "/etc/a.png" }\n'
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{"video": "/etc/passwd"}, {"video": "../a.mp4"}, {"video": "link/a.mp4"}, {"prompt": PICTURE},
+     {"prompt": "/etc/a.toml"}, {"prompt": "a ball", "generator": "/etc/model"}],
+)  # fmt: skip
+def test_files_elsewhere_are_refused_with_what_to_do(tmp_path, values):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "link").symlink_to("/etc")
+    with JobServer(tmp_path / "in") as page:
+        status, _, answer = ask(page, "/run", "POST", json.dumps(values))
+        assert status == 400
+        assert b"is outside of" in answer
+        assert b"start texvent app --folder" in answer
+        assert page.job is None
+
+
+@pytest.mark.parametrize("word", OF_THE_PAGE)
+def test_words_for_the_page_lead_to_its_command(word, capsys):
+    assert "did you mean 'app'?" in refused(capsys, word)
+    assert "is no folder" in refused(capsys, "app", "--folder", "nosuch")
 
 
 @pytest.mark.parametrize(
@@ -127,7 +219,7 @@ def test_other_host_names_are_refused_so_that_no_dns_answer_opens_the_page(page,
 
 @pytest.mark.parametrize("method", ["GET", "POST", "HEAD", "OPTIONS", "PUT"])
 def test_nobody_without_the_token_learns_or_does_anything(page, method):
-    paths = [*page.gets, *page.posts, "/nosuch"]
+    paths = [*page.gets, *page.posts, *page.uploads, "/nosuch"]
     with JobServer() as other:
         cookies = [None, "", f"{page.cookie}=", f"{page.cookie}={page.token[:-1]}", "=;;\xff=\xe9"]
         cookies += [f"{page.cookie}={other.token}", f"{other.cookie}={page.token}"]

@@ -92,6 +92,8 @@ PACKAGES = Registry("command", {})
 """Packages with more commands: mappings like `COMMANDS`, named by entry points."""
 OF_THE_LAB = ("align", "bench", "evaluate", "nt-imagenet", "reconstruct", "train")
 """Commands of the package texvent-lab."""
+OF_THE_PAGE = ("browser", "gui", "page", "serve", "ui", "web")
+"""Words by which users look for the command `app`."""
 LONGEST_LISTING, LONGEST_WORD = 220, 30
 """Characters of the list of commands and of a word that is none, in an error."""
 
@@ -169,7 +171,8 @@ def _dispatch(words: list[str]) -> int:
                 f"texvent {words[0]} is a command of the package texvent-lab; "
                 f"install it with: {lab_command()}"
             )
-        listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
+        sought = "app" if words[0] in OF_THE_PAGE else words[0]
+        listed = suggest(sought, tuple(commands), longest=LONGEST_LISTING)
         gone = "".join(f"; {say_absent(one)}" for one in {*PACKAGES.absent().values()})
         raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}{gone}")
     module, _, function = commands[words[0]][0].partition(":")

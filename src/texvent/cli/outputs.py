@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +12,9 @@ from texvent.errors import ConfigError, shown
 from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
+from texvent.runtime.file_names import file_stem
 from texvent.truth.layout import check_truth_folder, parse_parts
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 
 PREVIEWS = ("mp4", "png", "html")
 """Kinds of preview, by extension."""
@@ -34,6 +35,8 @@ class OutputOptions:
     """Files beside the events: mp4, png, html or none. With commas between: a video of frames and
     events (.events.mp4), an image of the busiest moment (.events.png), a page with point cloud,
     rate and facts (.events.html)."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of the previews, such as paper-dark (docs/views.md lists them)."""
     truth: str = ""
     """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
     depth, ids, boxes, poses, events, with commas between, or all. See docs/truth.md."""
@@ -91,6 +94,7 @@ class OutputOptions:
             events=self.out or default_event_file(subject, self.format),
             format=self.format,
             previews=self.preview_kinds,
+            palette=get_palette(self.palette).name,
             truth=self.truth_parts,
             overwrite=self.overwrite,
             keep_partial=self.keep_partial,
@@ -105,6 +109,5 @@ class OutputOptions:
 
 def default_event_file(subject: str, format: str | None = None) -> Path:
     """A name made of the first words of a prompt or of a file's name, in the current folder."""
-    words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
     extension = extension_of(format) if format else ".h5"
-    return Path(f"{'-'.join(words) or 'events'}{extension}")
+    return Path(f"{file_stem(subject)}{extension}")

@@ -93,6 +93,10 @@ class ScenePackage(Protocol):
         """The nouns that scenes can show, with models of a folder."""
         ...
 
+    def list_vocabulary(self) -> Mapping[str, Any]:
+        """The words of prompts: family → words, each with its other names."""
+        ...
+
     def read(self, prompt: str, *, assets: str | Path | None = None) -> Reading:
         """The scene that a sentence describes."""
         ...

@@ -20,6 +20,7 @@ from texvent.run.truth import TruthFolder
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
 from texvent.truth.layout import truth_folder
+from texvent.view.drawing.palettes import DEFAULT_PALETTE
 
 PREVIEW_SUFFIX = ".events"
 """Stands before the extension of previews, so that none takes the name of a source video."""
@@ -37,6 +38,8 @@ class RunFiles:
     """Its format; None where its extension decides."""
     previews: tuple[str, ...] = ()
     """Kinds of preview, as file extensions without the dot."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of the previews."""
     overwrite: bool = False
     """Whether existing files may be replaced."""
     truth: tuple[str, ...] = ()
@@ -204,6 +207,7 @@ def _open_previews(
         size=simulation.video.size,
         fps=simulation.video.fps,
         kinds=files.previews,
+        palette=files.palette,
         overwrite=files.overwrite,
         metadata=facts,
     )

@@ -54,6 +54,11 @@ def usable_path(path: str | Path) -> Path:
     return Path(path)
 
 
+def file_stem(subject: str) -> str:
+    """A name of the first words of a prompt or of a file's name."""
+    return "-".join(re.findall(r"[a-z0-9]+", subject.lower())[:8]) or "events"
+
+
 def inside(folder: Path, place: str) -> Path:
     """The path of a file in a folder, made of words of a file from others.
 

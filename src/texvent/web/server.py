@@ -21,13 +21,14 @@ from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
+from io import BufferedIOBase
 from typing import Any, NamedTuple, Self, TypeAlias
 
 from texvent.errors import InputError, TexventError, one_line
 
 HOST = "127.0.0.1"
-CALL_BYTES = 2**16
-"""Largest request."""
+CALL_BYTES, FILE_BYTES = 2**16, 2**32
+"""Largest request, and largest file that a page sends."""
 READ_S, SEND_S = 10.0, 60.0
 """Time that a whole request may take to arrive, and an answer to be taken, s."""
 MOST_CONNECTIONS = 64
@@ -64,6 +65,7 @@ class Answer(NamedTuple):
 
 Gets: TypeAlias = Mapping[str, Callable[[Mapping[str, str]], Answer | None]]
 Posts: TypeAlias = Mapping[str, Callable[[Mapping[str, Any]], None]]
+Uploads: TypeAlias = Mapping[str, Callable[[str, BufferedIOBase, int], Answer]]
 
 
 class PageServer:
@@ -74,15 +76,18 @@ class PageServer:
         gets: path → its answer, given the query; None where there is nothing.
         posts: path → action, given the values that the page's script sends; a `TexventError` is
             what the script receives.
+        uploads: path → what takes a file: its name, the connection and the number of bytes.
         port: TCP port; 0: any free one.
 
     Raises:
         InputError: the port is taken.
     """
 
-    def __init__(self, text: str, gets: Gets, posts: Posts, *, port: int = 0) -> None:
+    def __init__(
+        self, text: str, gets: Gets, posts: Posts, uploads: Uploads | None = None, *, port: int = 0
+    ) -> None:
         self.gets: Gets = {"/": lambda query: Answer(text, HTML, POLICY), **gets}
-        self.posts = posts
+        self.posts, self.uploads = posts, uploads or {}
         try:
             self._server = _Server((HOST, port), _Handler)
         except OSError as error:
@@ -165,14 +170,19 @@ class _Handler(BaseHTTPRequestHandler):
         self._answer(get and functools.partial(get, query))
 
     def do_POST(self) -> None:
-        """An action."""
-        action = self.server.page.posts.get(self._path[0])
+        """An action, or a file."""
+        path, query = self._path
+        action, take = self.server.page.posts.get(path), self.server.page.uploads.get(path)
 
         def act(action: Callable[[Mapping[str, Any]], None]) -> Answer:
             action(self._json())
             return Answer("{}")
 
-        self._answer(action and functools.partial(act, action))
+        if take is None:
+            self._answer(action and functools.partial(act, action))
+        else:
+            name = query.get("name", "")
+            self._answer(lambda: take(name, self.rfile, self._length(FILE_BYTES)))
 
     def _answer(self, find: Callable[[], Answer | None] | None) -> None:
         """Send an answer, or one line why there is none."""
@@ -241,15 +251,19 @@ class _Handler(BaseHTTPRequestHandler):
         status = HTTPStatus.SEE_OTHER if is_followed else HTTPStatus.OK
         self._send(Answer("", HTML), status, {"Set-Cookie": cookie, **on})
 
-    def _json(self) -> dict[str, Any]:
+    def _length(self, most: int) -> int:
+        """Bytes of the body, not read yet."""
         text = self.headers.get("Content-Length", "")
         if not (text.isascii() and text.isdigit()):
             raise _RequestError(HTTPStatus.LENGTH_REQUIRED, "the length is missing")
-        if len(text) > 18 or int(text) > CALL_BYTES:
-            message = f"the request is larger than {CALL_BYTES:,} bytes"
+        if len(text) > 18 or int(text) > most:
+            message = f"the request is larger than {most:,} bytes"
             raise _RequestError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, message)
+        return int(text)
+
+    def _json(self) -> dict[str, Any]:
         try:
-            values = json.loads(self.rfile.read(int(text)) or "{}")
+            values = json.loads(self.rfile.read(self._length(CALL_BYTES)) or "{}")
         except (ValueError, RecursionError) as error:
             raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON") from error
         if not isinstance(values, dict):

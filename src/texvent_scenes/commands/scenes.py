@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -15,11 +15,10 @@ from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import InputError, shown
-from texvent_scenes.meanings import meanings_of
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.read.lexicon import lexicon_of
 from texvent_scenes.scene_input import list_nouns, list_words
 from texvent_scenes.spec.files import json_schema
+from texvent_scenes.vocabulary import list_families, list_kinds, names_of
 
 DESCRIPTION = """List what prompts of the embedded generator can name: nouns by family, with their
 other names, models of a folder of your own first; then motions, activities, places, lights,
@@ -57,9 +56,9 @@ def run(arguments: Sequence[str]) -> int:
         write_out(f"{json.dumps(json_schema(list_words(nouns)), indent=2)}\n")
         return 0
     rows: list[tuple[str, tuple[str, ...], Noun | None]] = [
-        (family, _names(noun), noun) for family, noun in _families(nouns)
+        (family, names_of(noun), noun) for family, noun in list_families(nouns)
     ]
-    rows += [(kind, names, None) for kind, names in _list_kinds()]
+    rows += [(kind, names, None) for kind, names in list_kinds()]
     titles = ["family", "word", "also called"]
     if options.word is not None:
         titles.append("size")
@@ -78,56 +77,9 @@ def run(arguments: Sequence[str]) -> int:
     return 0
 
 
-_KINDS = {
-    "motion": "motion", "place": "place", "light": "light", "weather": "weather",
-    "effect": "effect", "colour": "colour", "material": "material", "move": "camera move",
-    "view": "camera view", "framing": "camera framing", "relation": "relation",
-    "direction": "direction",
-}  # fmt: skip
-"""Kinds of `meanings_of`, and the families that they are listed under."""
-_READ_ONLY = ("route", "off")
-"""Relations that sentences have and scene files have not."""
-
-
-def _names(noun: Noun) -> tuple[str, ...]:
-    return (noun.name, *noun.synonyms, *noun.plurals)
-
-
-def _list_kinds() -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Kind and words of all that a sentence says beside nouns, the name in scene files first."""
-    found: dict[tuple[str, str], dict[str, None]] = {}
-    for phrase, senses in lexicon_of(None).items():
-        for sense in senses:
-            if sense.form not in ("", "base"):
-                continue
-            for kind, value in meanings_of((sense,)):
-                name = phrase[-1] if kind == "colour" else str(value)  # "dark red" with red
-                if kind in _KINDS and name not in _READ_ONLY:
-                    found.setdefault((_KINDS[kind], name), {})[" ".join(phrase)] = None
-    for family in dict.fromkeys(_KINDS.values()):
-        for (kind, name), words in found.items():
-            if kind == family and name:
-                yield family, (name, *(one for one in words if one != name))
-
-
 def _size(noun: Noun) -> str:
     """Length, width and height, and the unit that was taken of an asset."""
     model = noun.build(colour=None, scale=1.0, seed=0)
     sides = " x ".join(f"{side:.3g}" for side in (model.length, model.width, model.height))
     note = getattr(model, "note", "")
     return f"{sides} m{f', {note}' if note else ''}"
-
-
-def _families(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Noun]]:
-    """Family and noun, assets first."""
-    from texvent_scenes.assets.nouns import assets_of
-    from texvent_scenes.models.nouns import FAMILIES
-
-    for noun in nouns.values():
-        if assets_of(noun):
-            yield "assets", noun
-    for family, members in FAMILIES.items():
-        for member in members:
-            noun = nouns[member.name]
-            if not assets_of(noun):
-                yield family, noun

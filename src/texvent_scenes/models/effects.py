@@ -63,6 +63,8 @@ class EmitterStyle:
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)
     """Optical depth of a medium at birth and at the end."""
+    fades: bool = True
+    """Whether media are thin when they are just born or about to end."""
     detail: float = 0.0
     """Fine structure of media, 0..1."""
     light: float = 0.0

@@ -1,7 +1,7 @@
 """Tiles of the image that can differ between two instants of a scene.
 
-A shape that differs reaches the tiles that it covers, and those of the sun's shadow. Where the
-camera, lamps, media or surroundings differ, all tiles can.
+A shape that differs reaches the tiles that it covers, and those of the sun's shadow; a medium those
+that it covers. Where the camera, lamps or surroundings differ, all tiles can.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from texvent_scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bo
 from texvent_scenes.raycast.mirrored import REACH
 from texvent_scenes.raycast.records import INSTANT_RECORD, World
 from texvent_scenes.raycast.render import Drawn
+from texvent_scenes.raycast.shading.lighting import SHARP
 from texvent_scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent_scenes.raycast.vectors import NO_DISTORTION
 from texvent_scenes.rendered_scene import FIRST_SURFACE, Float64Array, Ground, Primitives
@@ -54,11 +55,12 @@ def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:
     shadows = _shadow_windows(before, after, chosen)
     if shadows is None:
         return None
-    mirroring = _mirroring(before, after)
+    mirroring = _mirroring(before, after, chosen)
     if mirroring is None:
         return None
     windows = [one.world.shapes["window"][chosen] for one in (before, after)]
     windows.append(after.world.shapes["window"][mirroring])
+    windows += _drifting_windows(before.world, after.world)
     tiles = touched_tiles(np.concatenate([*windows, *shadows]), instant)
     if before.world.instant[0]["time"] != instant["time"] and instant["clouds"] > 0.0:
         tiles |= _sky_tiles(instant)
@@ -76,7 +78,7 @@ def _is_comparable(before: World, after: World) -> bool:
         and all(np.array_equal(first[name], second[name]) for name in _FIELDS)
         and np.array_equal(first["crossings"][:count], second["crossings"][:count])
         and np.array_equal(before.lamps, after.lamps)
-        and np.array_equal(before.media, after.media)
+        and len(before.media) == len(after.media)
         and np.array_equal(before.glows, after.glows)
     )
 
@@ -95,23 +97,31 @@ def _changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
     return np.flatnonzero(changed)
 
 
-def _mirroring(before: Drawn, after: Drawn) -> NDArray[np.int64] | None:
-    """Numbers of glossy shapes that may mirror a shape that differs; None: the ground may too."""
+def _drifting_windows(before: World, after: World) -> list[Float64Array]:
+    """Screen bounds of the media that differ, [k, 4] each, pixels."""
+    differs = _differing(before.media, after.media)
+    return [world.media["window"][differs] for world in (before, after)]
+
+
+def _mirroring(before: Drawn, after: Drawn, chosen: NDArray[np.int64]) -> NDArray[np.int64] | None:
+    """Numbers of glossy shapes that may mirror the `chosen`; None: the ground may too."""
     first, second = before.world.mirrored, after.world.mirrored
     if len(first) != len(second):
         return None
     differs = _differing(first, second)
-    if not differs.any():
+    if not len(chosen) and not differs.any():
         return np.zeros(0, np.int64)
     moved = np.concatenate([first[differs], second[differs]])
     if after.world.instant[0]["wetness"] > 0.0:
         return None
     shapes, to_world = after.world.shapes, after.primitives.to_world
     texture = np.maximum(shapes["texture"] - FIRST_SURFACE, 0)
-    glossy = np.flatnonzero(after.world.instant[0]["gloss"][texture, 0] > 0.0)
+    coats = after.world.instant[0]["gloss"][texture]
+    glossy = np.flatnonzero(coats[:, 0] > 0.0)
     radius = np.linalg.norm(to_world[glossy, :, :3], axis=(1, 2))
     away = np.linalg.norm(to_world[glossy, None, :, 3] - moved["middle"], axis=2)
-    return np.asarray(glossy[(away - radius[:, None] < REACH * moved["radius"]).any(axis=1)])
+    near = (away - radius[:, None] < REACH * moved["radius"]).any(axis=1)
+    return np.asarray(glossy[near | (coats[glossy, 1] < SHARP)])
 
 
 def _differing(first: NDArray[Any], second: NDArray[Any]) -> Mask:

@@ -44,6 +44,9 @@ DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
 FASTEST_PX = 4.0
 """Blocks that something passes by more than this in an interval are drawn in its middle."""
+EVEN_BEATS = 8.0
+"""Intervals above a period of beating light over this are drawn whole in their middle: the ends and
+the middle may all show the same moment of it."""
 SURE_PX = 6.0
 """Displacement in an interval up to which its ends predict the surface of a pixel."""
 
@@ -85,13 +88,16 @@ class IncrementalRenderer:
         shadows: as for `render`.
         code: makes levels of light (1 is white).
         optics: the camera's lens.
+        beat_s: shortest period in which any light goes up and down, s.
     """
 
     def __init__(
         self, scene: RenderedScene, size: SensorSize, *, samples: int, shadows: bool,
         code: Callable[[NDArray[Any]], Float32Array] = encode_srgb, optics: Optics = PERFECT,
+        beat_s: float = math.inf,
     ) -> None:  # fmt: skip
         self._size, self._code, self._optics = size, code, optics
+        self._even_s = beat_s / EVEN_BEATS
         self._draw = partial(world_and_shapes, scene, size=size, shadows=shadows, samples=samples)
         self._cast = partial(light_of_rows, rows=(0, size.height), size=size, samples=samples)
         self._last: tuple[Drawn, RenderedFrame] | None = None
@@ -147,13 +153,15 @@ class IncrementalRenderer:
             return
         number = (before.number + after.number) // 2
         start, stop = times_s[before.number], times_s[after.number]
+        beats = stop - start > self._even_s
+        blocks = np.ones_like(blocks) if beats else blocks
         share = np.float32((times_s[number] - start) / (stop - start))
         luma, light = (_mixed(before, after, share, name) for name in ("luma", "light"))
         codes = np.full(self._size.shape, UNKNOWN)
         if blocks.any():
             moved = speeds * np.float32(steps)
             wanted = _refined(blocks, BLOCK, self._size.shape)
-            if before.codes is not None and after.codes is not None:
+            if before.codes is not None and after.codes is not None and not beats:
                 predict_surface_ids(before.codes, after.codes, wanted, moved, codes)
             touched = self._optics.touched(wanted)
             exact = self._luma(times_s[number], (wanted, touched), codes, light)
@@ -162,7 +170,8 @@ class IncrementalRenderer:
             uneven[touched] = np.abs(exact - luma[touched]) > limit * (exact + np.float32(DARK))
             luma[touched] = exact
             uneven = widened(uneven, round(self._optics.point_spread_px))
-            blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
+            if not beats:
+                blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
         middle = DrawnInstant(number, luma, light, codes)
         yield from self._divide(before, middle, blocks, speeds, times_s)
         yield middle

@@ -55,6 +55,7 @@ INSTANT_RECORD = np.dtype(
         ("medium_tiles", "i8"),
         # Addresses of the arrays of `World` and of its meshes and images, and numbers of items.
         ("shapes", "i8"),
+        ("shape_count", "i8"),
         ("lists", "i8"),
         ("nodes", "i8"),
         ("triangles", "i8"),
@@ -271,6 +272,7 @@ class World(NamedTuple):
             instant[name] = getattr(self, name).ctypes.data
         for name in ("nodes", "triangles", "images", "texels"):
             instant[name] = getattr(surfaces, name).ctypes.data
+        instant["shape_count"] = len(self.shapes)
         instant["medium_count"], instant["glow_count"] = len(self.media), len(self.glows)
         instant["lamp_count"], instant["mirrored_count"] = len(self.lamps), len(self.mirrored)
         return self

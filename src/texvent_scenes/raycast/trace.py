@@ -294,7 +294,12 @@ def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, boo
 @jit(error_model="numpy", inner=True)
 def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
     """(depth, GROUND / SKY / ROOM, face) of the background behind all shapes."""
-    origin = instant.origin
+    return background_from(instant, triple(instant.origin), direction)
+
+
+@jit(error_model="numpy", inner=True)
+def background_from(instant: Record, origin: Vector, direction: Vector) -> tuple[float, int, int]:
+    """As `background_hit`, of the ray from any point."""
     if instant.ground == _NO_GROUND:
         return math.inf, SKY, 0
     depth, what, face = math.inf, SKY, 0

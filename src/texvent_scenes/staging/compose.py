@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -64,7 +65,7 @@ class ComposedScene:
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
     class_names: dict[int, str]
-    """Instance id → noun."""
+    """Instance id → noun: of the actors first, then of traffic and people of the scenery."""
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     notes: tuple[str, ...] = ()
@@ -135,8 +136,9 @@ def compose_scene(
     if ground.has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
-    items = _scatter_all(description, view, actors, nouns, seed)
+    items = _label(_scatter_all(description, view, actors, nouns, seed), len(actors), nouns)
     names = {one.instance: one.noun.name for one in actors}
+    names |= {one.instance: one.rule.noun for one in items if one.instance}
     animated_environment = build_environment(
         description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
@@ -205,7 +207,12 @@ def _scatter_all(
     Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
     """
     said = {*description.absent, *(scene_object.noun for scene_object in description.objects)}
-    unsaid = {name: noun for name, noun in nouns.items() if name not in said}
+    kinds = {kind_of(nouns[one]) for one in said if one in nouns}
+    unsaid = {
+        name: one
+        for name, one in nouns.items()
+        if name not in said and not (kind_of(one) and kind_of(one) in kinds)
+    }
     surroundings = description.place
     place = surroundings.name or "grass"
     rules = [
@@ -218,6 +225,19 @@ def _scatter_all(
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
     return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
+
+
+def kind_of(noun: Noun) -> str:
+    """Kind of which scenery shows none beside what a scene names: people or traffic."""
+    is_traffic = zone_of(noun) == "road" and noun.speed_m_s > 0.0
+    return "people" if noun.name in PERSON_NOUNS else "traffic" if is_traffic else ""
+
+
+def _label(items: Sequence[SceneryItem], last: int, nouns: Mapping[str, Noun]) -> list[SceneryItem]:
+    """The pieces; people and traffic, which detectors find, with ids after the `last` one."""
+    labelled = [number for number, one in enumerate(items) if kind_of(nouns[one.rule.noun])]
+    ids = dict(zip(labelled, itertools.count(last + 1), strict=False))
+    return [replace(one, instance=ids.get(number, 0)) for number, one in enumerate(items)]
 
 
 def _choose_levels(

@@ -33,6 +33,8 @@ HUNG = {"ceiling fan", "wall shelf"}
 """What hangs from above or on a wall."""
 LINES = {"runway markings", "basketball court lines", "pitch lines"}
 """White paint on the ground."""
+PIECES = LINES | {"crosswalk", "firework", "expanding ring", "campfire", "ski", "toy train"}
+"""What consists of several pieces."""
 INSECTS = {"bee", "housefly", "dragonfly", "butterfly"}
 HOPPERS = {"frog"}
 """What leaves the ground at each stride."""
@@ -116,6 +118,27 @@ def test_size_holds_all_parts_and_is_not_loose(noun):
         assert 0.85 * model.height <= points[:, 2].max() <= 1.1 * model.height
     else:
         assert 0.30 * model.height <= reach[2] <= 0.55 * model.height
+
+
+def widest_gap(parts: list[ModelPart]) -> float:
+    """The largest distance between the boxes around two groups into which parts fall."""
+    points = [surface_points(part) for part in parts]
+    low, high = (np.array([end(one, axis=0) for one in points]) for end in (np.min, np.max))
+    apart = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)
+    widest, is_reached = 0.0, np.arange(len(parts)) == 0
+    while not is_reached.all():
+        nearest = np.where(is_reached, np.inf, apart[is_reached].min(axis=0))
+        widest = max(widest, nearest.min())
+        is_reached[nearest.argmin()] = True
+    return widest
+
+
+@for_every_noun
+def test_no_part_floats_beside_the_others(noun):
+    for model, poses in ((usual_model(noun), POSES), (violet_model(noun), POSES[:2])):
+        size = max(model.length, model.width, model.height)
+        gaps = [widest_gap(model.parts(pose)) / size for pose in poses]
+        assert max(gaps) < 0.06 or noun.name in PIECES, gaps
 
 
 @for_every_noun

@@ -12,7 +12,7 @@ from texvent_scenes.raycast.changed_tiles import Drawn, changed_tiles
 from texvent_scenes.raycast.incremental import IncrementalRenderer
 from texvent_scenes.raycast.optics import Optics
 from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.rendered_scene import Shape, Texture
+from texvent_scenes.rendered_scene import MEDIUM_RECORD, Shape, Texture
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, still
 
@@ -42,13 +42,28 @@ BOX = MovingShape(Shape.BOX, (0.4, 0.4, 0.8), still(-1.0, 0.0, 0.8))
 BLOCKER = MovingShape(Shape.BOX, (0.5, 0.5, 0.5), moving((1.0, 0.0, 3.0), (0.6, 0.0, 0.0)))
 PANE = MovingShape(Shape.BOX, (1.2, 0.1, 1.5), still(-1.0, 1.0, 1.5), texture=Texture.PANE)
 BALL = MovingShape(Shape.ELLIPSOID, (0.8,) * 3, moving((-1.5, -3.3, 1.2), (0.3, 0.0, 0.0)))
+MIRROR = replace(PANE, texture=Texture.MIRROR)
 DULL = replace(day(), shadows=False)
+
+
+class Drifting(HandScene):
+    """A scene with a puff of smoke that moves."""
+
+    def environment(self, time_s):
+        puff = np.zeros(1, MEDIUM_RECORD)
+        puff["to_world"][0] = np.column_stack([0.7 * np.eye(3), (1.0 + time_s, 0.0, 1.0)])
+        puff["optical_depth"], puff["colour"] = 2.0, 0.5
+        return replace(super().environment(time_s), media=puff)
+
+
 NO_TILES = np.zeros((6, 8), dtype=np.bool_)
 SCENES = {
     "clouds": HandScene((BOX,), environment_base=replace(day(), clouds=0.6)),
     "shapes": HandScene((BLOCKER,), high_camera, environment_base=DULL),
     "shadows": HandScene((BOX, BLOCKER), high_camera),
     "mirrored": HandScene((PANE, BALL), high_camera, environment_base=DULL),
+    "sharply mirrored": HandScene((MIRROR, BLOCKER), high_camera, environment_base=DULL),
+    "media": Drifting((BOX,), high_camera, environment_base=DULL),
 }
 """A scene for each kind of change."""
 MISSES = {
@@ -56,6 +71,8 @@ MISSES = {
     "shapes": ("_changed_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
     "shadows": ("_shadow_windows", lambda *drawn: []),
     "mirrored": ("_mirroring", lambda *drawn: np.zeros(0, dtype=np.int64)),
+    "sharply mirrored": ("_mirroring", lambda *drawn: np.zeros(0, dtype=np.int64)),
+    "media": ("_drifting_windows", lambda *drawn: []),
 }
 """Function that finds a kind of change, and one that finds none."""
 

@@ -75,6 +75,14 @@ def test_a_material_keeps_its_mean_at_every_size(texture):
 METRES, ANGLE = st.floats(-30, 30), st.floats(-3, 3)
 
 
+@pytest.mark.parametrize("texture", [one for one, kind in SURFACES.items() if kind.is_evened])
+def test_a_tile_that_repeats_has_no_large_patches(texture):
+    look = finest(texture)[..., 0] + 1.35 * finest(texture)[..., 1]
+    for patches in (2, 4, 8):
+        means = look.reshape(patches, SIDE // patches, patches, -1).mean(axis=(1, 3))
+        assert means.std() < 0.025 * means.mean()
+
+
 @given(x=METRES, y=METRES, angle=ANGLE, roads=st.lists(st.tuples(METRES, METRES, ANGLE)))
 @settings(max_examples=100)
 def test_the_drawn_roads_lie_on_the_lines_of_the_staging(x, y, angle, roads):

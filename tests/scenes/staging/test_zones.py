@@ -14,7 +14,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.compose import ComposedScene, compose_scene, kind_of
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import RoadLine
 from texvent_scenes.staging.surroundings.scenery import ViewClearance, scatter
@@ -133,3 +133,40 @@ def test_a_person_with_a_small_thing_has_it(noun):
         assert one.track.anchor is not None
         gap = [np.linalg.norm(one.middle(t) - man.middle(t)) for t in TIMES_S]
         assert max(gap) < 1.3
+
+
+PEOPLED = sorted(
+    place for place, one in PLACES.items() if any(kind_of(NOUNS[r.noun]) for r in one.scenery)
+)
+
+
+@pytest.mark.parametrize("place", PEOPLED)
+def test_people_and_traffic_of_the_scenery_have_names_and_ids_after_those_of_the_objects(place):
+    for seed in range(2):
+        scene = stage(SceneObject("dog"), place=place, seed=seed)
+        assert set(np.unique(scene.primitives(0.0).instance)) - {0} == set(scene.class_names)
+        assert list(scene.class_names) == list(range(1, 1 + len(scene.class_names)))
+        assert scene.class_names[1] == "dog"
+        assert all(kind_of(NOUNS[name]) for name in list(scene.class_names.values())[1:])
+
+
+@pytest.mark.parametrize("noun", ["van", "child"])
+def test_scenery_shows_none_of_the_kind_that_a_scene_names(noun):
+    kind = kind_of(NOUNS[noun])
+    scenes = [stage(SceneObject(noun), place="city", seed=seed) for seed in range(3)]
+    others = [kind_of(NOUNS[one]) for each in scenes for one in [*each.class_names.values()][1:]]
+    assert others
+    assert kind not in others
+
+
+def test_what_stands_at_a_kerb_is_off_the_road_and_out_of_the_way():
+    scene = stage(thing("dog", ("walk", "right")), place="city")
+    base, shapes = scene.animated_environment.base, scene.primitives(0.0)
+    road = RoadLine(base.road_angle, tuple(base.road_offset))
+    cars = [n for n, name in scene.class_names.items() if name == "car"]
+    assert cars
+    for car in cars:
+        middles = shapes.to_world[shapes.instance == car][:, :2, 3]
+        assert np.abs(road.across(middles)).min() > PLACES["city"].road_m
+        assert all(np.hypot(*(middles - scene.actors[0].middle(t)[:2]).T).min() > 1.0
+                   for t in TIMES_S)  # fmt: skip

@@ -58,18 +58,19 @@ ESIM = {
     "esim": {},
     "esim, two thresholds": {"contrast_threshold_off": 0.4},
 }
-SLOW: dict[str, Any] = {"gamma": 1.0, "cutoff_hz": 30.0, "balance": 40.0, "noise_scale": 300.0}
 PHYSICAL = {
-    "physical": {**SLOW, "hot_pixel_fraction": 0.1, "hot_pixel_rate_hz": 300.0},
-    "physical, held long": {
-        **SLOW, "refractory_period_us": 4000, "cutoff_limit_hz": 10.0, "on_off_ratio": 1.5,
-        "sensor_seed": 4,
+    "physical": {
+        "gamma": 1.0, "balance": 40.0, "cutoff_hz": 150.0, "cutoff_limit_hz": 60.0,
+        "on_off_ratio": 1.5, "refractory_period_us": 3000, "noise_scale": 300.0,
+        "hot_pixel_fraction": 0.1, "hot_pixel_rate_hz": 300.0, "sensor_seed": 4,
     },
     "physical, leak": {
         "initial_phase": "random", "leak_rate_hz": 90.0, "refractory_period_us": 0,
         "cutoff_hz": 0.0, "noise_scale": 0.0, "balance": 40.0,
     },
 }  # fmt: skip
+SMALL = slice(12), slice(16)
+"""Pixels for a model whose steps cost the interpreter most."""
 
 
 MODELS = {
@@ -79,7 +80,7 @@ MODELS = {
 }
 CASES = [
     *((name, np.uint8) for name in MODELS),
-    *((name, np.float32) for name in ("paper", "current", "default", "esim", "physical")),
+    *((name, np.float32) for name in ("paper", "current", "default", "esim")),
 ]
 
 
@@ -87,6 +88,8 @@ CASES = [
 def test_the_events_are_those_of_the_cpu(name, dtype, device):
     model, config = MODELS[name]
     clips, times_us = random_clips(dtype), random_times()
+    if name in PHYSICAL:
+        clips = clips[..., *SMALL].copy()
     found = on_gpu(
         torch, GpuSimulator(config, seed=SEED), clips, times_us, TWO_PAIRS, device=device,
         chunks=(3, 2),
@@ -94,7 +97,7 @@ def test_the_events_are_those_of_the_cpu(name, dtype, device):
     for clip in range(CLIPS):
         simulator = model(config, seed=SEED + clip)
         expected = rows(on_cpu(simulator, clips[clip], times_us[clip], TWO_PAIRS))
-        assert len(expected) > 200
+        assert len(expected) > clips[clip, 0].size // 3
         if dtype == np.uint8 or device == "cpu":
             assert np.array_equal(rows(found[clip]), expected)
         else:

@@ -56,7 +56,9 @@ def test_events_are_enlarged_without_inventing_colours() -> None:
 
 
 @pytest.mark.parametrize("name", PALETTES)
-def test_the_legend_shows_on_before_off_in_the_palettes_colours(name: str) -> None:
+def test_the_legend_shows_on_before_off_and_their_mixture_in_the_palettes_colours(
+    name: str,
+) -> None:
     palette = get_palette(name)
     legend = draw_legend(palette, 13)
     middle = legend[legend.shape[0] // 2]
@@ -64,5 +66,8 @@ def test_the_legend_shows_on_before_off_in_the_palettes_colours(name: str) -> No
     first_off = int(np.argmax((middle == palette.off).all(axis=1)))
     assert (middle[first_on : first_on + 12] == palette.on).all()
     assert (middle[first_off : first_off + 12] == palette.off).all()
+    is_seen = sum(np.abs(np.subtract(palette.both, palette.background))) > 3
+    assert (legend.shape[1] > draw_legend(get_palette("v2e"), 13).shape[1]) == is_seen
+    assert (middle[first_off + 12 :] == palette.both).all(axis=1).any()
     # In palettes of black and white, the other polarity may also be the colour of the words.
     assert first_on < first_off or palette.off == palette.ink

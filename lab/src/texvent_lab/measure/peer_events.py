@@ -32,7 +32,7 @@ Columns = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
 """x, y, px; t, µs; p, above 0 for ON."""
 Simulate = Callable[[list[Frame], float], Columns]
 """8-bit grey frames and contrast threshold → events."""
-LOWEST, RATIO, COUNT = 0.05, 1.15, 20
+LOWEST, RATIO, COUNT = 0.05, 1.2, 12
 """Thresholds: the lowest, each next over the one before, their number."""
 
 

@@ -30,6 +30,7 @@ from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.engines import local_engine
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
+from texvent.view.drawing.palettes import get_palette
 
 DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or
 scene file per line, # begins a comment), .csv or .jsonl (prompt, scene or video, and perhaps name
@@ -134,6 +135,7 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         events=folder,
         format=output.format,
         previews=output.preview_kinds,
+        palette=get_palette(output.palette).name,
         truth=output.truth_parts,
         overwrite=output.overwrite,
     )

@@ -9,18 +9,22 @@ import threading
 import webbrowser
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import temporary_folder
 from texvent.web.job_page import JobServer
 from texvent.web.server import PageServer
 
-DESCRIPTION = """Open the web page: type a prompt or the path of a video, look at the events,
-download them. Only those who have the address can reach the page."""
+DESCRIPTION = """Open the web page: choose an example, type a prompt or give a scene file or a
+video, look at the events, download them. Only those who have the address can reach the page.
+
+  texvent app
+  texvent app --folder ~/Videos"""
 WAIT_S = 0.5
 LEAD = """<!doctype html><meta name="referrer" content="no-referrer">
 <meta http-equiv="refresh" content="0; url={}">"""
@@ -47,12 +51,23 @@ class AddressOptions:
             )
 
 
+@dataclass(frozen=True, kw_only=True)
+class FolderOptions:
+    """Files that the page may name."""
+
+    folder: Path = Path()
+    """Folder of videos and scene files; the page reads no other, but for files that it is sent."""
+
+    def __post_init__(self) -> None:
+        if not self.folder.is_dir():
+            raise InputError(f"{self.folder} is no folder; give the one that holds your videos")
+
+
 def run(arguments: Sequence[str]) -> int:
     """Serve until Ctrl-C or SIGTERM; returns the exit code."""
-    (options,) = parse_configs(
-        arguments, {"page": AddressOptions()}, prog="texvent app", description=DESCRIPTION
-    )
-    return serve(JobServer(port=options.port), options)
+    groups = {"files": FolderOptions(), "page": AddressOptions()}
+    files, options = parse_configs(arguments, groups, prog="texvent app", description=DESCRIPTION)
+    return serve(JobServer(files.folder, port=options.port), options)
 
 
 def serve(server: PageServer, options: AddressOptions) -> int:

@@ -79,6 +79,7 @@ class BatchPlan:
             "settings": self.settings.as_tables(),
             "format": self.files.format or self.extension,
             "previews": list(self.files.previews),
+            "palette": self.files.palette,
         }
 
 

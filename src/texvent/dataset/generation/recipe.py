@@ -157,7 +157,8 @@ class Recipe:
             found[name] = ClipSettings(self.command, own, seed)
         of_videos = dict(options)
         if (least := self.specification.filters.least_control_agreement) is not None:
-            of_videos = {"on_failure": "retry", **options, "least_agreement": least}
+            response = "reject" if options.get("on_failure") == "reject" else "retry"
+            of_videos |= {"least_agreement": least, "on_failure": response}
         return {VIDEOS: ClipSettings(self.command, of_videos, seed), **found}
 
     def _check_options(self) -> None:

@@ -87,7 +87,8 @@ def _check_videos(specification: Specification, *, are_labelled: bool) -> None:
         options = OPTIONS_OF_VIDEOS.get(part, ())
         is_known = any(name in specification.options for name in options)
         if not is_known and not (are_labelled and part == "boxes"):
-            remedy = f"give option {' or '.join(options)}" if options else "leave it out"
+            given = f"give option {' or '.join(options)}, with files of your renderer"
+            remedy = given if options else "leave it out"
             also = ", or sources `boxes`, labels of their videos" if part == "boxes" else ""
             raise ConfigError(f"truth {part} is not known of videos; {remedy}{also}")
 

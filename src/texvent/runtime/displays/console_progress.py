@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import time
-from typing import Self
+from collections.abc import Callable
+from typing import ClassVar, Self
 
 from rich.console import Console
 from rich.progress import (
@@ -34,6 +35,9 @@ class ConsoleProgress:
         is_forced: show the bar at once, and wherever stderr leads.
     """
 
+    listener: ClassVar[Callable[[str, int, int | None], None] | None] = None
+    """Told every step, where another program shows them; then there is no bar."""
+
     def __init__(self, *, is_quiet: bool = False, is_forced: bool = False) -> None:
         self._console = Console(
             stderr=True, quiet=is_quiet, highlight=False, force_terminal=is_forced or None
@@ -55,12 +59,12 @@ class ConsoleProgress:
 
     def __enter__(self) -> Self:
         self._started = time.monotonic()
-        if self._has_bar:
+        if self._has_bar or type(self).listener is not None:
             TERMINALS.append(self)
         return self
 
     def __exit__(self, *error: object) -> None:
-        if self._has_bar:
+        if self in TERMINALS:
             TERMINALS.remove(self)
         with contextlib.suppress(OSError):
             if self._is_shown:
@@ -73,6 +77,9 @@ class ConsoleProgress:
 
     def advance(self, stage: str, done: int, total: int | None) -> None:
         """Move the bar of a stage."""
+        listener = type(self).listener
+        if listener is not None:
+            listener(stage, done, total)
         if not self._has_bar or time.monotonic() - self._started < self._patience:
             return
         with contextlib.suppress(OSError):

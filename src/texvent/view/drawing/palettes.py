@@ -44,6 +44,14 @@ class Palette:
         )
 
     @property
+    def both(self) -> Colour:
+        """Colour of a pixel with as many ON as OFF events."""
+        red, green, blue = (
+            round((on + off) / 2) for on, off in zip(self.on, self.off, strict=True)
+        )
+        return red, green, blue
+
+    @property
     def ink(self) -> Colour:
         """Text and lines on the background."""
         return (236, 238, 242) if self.is_dark else (38, 42, 50)
@@ -62,17 +70,15 @@ def _lighten(colour: Colour) -> Colour:
     return red, green, blue
 
 
+_PAPER = Palette(
+    "paper", (0, 0, 255), (255, 0, 0), (255, 255, 255), "Texvent's figures; rpg dvs_renderer"
+)
 PALETTES = MappingProxyType(
     {
         palette.name: palette
         for palette in (
-            Palette(
-                "paper",
-                (0, 0, 255),
-                (255, 0, 0),
-                (255, 255, 255),
-                "Texvent's figures; rpg dvs_renderer",
-            ),
+            _PAPER,
+            replace(_PAPER.dark, name="paper-dark", source="pages in dark mode"),
             Palette("dv", (0, 93, 183), (43, 43, 43), (255, 255, 255), "iniVation dv-processing"),
             Palette("metavision-dark", (255, 255, 255), (64, 126, 200), (30, 37, 52), "Metavision"),
             Palette("redblue", (255, 0, 0), (0, 0, 255), (255, 255, 255), "eventcv, evlib, AirSim"),

@@ -110,6 +110,8 @@ def flow_arrows(flow: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.concatenate([tails[seen], motion[seen]], axis=1).astype(np.float32)
 
 
+LEAST_CONTRAST = 16
+"""Of the colours of a legend to their ground, levels."""
 TARGET_WIDTH = 1280.0
 MAX_FACTOR = 10
 GAP = 2
@@ -231,21 +233,26 @@ class PanelLayout:
 
 
 def draw_legend(palette: Palette, text_height: int) -> Image:
-    """Legend of ON and OFF colours, a strip with the palette's background.
+    """Legend of ON, OFF and their mixture, a strip with the palette's background.
+
+    A mixture that looks like the background is left out.
 
     Args:
         palette: the colours.
         text_height: height of capitals, pixels.
 
     Returns:
-        [3 text_height, about 13 text_height, 3] uint8.
+        [3 text_height, about 20 text_height, 3] uint8.
     """
     height = 3 * text_height
     square = text_height + 2
-    entries = (("ON", palette.on), ("OFF", palette.off))
+    entries = [("ON", palette.on), ("OFF", palette.off), ("both", palette.both)]
+    grounds = zip(palette.both, palette.background, strict=True)
+    if max(abs(one - other) for one, other in grounds) < LEAST_CONTRAST:
+        entries.pop()
     words = [text_width(word, text_height) for word, _ in entries]
     gap = max(3, text_height // 2)
-    strip_width = sum(words) + 2 * (square + gap) + 4 * text_height
+    strip_width = sum(words) + len(words) * (square + gap + text_height) + 2 * text_height
     strip = blank(strip_width, height, SURROUND)
     pad = max(2, text_height // 2)
     draw_box(strip, pad, pad, strip_width - 2 * pad, height - 2 * pad, palette.background)

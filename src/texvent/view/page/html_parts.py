@@ -21,7 +21,7 @@ from texvent.view.sample import FrameStrip, RateCurve
 
 SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
 """Parts of the viewer, in the order in which they build on one another."""
-PALETTE_PARTS = ("on", "off", "background", "ink")
+PALETTE_PARTS = ("on", "off", "both", "background", "ink")
 
 
 def fill_template(name: str, parts: Mapping[str, str], *, palette: Palette) -> str:

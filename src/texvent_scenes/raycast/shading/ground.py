@@ -271,7 +271,7 @@ def glossy_share(instant: Record, point: Vector, foot: float) -> tuple[float, fl
         hollow = noise_2d(0.31 * point[0], 0.31 * point[1], 7)
         hollow += 0.4 * noise_2d(0.9 * point[0], 0.9 * point[1], 8) * detail_fade(0.9 * foot)
         puddle = smooth(1.6 * hollow + 0.3) * detail_fade(0.31 * foot)
-    return share * instant.wetness * (0.45 + 0.55 * puddle), 0.1 - 0.07 * puddle
+    return share * instant.wetness * (0.3 + 0.7 * puddle), 0.28 - 0.24 * puddle
 
 
 _PLASTER, _STONE, _CLOTH = 33, 31, 43

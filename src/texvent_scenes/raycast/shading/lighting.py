@@ -10,12 +10,14 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.addresses import shape_at
-from texvent_scenes.raycast.lamps.light import lamp_light
+from texvent_scenes.raycast.lamps.light import lamp_light, lamps_reach
+from texvent_scenes.raycast.meshes.hit import hit_mesh
 from texvent_scenes.raycast.records import Record
 from texvent_scenes.raycast.shading.ambient import ambient_light
 from texvent_scenes.raycast.shading.ground import glossy_share, ground_look, wall_look
 from texvent_scenes.raycast.shading.reflection import (
     add_fog,
+    fresnel,
     mirrored_light,
     sky_light,
     with_reflection,
@@ -31,7 +33,10 @@ from texvent_scenes.raycast.trace import (
     GROUND,
     ROOM,
     SKY,
+    background_from,
+    hit_shape,
     ray_direction,
+    sun_reaches,
     surface_normal,
 )
 from texvent_scenes.raycast.vectors import (
@@ -43,6 +48,7 @@ from texvent_scenes.raycast.vectors import (
     scaled,
     times,
     triple,
+    turned,
     unit,
 )
 from texvent_scenes.rendered_scene import FIRST_SURFACE, Colour
@@ -113,6 +119,12 @@ _WET_DARK = 0.45
 """Share of its light that a wet ground loses."""
 _BOX, _MESH = 1, 4
 _UNDERWATER = 9
+SHARP = 0.01
+"""Roughness below which a surface shows a sharp image, radians."""
+_OFF = 1e-3
+"""What a mirrored ray meets nearer than this, in units of the camera's depth, does not count."""
+_ALL = -1
+"""Bits of all lamps."""
 
 
 @jit(error_model="numpy", inner=True)
@@ -140,18 +152,42 @@ def _shape_light(
     lit: int,
 ) -> Colour:
     """Light from a shape: texture, reflection, a soft highlight, its own glow."""
+    coat = _coat(instant, shape_at(instant.shapes, hit[1]))
+    if coat[0] > 0.0 and coat[1] < SHARP:
+        return _mirror_light(instant, hit, point, direction, steps, lit)
+    return _coated_light(instant, hit, point, direction, steps, lit)
+
+
+@jit(error_model="numpy", inner=True)
+def _coat(instant: Record, shape: Record) -> Colour:
+    """Gloss, roughness and crown of a shape's clear layer."""
+    if shape.texture < FIRST_SURFACE or shape.kind == _MESH:
+        return 0.0, 0.0, 0.0
+    coat: Colour = triple(instant.gloss[shape.texture - FIRST_SURFACE])
+    return coat
+
+
+@jit(error_model="numpy", inner=True)
+def _coated_light(
+    instant: Record,
+    hit: tuple[float, int, int],
+    point: Colour,
+    direction: Colour,
+    steps: tuple[Colour, Colour],
+    lit: int,
+) -> Colour:
+    """As `_shape_light`, with a soft image of its surroundings where it is glossy."""
     depth, number, face = hit
     shape = shape_at(instant.shapes, number)
     flat = surface_normal(instant, number, face, point)
+    if dot(flat, direction) > 0.0:  # a mesh's faces the camera, in a mirror that may be behind it
+        flat = scaled(flat, -1.0)
     patch = surface_patch(steps, direction, depth, flat)
     foot = patch_extent(patch)[2]
-    gloss, rough, bend = 0.0, 0.0, 0.0
-    crowned = flat
-    if shape.texture >= FIRST_SURFACE and shape.kind != _MESH:
-        coat = instant.gloss[shape.texture - FIRST_SURFACE]
-        gloss, rough = coat[0], coat[1]
-        if gloss > 0.0:
-            crowned, bend = _crowned(shape, face, point, flat, coat[2])
+    gloss, rough, crown = _coat(instant, shape)
+    crowned, bend = flat, 0.0
+    if gloss > 0.0:
+        crowned, bend = _crowned(shape, face, point, flat, crown)
     colour, normal = surface_look(instant, number, face, point, (crowned, patch[0], patch[1]))
     view = unit(direction)
     light = _reflected(instant, colour, point, normal, foot, lit)
@@ -163,6 +199,112 @@ def _shape_light(
         facing = max(dot(half, normal), 0.0) / math.sqrt(dot(half, half) + 1e-12)
         light = along(light, triple(instant.sun_colour), 0.12 * facing**24)
     return along(light, colour, shape.emission)
+
+
+@jit(error_model="numpy", inner=True)
+def _next_hit(
+    instant: Record, point: Colour, direction: Colour, own: int
+) -> tuple[float, int, int]:
+    """First hit of a ray from a point of shape `own`: parameter, number, face."""
+    best, found, best_face = background_from(instant, point, direction)
+    for number in range(instant.shape_count):
+        if number == own:
+            continue
+        shape = shape_at(instant.shapes, number)
+        o, d = mapped(shape.inverse, point), turned(shape.inverse, direction)
+        if shape.kind == _MESH:
+            t, face = hit_mesh(instant, shape.root, o, d, _OFF, False)
+        else:
+            t, face = hit_shape(shape.kind, o, d, _OFF)
+        if t < best:
+            best, found, best_face = t, number, face
+    return best, found, best_face
+
+
+@jit(error_model="numpy", inner=True)
+def _mirror_light(
+    instant: Record,
+    hit: tuple[float, int, int],
+    point: Colour,
+    direction: Colour,
+    steps: tuple[Colour, Colour],
+    lit: int,
+) -> Colour:
+    """Light of a smooth mirror: what the mirrored rays meet, which mirrors softly at most.
+
+    Four rays in each pixel soften the edges in the image.
+    """
+    depth, number, face = hit
+    shape = shape_at(instant.shapes, number)
+    flat = surface_normal(instant, number, face, point)
+    share = fresnel(_coat(instant, shape)[0], -dot(unit(direction), flat))
+    patch = surface_patch(steps, direction, depth, flat)
+    total = (0.0, 0.0, 0.0)
+    for part in range(4):
+        right, down = 0.5 * (part % 2) - 0.25, 0.5 * (part // 2) - 0.25
+        place = along(along(point, patch[0], right), patch[1], down)
+        seen = along(along(direction, steps[0], right), steps[1], down)
+        seen = _mirrored(seen, flat)
+        sides = _mirrored(steps[0], flat), _mirrored(steps[1], flat)
+        light = _met_light(
+            instant, _next_hit(instant, place, seen, number), place, seen, sides, depth
+        )
+        total = along(total, light, 0.25)
+    colour, _ = surface_look(instant, number, face, point, (flat, patch[0], patch[1]))
+    own = _reflected(instant, colour, point, flat, patch_extent(patch)[2], lit)
+    return mix(own, total, share)
+
+
+@jit(error_model="numpy", inner=True)
+def _mirrored(vector: Colour, normal: Colour) -> Colour:
+    return along(vector, normal, -2.0 * dot(vector, normal))
+
+
+@jit(error_model="numpy", inner=True)
+def _met_light(
+    instant: Record,
+    hit: tuple[float, int, int],
+    start: Colour,
+    direction: Colour,
+    steps: tuple[Colour, Colour],
+    before: float,
+) -> Colour:
+    """Light that comes back along a mirrored ray; `before` is the camera's depth of its start."""
+    beyond, number, face = hit
+    if number == SKY:
+        return sky_light(instant, unit(direction), instant.step, 0.0)
+    point = along(start, direction, beyond)
+    normal = surface_normal(instant, number, face, point)
+    if dot(normal, direction) > 0.0:
+        normal = scaled(normal, -1.0)
+    lit = int(number != ROOM and sun_reaches(instant, point, normal)[0])
+    if instant.shadow_lamps > 0:
+        lit |= lamps_reach(instant, point, normal, _ALL)[0] << 1
+    depth = before + beyond
+    if number == GROUND:
+        light = _ground_light(instant, depth, point, direction, steps, lit)
+    elif number == ROOM:
+        light = _wall_light(instant, depth, face, point, direction, steps, lit)
+    else:
+        light = _coated_light(instant, (depth, number, face), point, direction, steps, lit)
+    return add_fog(instant, light, beyond * math.sqrt(dot(direction, direction)))
+
+
+@jit(error_model="numpy", inner=True)
+def _wall_light(
+    instant: Record,
+    depth: float,
+    face: int,
+    point: Colour,
+    direction: Colour,
+    steps: tuple[Colour, Colour],
+    lit: int,
+) -> Colour:
+    """Light from a room's wall or ceiling."""
+    flat = surface_normal(instant, ROOM, face, point)
+    patch = surface_patch(steps, direction, depth, flat)
+    colour, normal = wall_look(instant, point, face, patch)
+    return _reflected(instant, colour, point, unit(normal), patch_extent(patch)[2], lit)
 
 
 @jit(error_model="numpy", inner=True)
@@ -263,10 +405,7 @@ def shade_hit(instant: Record, x: float, y: float, hit: tuple[float, int, int], 
     if number == GROUND:
         light = _ground_light(instant, depth, point, direction, steps, lit)
     elif number == ROOM:
-        flat = surface_normal(instant, ROOM, face, point)
-        patch = surface_patch(steps, direction, depth, flat)
-        colour, normal = wall_look(instant, point, face, patch)
-        light = _reflected(instant, colour, point, unit(normal), patch_extent(patch)[2], lit)
+        light = _wall_light(instant, depth, face, point, direction, steps, lit)
     else:
         light = _shape_light(instant, hit, point, direction, steps, lit)
     return add_fog(instant, light, distance)

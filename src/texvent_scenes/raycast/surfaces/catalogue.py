@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent_scenes.raycast.surfaces import patterns
-from texvent_scenes.raycast.surfaces.fields import SIDE, Field
+from texvent_scenes.raycast.surfaces.fields import SIDE, Field, interpolated
 from texvent_scenes.rendered_scene import FIRST_SURFACE, Texture
 
 LEVELS = 9
@@ -18,6 +18,8 @@ LEVELS = 9
 CHANNELS = 4
 STEEPEST = 1.2
 """Slopes of relief are cut off here."""
+_PATCHES, _LIGHTER = 8, 0.35
+"""Patches along a tile's side that are evened out; by how much a second colour is lighter."""
 _FRACTION = 1 << 16
 """Factors are whole multiples of 1 / this, so that their sum is exact."""
 
@@ -43,11 +45,18 @@ class SurfaceKind:
     """Blur of what it mirrors, radians."""
     crown: float = 0.0
     """Slope at the edges of a box's faces, which bulge as sheet metal does."""
+    is_regular: bool = False
+    """Whether its patches line up in nature too."""
+
+    @property
+    def is_evened(self) -> bool:
+        """Whether larger patches, which do not line up, take the place of its own."""
+        return self.wear > 0.0 and not self.is_regular
 
 
 SURFACES: dict[Texture, SurfaceKind] = {
-    Texture.VARIATION: SurfaceKind(patterns.variation, 1.0),
-    Texture.CRACKED: SurfaceKind(patterns.cracked, 1.0),
+    Texture.VARIATION: SurfaceKind(patterns.variation, 1.0, wear=0.0),
+    Texture.CRACKED: SurfaceKind(patterns.cracked, 1.0, wear=0.0),
     Texture.WORN: SurfaceKind(patterns.worn, 1.6, wear=0.0),
     Texture.ASPHALT: SurfaceKind(patterns.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED, 13.7),
     Texture.GRASS: SurfaceKind(patterns.grass, 1.7, 0.35, 1.0),
@@ -56,7 +65,7 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.LEAVES: SurfaceKind(patterns.leaves, 1.9, 0.4, 0.8),
     Texture.SNOW: SurfaceKind(patterns.snow, 3.0, 0.9, 0.5),
     Texture.PAVING: SurfaceKind(patterns.paving, 3.0, 0.8, 0.8),
-    Texture.TILES: SurfaceKind(patterns.tiles, 1.6, 0.4, 0.5),
+    Texture.TILES: SurfaceKind(patterns.tiles, 1.6, 0.4, 0.5, is_regular=True),
     Texture.BOARDS: SurfaceKind(patterns.boards, 1.9, 0.3, 0.6),
     Texture.CARPET: SurfaceKind(patterns.carpet, 1.8, 0.3, 0.7),
     Texture.WATER: SurfaceKind(patterns.water, 3.5, 0.3, 0.9),
@@ -81,6 +90,7 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.LACQUER: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.06, crown=0.3),
     Texture.PANE: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.1, crown=0.06),
     Texture.MIRROR: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.9, roughness=0.004),
+    Texture.PRINT: SurfaceKind(patterns.print_, 0.5, wear=0.0),
 }
 """Every material."""
 SURFACE_COUNT = max(SURFACES) - FIRST_SURFACE + 1
@@ -104,9 +114,12 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
     """
     kind = SURFACES[texture]
     pattern = kind.pattern()
-    factor = np.rint(np.clip(pattern.factor, 0.0, 8.0) * _FRACTION)
-    factor = factor * (SIDE * SIDE / float(int(factor.astype(np.int64).sum())))
     share = np.clip(pattern.share, 0.0, 1.0)
+    factor = np.clip(pattern.factor, 0.0, 8.0)
+    if kind.is_evened:
+        factor = _evened(factor, share)
+    factor = np.rint(factor * _FRACTION)
+    factor = factor * (SIDE * SIDE / float(int(factor.astype(np.int64).sum())))
     level = np.stack(
         [
             factor * (1.0 - share),
@@ -121,6 +134,21 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
         fine = levels[-1]
         levels.append((fine[::2, ::2] + fine[1::2, ::2] + fine[::2, 1::2] + fine[1::2, 1::2]) / 4.0)
     return np.concatenate([each.reshape(-1, CHANNELS) for each in levels]).astype(np.float32)
+
+
+def _evened(factor: Field, share: Field) -> Field:
+    """A factor without patches of an eighth of the tile or more.
+
+    Where they are a few pixels wide their repetition would be seen as rows and columns; larger
+    patches that do not line up take their place.
+    """
+    side = SIDE // _PATCHES
+    for _ in range(2):
+        whole = np.rint(factor * (1.0 + _LIGHTER * share) * _FRACTION)
+        sums = whole.reshape(_PATCHES, side, _PATCHES, side).sum(axis=(1, 3))
+        patches = interpolated(sums * (_PATCHES * _PATCHES / sums.sum()))
+        factor = factor / np.roll(patches, side // 2, axis=(0, 1))
+    return factor
 
 
 @cache

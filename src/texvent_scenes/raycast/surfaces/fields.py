@@ -66,13 +66,17 @@ def noise(columns: int, salt: int, rows: int | None = None) -> Field:
     """Value noise with that many lattice cells per tile; about unit standard deviation."""
     rows = columns if rows is None else rows
     i, j = np.meshgrid(np.arange(columns), np.arange(rows))
-    lattice = 2.0 * hashed(i, j, salt) - 1.0
+    return interpolated(2.0 * hashed(i, j, salt) - 1.0) / _VALUE_NOISE_STD
+
+
+def interpolated(lattice: Field) -> Field:
+    """A field, smooth between the numbers [rows, columns] of a lattice over the tile."""
+    rows, columns = lattice.shape
     left, across = _lattice_places(columns)
     top, down = _lattice_places(rows)
     wide = lattice[:, left] * (1.0 - across) + lattice[:, (left + 1) % columns] * across
     down = down[:, None]
-    full = wide[top] * (1.0 - down) + wide[(top + 1) % rows] * down
-    return np.asarray(full / _VALUE_NOISE_STD)
+    return np.asarray(wide[top] * (1.0 - down) + wide[(top + 1) % rows] * down)
 
 
 def _lattice_places(cells: int) -> tuple[NDArray[np.int64], Field]:

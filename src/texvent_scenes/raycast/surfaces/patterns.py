@@ -7,12 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent_scenes.raycast.surfaces.fields import (
+    SIDE,
     Field,
     cells,
     courses,
     exponential,
     fractal,
     grid,
+    hashed,
     noise,
     smooth_step,
     strokes,
@@ -182,6 +184,18 @@ def _dents(columns: int, rows: int, salt: int) -> Field:
 def _grain(salt: int) -> Field:
     """Strands along y, long against their width."""
     return fractal(3, 5, salt, gain=0.9, stretch=8)
+
+
+def print_() -> Pattern:
+    """Panels of headings, lines of letters and pictures."""
+    rows, columns = np.indices((SIDE, SIDE))
+    kind = hashed(columns // 64, rows // 64, 371)
+    words = (rows % 8 < 5) & (hashed(columns // 3, rows // 8, 372) > 0.4)
+    heading = (rows % 32 < 20) & (hashed(columns // 9, rows // 32, 373) > 0.3)
+    pictured = smooth_step(fractal(8, 5, 374), -0.3, 0.3)
+    ink = np.where(kind < 0.4, words, np.where(kind < 0.65, heading, pictured * (kind < 0.85)))
+    inside = (columns % 64 >= 4) & (rows % 64 >= 4)
+    return Pattern(exponential(0.05 * fractal(4, 5, 375)), ink * inside, 0.0 * ink)
 
 
 def _half() -> Field:

@@ -153,7 +153,7 @@ class Emitter:
         return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def media(self, time_s: float) -> NDArray[Any]:
-        """[k] `MEDIUM_RECORD` at that instant; media just born or about to end are thin."""
+        """[k] `MEDIUM_RECORD` at that instant."""
         style = self.style
         if style.body != "medium":
             return np.zeros(0, MEDIUM_RECORD)
@@ -168,7 +168,8 @@ class Emitter:
         media["to_world"][:, :, 3] = flown.places
         shade = 0.72 + 0.56 * draws[:, 6:7]
         media["colour"] = (first + (last - first) * age[:, None]) * shade
-        media["optical_depth"] = thick * _fade(age) * flown.is_there
+        thick = thick * _fade(age) if style.fades else thick
+        media["optical_depth"] = thick * flown.is_there
         media["emission"] = _between(style.emission, age)
         media["detail"], media["seed"] = style.detail, 50.0 * draws[:, 6]
         return media

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,11 +28,17 @@ _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""
 _FAR_SHORE_M = 100.0
 """Distance from which on scenery may stand beyond the water."""
+_ROOM_M = 0.4
+"""Between scenery and the way of an object, m."""
+_KERB_M = 0.3
+"""From the edge of a road to what stands along it, m."""
 _USUAL_DISTANCE_M = 16.0
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
 """Along a route: usually from one to the next, and least and most from the free strip."""
+_ALONG_ROAD = 0.35
+"""Sine of the angle to the road below which a camera looks along it."""
 _LEAST_STEPS, _FINER = 4, 25
 """Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
@@ -69,6 +76,8 @@ class SceneryItem:
     yaw: float
     height_m: float = 0.0
     """Height of its origin, m."""
+    instance: int = 0
+    """Ground-truth id; 0 = it has none."""
 
     @property
     def is_flat(self) -> bool:
@@ -84,7 +93,9 @@ class SceneryItem:
         """Its parts in the world."""
         state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
         parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-        return PlacedModel(parts, state.to_world(), 0)
+        if self.instance:  # a parked car has its lamps off
+            parts = [replace(one, emission=0.0) if one.emission else one for one in parts]
+        return PlacedModel(parts, state.to_world(), self.instance)
 
 
 def scatter(
@@ -132,6 +143,10 @@ class _Scatterer:
         rng: np.random.Generator,
     ) -> None:
         self.items: list[SceneryItem] = []
+        self._stands: Mapping[str, Callable[[Scenery, Model, PosedCamera], SceneryItem | None]]
+        self._stands = defaultdict(
+            lambda: self._stand_around, walls=self._stand_at_wall, kerb=self._stand_at_kerb
+        )
         self._view, self._nouns, self._rng = view, nouns, rng
         self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
@@ -144,6 +159,11 @@ class _Scatterer:
         ]
         self._bodies = np.array(rows, dtype=np.float64).reshape(-1, 3)
         """[n, 3]: x, y and radius of the objects all along their ways, m."""
+        boxes = [
+            one.corners(time_s)[:, :2] for one in actors for time_s in _list_times(one, view.clip_s)
+        ]
+        self._corners = np.array(boxes, dtype=np.float64).reshape(-1, 8, 2)
+        """[n, 8, 2]: x and y of the corners of their boxes, m."""
 
     def _build(self, rule: Scenery, copy: int, scale: float = 1.0) -> Model:
         """A copy of a piece, with its own size and seed."""
@@ -160,9 +180,8 @@ class _Scatterer:
             model = self._build(rule, copy, fit)
             for _ in range(_ATTEMPTS):
                 camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
-                stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
-                item = stand(rule, model, camera)
-                if self._is_free(item):
+                item = self._stands[rule.where](rule, model, camera)
+                if item is not None and self._is_free(item):
                     self.items.append(item)
                     break
 
@@ -188,12 +207,14 @@ class _Scatterer:
         """At the side of a route, 1 = right, so far along it."""
         model = self._build(rule, copy)
         near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
-        aside = travel.clear(side) + 0.5 * max(model.length, model.width)
+        is_at_kerb = rule.where == "kerb"
+        across = model.width if is_at_kerb else max(model.length, model.width)
+        aside = travel.clear(side) + 0.5 * across
         aside += near + (far - near) * float(self._rng.uniform()) ** 2
         height = 0.0
         if self._nouns[rule.noun].habitat == "air":
             height = travel.journey.height_m + float(self._rng.uniform(-5.0, 4.0))
-        yaw = self._turn(rule, NORTH + side * 0.5 * math.pi)
+        yaw = self._turn(rule, NORTH if is_at_kerb else NORTH + side * 0.5 * math.pi)
         return SceneryItem(rule, model, travel.point(along_m, side * aside), yaw, height)
 
     def _turn(self, rule: Scenery, along_road: float) -> float:
@@ -244,11 +265,44 @@ class _Scatterer:
         yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
         return SceneryItem(rule, model, (spot[0], spot[1]), yaw)
 
+    def _stand_at_kerb(
+        self, rule: Scenery, model: Model, camera: PosedCamera
+    ) -> SceneryItem | None:
+        """Beside the road, along it, on the side that the camera looks at."""
+        road, half_m = self._view.road, self._view.road_half_width
+        if half_m is None:
+            return None
+        spot = np.array(self._stand_around(rule, model, camera).position)
+        along = np.array([math.cos(road.angle), math.sin(road.angle)])
+        left = np.array([-along[1], along[0]])
+        forward, _ = _axes(camera)
+        side = math.copysign(1.0, float(forward @ left))
+        if abs(float(forward @ left)) < _ALONG_ROAD:  # it looks along the road
+            side = float(self._rng.choice([-1.0, 1.0]))
+        place = np.array(road.offset) + along * float((spot - road.offset) @ along)
+        near, far = trait_value("distance from a road", rule.noun) or (_KERB_M, _KERB_M)
+        aside = half_m + 0.5 * model.width + float(self._rng.uniform(near, far))
+        place += side * aside * left
+        heading = self._turn(rule, road.angle + (math.pi if side > 0.0 else 0.0))
+        return SceneryItem(rule, model, (float(place[0]), float(place[1])), heading)
+
+    def _meets_body(self, item: SceneryItem, deep_m: float) -> bool:
+        """Whether an object comes near: to its circle, or to its box if it stands along a road."""
+        if item.rule.where != "kerb":
+            apart = np.hypot(*(self._bodies[:, :2] - item.position).T)
+            return bool(np.any(apart < self._bodies[:, 2] + deep_m + _ROOM_M))
+        cosine, sine = math.cos(item.yaw), math.sin(item.yaw)
+        corners = (self._corners - item.position) @ [[cosine, -sine], [sine, cosine]]
+        half = np.array([item.radius_m, deep_m]) + _ROOM_M
+        is_near = (corners.min(axis=1) < half) & (corners.max(axis=1) > -half)
+        return bool(is_near.all(axis=1).any())
+
     def _is_free(self, item: SceneryItem) -> bool:
         """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
         spot, radius, view = np.array(item.position), item.radius_m, self._view
         if view.road_half_width is not None:
-            clear = view.road_half_width + radius + 0.4
+            is_at_kerb = item.rule.where == "kerb"
+            clear = view.road_half_width + (0.5 * _KERB_M if is_at_kerb else radius + 0.4)
             if float(view.road.distance(spot[None])[0]) < clear:
                 return False
         is_at_wall = item.rule.where == "walls"
@@ -257,8 +311,9 @@ class _Scatterer:
             return False
         # What stands at a wall is as deep as it is long, not as it is wide.
         deep = min(0.5 * item.model.length + 0.3, radius) if is_at_wall else radius
-        apart = np.hypot(*(self._bodies[:, :2] - spot).T)
-        if np.any(apart < self._bodies[:, 2] + deep + 0.4):
+        if item.rule.where == "kerb":
+            deep = 0.5 * item.model.width + 0.3
+        if self._meets_body(item, deep):
             return False
         others = (one for one in self.items if not one.is_flat)
         if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):

@@ -80,15 +80,7 @@ def scan_circuit(
         BLOCK: pixels of a program.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
-    on = tl.load(state.threshold_on + home, mask=inside, other=1.0).to(tl.float64)
-    off = tl.load(state.threshold_off + home, mask=inside, other=1.0).to(tl.float64)
-    leak = tl.load(state.leak + home, mask=inside, other=0.0).to(tl.float64)
-    output = tl.load(state.output + home, mask=inside, other=0.0)
-    level = tl.load(state.level + home, mask=inside, other=0.0)
-    since_us = tl.load(state.since_us + home, mask=inside, other=0)
-    number = tl.zeros([BLOCK], tl.int64)
-    if state.noise is not None:
-        number = tl.load(state.noise[1] + home, mask=inside, other=0)
+    on, off, leak, output, level, since_us, number = _load_pixels(state, home, inside)
     arrival = _read_arrival(state.noise, number, at, inside)
     last = read(frames.previous + home, inside)
     bad = count_bad(last, inside)
@@ -104,28 +96,22 @@ def scan_circuit(
             output = before
             level = before - level
             since_us = tl.zeros([BLOCK], tl.int64) + start_us
-        light = (before, now, cutoff, cutoff_now)
-        since = (since_us - start_us).to(tl.float64)
-        pixel = (on, off, leak)
-        is_quiet = _is_quiet(light, pixel, (output, level, since), duration_us.to(tl.float64))
-        is_disturbed = (arrival >> 1) < axis_us + duration_us
-        active = inside & ((is_quiet == 0) | is_disturbed)
-        lag = _follow(light, before - output, duration_us.to(tl.float64), rules)
         cell = find_cell(tally, segment)
         place = tl.full([], 0, tl.int64)
         if tally.bad is None:
             place = tl.load(cell)
-        if tl.max(active.to(tl.int32)) > 0:
-            lag, level, since, number, arrival, place = _advance_active(
-                (at, active, frames.area), light, pixel,
-                (before - output, lag, level, since, number, arrival, place),
-                (axis_us, duration_us), (rules, state.noise, words),
-            )  # fmt: skip
-            since_us = tl.where(active, start_us + since.to(tl.int64), since_us)
+        output, level, since, number, arrival, place = _advance_interval(
+            (at, inside, frames.area),
+            (before, now, cutoff, cutoff_now),
+            (on, off, leak),
+            (output, level, (since_us - start_us).to(tl.float64), number, arrival, place),
+            (axis_us, duration_us),
+            (rules, state.noise, words),
+        )
+        since_us = start_us + since.to(tl.int64)
         if tally.bad is not None:
             tl.store(cell, place)
             bad += count_bad(last, inside)
-        output = now - tl.where(tl.abs(lag) < _SETTLED, 0.0, lag)
         before, cutoff = now, cutoff_now
     if tally.bad is not None:
         tl.atomic_add(tally.bad, tl.sum(bad))
@@ -136,11 +122,26 @@ def scan_circuit(
 
 
 @triton.jit
+def _load_pixels(state: tl.tuple, home: tl.tensor, inside: tl.tensor) -> tl.tuple:
+    """The items of `CircuitState`, and the numbers of the first noise events."""
+    on = tl.load(state.threshold_on + home, mask=inside, other=1.0).to(tl.float64)
+    off = tl.load(state.threshold_off + home, mask=inside, other=1.0).to(tl.float64)
+    leak = tl.load(state.leak + home, mask=inside, other=0.0).to(tl.float64)
+    output = tl.load(state.output + home, mask=inside, other=0.0)
+    level = tl.load(state.level + home, mask=inside, other=0.0)
+    since_us = tl.load(state.since_us + home, mask=inside, other=0)
+    number = tl.zeros(home.shape, tl.int64)
+    if state.noise is not None:
+        number = tl.load(state.noise.first + home, mask=inside, other=0)
+    return on, off, leak, output, level, since_us, number
+
+
+@triton.jit
 def _read_arrival(noise: tl.tuple, number: tl.tensor, at: tl.tensor, where: tl.tensor) -> tl.tensor:
     """Time of a noise event on the common axis, µs, times 2, plus its polarity."""
     if noise is not None:
-        word = tl.load(noise[0] + number, mask=where, other=_FILLER)
-        arrival = word - at.to(tl.int64) * noise[2] * 2
+        word = tl.load(noise.words + number, mask=where, other=_FILLER)
+        arrival = word - at.to(tl.int64) * noise.axis_us * 2
     else:
         arrival = number + _FILLER
     return arrival
@@ -171,7 +172,7 @@ def _follow(light: tl.tuple, lag: tl.tensor, duration: tl.tensor, rules: tl.tupl
 
 
 @triton.jit
-def _advance_active(
+def _advance_interval(
     own: tl.tuple,
     light: tl.tuple,
     pixel: tl.tuple,
@@ -179,75 +180,106 @@ def _advance_active(
     span: tl.tuple,
     shared: tl.tuple,
 ) -> tl.tuple:
-    """Advance pixels that may fire through an interval, event by event.
+    """Advance pixels through an interval: as if none fired, or segment by segment.
 
     Args:
-        own: numbers of the pixels, which of them may fire, and the area.
-        light: brightness and cutoff at both ends.
+        own: numbers of the pixels, which of them exist, and the area.
+        light: brightness at both ends, cutoff at both.
         pixel: thresholds and leak.
-        state: lag at the start; lag at the end if nothing fires; level; release since the start;
-            number and `_read_arrival` of the next noise event; place of the next event.
+        state: output; level; release since the start of the interval; number and `_read_arrival`
+            of the next noise event; place of the next event.
         span: start on the common axis, and duration, µs.
         shared: rules, noise, words.
 
     Returns:
-        The state at the end, from the second on.
+        The state at the end.
     """
-    at, active, area = own
-    axis_us, duration_us = span
-    rules, noise, words = shared
-    lag, final_lag, level, since, number, arrival, place = state
-    duration = duration_us.to(tl.float64)
-    count, length, growth = _cut_into_segments(light, duration)
-    current, cutoff = exponential(light[0]), light[2]
-    index, here = tl.full([], 0.0, tl.float64), active
-    while tl.max(here.to(tl.int32)) > 0:
-        begin = index * length
-        index += 1.0
-        end = tl.where(index == count, duration, index * length)
-        ahead = current * growth
-        lag_ahead, cutoff_ahead, base, slope, transient, omega, kept = _enter_segment(
-            light, (lag, cutoff, current, ahead), (begin, length, duration), rules
-        )
-        now, going = begin, here
-        while tl.max(going.to(tl.int32)) > 0:
-            lost = going & (since > now) & _comes_before(arrival, since, axis_us)
-            while tl.max(lost.to(tl.int32)) > 0:
-                number += lost.to(tl.int64)
-                arrival = tl.where(lost, _read_arrival(noise, number, at, lost), arrival)
-                lost = lost & _comes_before(arrival, since, axis_us)
-            now = tl.where((since > now) & (since <= end), since, now)
-            going = going & (since <= now)
-            curve, level = _start_step(
-                (base, slope, transient, omega, kept), (level, since), pixel, (now, begin, end),
-                going,
+    output, level, since, number, arrival, place = state
+    before, now, cutoff, _ = light
+    duration = span[1].to(tl.float64)
+    lag = before - output
+    final_lag = _follow(light, lag, duration, shared[0])
+    is_quiet = _is_quiet(light, pixel, (output, level, since), duration)
+    active = own[1] & ((is_quiet == 0) | ((arrival >> 1) < span[0] + span[1]))
+    if tl.max(active.to(tl.int32)) > 0:
+        count, length, growth = _cut_into_segments(light, duration)
+        current, index, here = exponential(before), tl.full([], 0.0, tl.float64), active
+        while tl.max(here.to(tl.int32)) > 0:
+            begin = index * length
+            index += 1.0
+            end = tl.where(index == count, duration, index * length)
+            ahead = current * growth
+            lag_ahead, cutoff_ahead, base, slope, transient, omega, kept = _enter_segment(
+                light, (lag, cutoff, current, ahead), (begin, length, duration), shared[0]
+            )
+            line = (base, slope, transient, omega, kept)
+            level, since, number, arrival, place = _advance_segment(
+                (own[0], here, own[2]), line, pixel, (level, since, number, arrival, place),
+                (span[0], span[1], begin, end), shared,
             )  # fmt: skip
-            wait, rises = find_crossings(curve, pixel[0], pixel[1])
-            crossing, arrival_us = now + wait, (arrival >> 1) - axis_us
-            comes = tl.where(arrival_us < duration_us, arrival_us.to(tl.float64), float("inf"))
-            event, by_noise = tl.minimum(crossing, comes), comes <= crossing
-            going = going & (event <= end)
-            event = tl.where(going, event, 0.0)
-            is_leak = rises & (pixel[2] * (event - since) >= pixel[0] * _LEAK_SHARE)
+            lag, cutoff = tl.where(here, lag_ahead, lag), tl.where(here, cutoff_ahead, cutoff)
+            current = tl.where(here, ahead, current)
+            here = here & (index < count)
+        final_lag = tl.where(active, lag, final_lag)
+    output = now - tl.where(tl.abs(final_lag) < _SETTLED, 0.0, final_lag)
+    return output, level, since, number, arrival, place
+
+
+@triton.jit
+def _advance_segment(
+    own: tl.tuple,
+    line: tl.tuple,
+    pixel: tl.tuple,
+    state: tl.tuple,
+    span: tl.tuple,
+    shared: tl.tuple,
+) -> tl.tuple:
+    """Fire every event of pixels on a segment.
+
+    Args:
+        own: numbers of the pixels, which of them are on the segment, and the area.
+        line: output of their photoreceptors, see `_enter_segment`.
+        pixel: thresholds and leak.
+        state: that of `_advance_interval` without the output.
+        span: that of `_advance_interval`, and begin and end of the segment.
+        shared: rules, noise, words.
+    """
+    at, going, area = own
+    level, since, number, arrival, place = state
+    axis_us, duration_us, begin, end = span
+    rules, noise, words = shared
+    now = begin
+    while tl.max(going.to(tl.int32)) > 0:
+        lost = going & (since > now) & _comes_before(arrival, since, axis_us)
+        while tl.max(lost.to(tl.int32)) > 0:
+            number += lost.to(tl.int64)
+            arrival = tl.where(lost, _read_arrival(noise, number, at, lost), arrival)
+            lost = lost & _comes_before(arrival, since, axis_us)
+        now = tl.where((since > now) & (since <= end), since, now)
+        going = going & (since <= now)
+        curve, level = _start_step(line, (level, since), pixel, (now, begin, end), going)
+        wait, rises = find_crossings(curve, pixel[0], pixel[1])
+        crossing, arrival_us = now + wait, (arrival >> 1) - axis_us
+        comes = tl.where(arrival_us < duration_us, arrival_us.to(tl.float64), float("inf"))
+        going = going & (tl.minimum(crossing, comes) <= end)
+        now = tl.where(going, tl.minimum(crossing, comes), now)
+        by_noise = comes <= crossing
+        after = tl.floor(now)
+        fired = going.to(tl.int32)
+        if words is not None:
+            is_leak = rises & (pixel[2] * (now - since) >= pixel[0] * _LEAK_SHARE)
             is_on = tl.where(by_noise, arrival & 1, rises.to(tl.int64))
-            after = tl.floor(event)
-            fired = going.to(tl.int32)
-            if words is not None:
-                t = axis_us + tl.minimum(after.to(tl.int64), duration_us - 1)
-                word = pack_event(t, at, is_on, (by_noise | is_leak).to(tl.int64), area)
-                tl.store(words + place + tl.cumsum(fired, 0) - 1, word, mask=going)
-            place += tl.sum(fired)
-            used = going & by_noise
-            number += used.to(tl.int64)
-            arrival = tl.where(used, _read_arrival(noise, number, at, used), arrival)
-            # Held in reset for the refractory period.
-            level = tl.where(going, float("nan"), level)
-            since = tl.where(going, after + rules.refractory_us, since)
-            now = tl.where(going, event, now)
-        lag, cutoff = tl.where(here, lag_ahead, lag), tl.where(here, cutoff_ahead, cutoff)
-        current = tl.where(here, ahead, current)
-        here = here & (index < count)
-    return tl.where(active, lag, final_lag), level, since, number, arrival, place
+            t = axis_us + tl.minimum(after.to(tl.int64), duration_us - 1)
+            word = pack_event(t, at, is_on, (by_noise | is_leak).to(tl.int64), area)
+            tl.store(words + place + tl.cumsum(fired, 0) - 1, word, mask=going)
+        place += tl.sum(fired)
+        used = going & by_noise
+        number += used.to(tl.int64)
+        arrival = tl.where(used, _read_arrival(noise, number, at, used), arrival)
+        # Held in reset for the refractory period.
+        level = tl.where(going, float("nan"), level)
+        since = tl.where(going, after + rules.refractory_us, since)
+    return level, since, number, arrival, place
 
 
 @triton.jit

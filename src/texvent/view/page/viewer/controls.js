@@ -95,3 +95,7 @@ const startPage = () => {
   controls.open();
 };
 startPage();
+// A page that frames this one may make room for all of it.
+if (parent !== window) {
+  new ResizeObserver(() => parent.postMessage({ height: document.body.offsetHeight }, "*")).observe(document.body);
+}
