@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import MAX_REASON, MAX_SHOWN, InputError, one_line, shown, without_password
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.files.file_names import usable_path
 
 
 def bomb():

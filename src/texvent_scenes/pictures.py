@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.runtime.image_files import decode_image
+from texvent.runtime.files.image_files import decode_image
 from texvent_scenes.mesh import SurfaceImage, decode_srgb, light_of, surface_image
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.models.shapes import half_extents
@@ -156,7 +156,7 @@ class PlayedVideo:
     def _open(self) -> Iterator[Any]:
         from av.error import FFmpegError  # most scenes show no video
 
-        from texvent.runtime.media_files import open_media_file, raise_scarcity
+        from texvent.runtime.files.media_files import open_media_file, raise_scarcity
 
         try:
             with open_media_file(self._path) as container:

@@ -22,7 +22,7 @@ from texvent.dataset.statistics import DatasetStatistics, counts_rows, summary_l
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import verify
 from texvent.errors import TexventError
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 
 Place = tuple[Any, ...]
 

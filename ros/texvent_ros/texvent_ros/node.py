@@ -26,7 +26,7 @@ from texvent.events import EventStream
 from texvent.io.ros.messages import EVT3, NS, NS_PER_S, EventPacket
 from texvent.options.values import with_options
 from texvent.represent.event_frame import count_events
-from texvent.runtime.interrupts import raise_interrupted
+from texvent.runtime.work.interrupts import raise_interrupted
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent_ros.config import RosConfig

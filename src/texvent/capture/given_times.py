@@ -20,7 +20,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, few, one_li
 from texvent.frames import MICROSECONDS, frame_time_us
 from texvent.options.arrays import HOW_TO_ROUND, whole_numbers
 from texvent.options.values import parse_fraction
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, usable_path
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
 """Units in a second."""

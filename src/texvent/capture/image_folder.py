@@ -21,13 +21,13 @@ from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.errors import FileFormatError, InputError, few, shown, warn
 from texvent.frames import Frame, PixelArray
 from texvent.options.arrays import usable_pixels
-from texvent.runtime.file_names import (
+from texvent.runtime.files.file_names import (
     IMAGE_EXTENSIONS,
     in_natural_order,
     numbering_gap,
     usable_path,
 )
-from texvent.runtime.image_files import HEAD_BYTES, PHOTOMETRIC, decode_image, tiff_tags
+from texvent.runtime.files.image_files import HEAD_BYTES, PHOTOMETRIC, decode_image, tiff_tags
 from texvent.sensor import checked_size
 
 TIMESTAMP_NAMES = ("timestamps.txt", "images.txt", "info.txt")

@@ -16,14 +16,14 @@ from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password
 from texvent.frames import MICROSECONDS, Frame
-from texvent.runtime.interrupts import stop_on_interrupt
-from texvent.runtime.media_files import (
+from texvent.runtime.files.media_files import (
     is_timeless,
     only_self_contained,
     open_media,
     raise_scarcity,
 )
 from texvent.runtime.read_once import ReadOnce
+from texvent.runtime.work.interrupts import stop_on_interrupt
 from texvent.sensor import checked_size
 
 STANDARD_INPUT = "-"

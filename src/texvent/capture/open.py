@@ -27,8 +27,8 @@ from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.io.ros.bag_kind import is_bag
 from texvent.options.arrays import is_array_like
-from texvent.runtime.file_names import usable_path
-from texvent.runtime.image_files import HEAD_BYTES, is_animation
+from texvent.runtime.files.file_names import usable_path
+from texvent.runtime.files.image_files import HEAD_BYTES, is_animation
 from texvent.sensor import SensorSize
 
 

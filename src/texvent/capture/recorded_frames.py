@@ -37,7 +37,7 @@ from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.frames import MICROSECONDS, Frame
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.runtime.yaml_text import load_yaml
+from texvent.runtime.files.yaml_text import load_yaml
 from texvent.sensor import SensorSize
 
 DSEC_EVENTS = Path("events/left/events.h5")

@@ -27,8 +27,8 @@ from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn
 from texvent.frames import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 from texvent.io.input_checks import begins_with, refuse_missing
-from texvent.runtime.image_files import HEAD_BYTES
-from texvent.runtime.media_files import is_timeless, open_media_file, raise_scarcity
+from texvent.runtime.files.image_files import HEAD_BYTES
+from texvent.runtime.files.media_files import is_timeless, open_media_file, raise_scarcity
 from texvent.runtime.memory import usable_bytes
 from texvent.sensor import checked_size
 

@@ -19,8 +19,8 @@ from texvent.cli.standard_streams import (
 )
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs
-from texvent.runtime.interrupts import clean_up, has_threads, raise_interrupted
-from texvent.runtime.side_work import finishing_side_work
+from texvent.runtime.work.interrupts import clean_up, has_threads, raise_interrupted
+from texvent.runtime.work.side_work import finishing_side_work
 
 COMMANDS = {
     "generate": (

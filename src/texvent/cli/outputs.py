@@ -12,7 +12,7 @@ from texvent.errors import ConfigError, shown
 from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
-from texvent.runtime.file_names import file_stem
+from texvent.runtime.files.file_names import file_stem
 from texvent.truth.layout import check_truth_folder, parse_parts
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 

@@ -29,7 +29,7 @@ from pypi_simple import (
 from texvent.data.catalogue import Archive, DataFolder, DataSet, find_data_set
 from texvent.errors import FileFormatError, TexventError, one_line
 from texvent.io.atomic import atomic_file
-from texvent.runtime.cache_folder import cache_folder, make_folder
+from texvent.runtime.files.cache_folder import cache_folder, make_folder
 
 DATA_VARIABLE = "TEXVENT_DATA"
 """Environment variable that names the data folder."""

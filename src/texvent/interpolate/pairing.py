@@ -22,7 +22,7 @@ from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.time_jump import watch_steps
 from texvent.runtime.devices import Device, explain_device_memory
 from texvent.runtime.memory import release_freed_memory
-from texvent.runtime.prefetch import prefetch
+from texvent.runtime.work.prefetch import prefetch
 
 FRAMES_AHEAD = 2
 PAIRS_AHEAD = 1

@@ -25,9 +25,9 @@ from pathlib import Path
 from typing import Any, Self
 
 from texvent.errors import OutputError, shown
-from texvent.runtime.file_locks import is_locked, locked
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
-from texvent.runtime.interrupts import clean_ups
+from texvent.runtime.files.file_locks import is_locked, locked
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.runtime.work.interrupts import clean_ups
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
 PREFIX = ".texvent-"

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, FileFormatError, InputError, few, one_line, shown
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.lens import HALF_PIXEL, Distortion, Lens
+from texvent.runtime.files.yaml_text import load_yaml
 from texvent.runtime.memory import check_claim
-from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize, checked_size
 from texvent.transform.undistort import Calibration
 

@@ -27,7 +27,7 @@ from texvent.errors import (
 )
 from texvent.events import OPTIONAL_COLUMNS, EventStream
 from texvent.io.reading import PER_SECOND, TimeUnit
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
 from texvent.runtime.memory import check_proportion
 from texvent.sensor import SensorSize, checked_size
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, FileFormatError, InputError, shown, warn
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.input_checks import existing_file
-from texvent.runtime.image_files import decode_image
+from texvent.runtime.files.image_files import decode_image
 from texvent.sensor import SensorSize
 
 EXTENSIONS = (".npy", ".png", ".txt")

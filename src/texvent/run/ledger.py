@@ -15,7 +15,7 @@ from typing import Any
 
 from texvent.errors import FileFormatError, one_line
 from texvent.io.atomic import atomic_file
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 from texvent.settings.provenance import describe_state, is_unchanged
 
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
-from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
+from texvent.runtime.work.background_writer import BackgroundWriter
 from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:

@@ -1,1 +1,1 @@
-"""Threads, prefetching, compilation, memory, signals and progress: what every stage runs on."""
+"""Threads, devices, compilation, memory, progress; work beside the main path; files; displays."""

@@ -10,8 +10,8 @@ from typing import Any, Literal
 from texvent._registry import suggest
 from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
-from texvent.runtime.file_names import usable_path
-from texvent.runtime.yaml_text import load_yaml
+from texvent.runtime.files.file_names import usable_path
+from texvent.runtime.files.yaml_text import load_yaml
 
 Command = Literal["generate", "simulate"]
 TABLES = ("run", "generate", "capture", "interpolate", "simulate")

@@ -15,7 +15,7 @@ from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
 from texvent.generation.subjects import SCENE_KEY, Subject, scenes
 from texvent.prompt_report import REPORT_KEY
-from texvent.runtime.file_names import IMAGE_EXTENSIONS
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS
 from texvent.settings.resolution import Settings
 
 END_BYTES = 8 * 2**20

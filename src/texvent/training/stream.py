@@ -20,7 +20,7 @@ from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.device_names import check_device_name
 from texvent.runtime.devices import explain_device_memory, find_gpu, triton_fault
-from texvent.runtime.prefetch import prefetch
+from texvent.runtime.work.prefetch import prefetch
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.simulation.clips.pixels import (
     ClipArrays,

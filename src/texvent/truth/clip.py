@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import NPZ_DAMAGE, open_arrays
 from texvent.io.input_checks import existing_file, existing_folder
-from texvent.runtime.image_files import decode_image
+from texvent.runtime.files.image_files import decode_image
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.boxes import BOX_RECORD, COCO, PROPHESEE
 from texvent.truth.layout import CLIP_FILES, DIRECTIONS, FACTS, FORMAT, TIMES

@@ -32,7 +32,7 @@ from texvent.generation.video_models.known_models import MODELS
 from texvent.generation.video_models.model_files import HUB
 from texvent.io.atomic import atomic_file, temporary_folder
 from texvent.options.values import option_names
-from texvent.runtime.file_names import VIDEO_EXTENSIONS, file_stem, usable_path
+from texvent.runtime.files.file_names import VIDEO_EXTENSIONS, file_stem, usable_path
 from texvent.sensor import SENSORS
 from texvent.settings.resolution import read_basis
 from texvent.web.server import FILE_BYTES, HTML, NOTHING_POLICY, Answer, Gets, PageServer, page_text

@@ -15,7 +15,7 @@ from texvent._registry import SIMULATORS
 from texvent.errors import InputError
 from texvent.io.files import extension_of, writable_formats
 from texvent.represent.event_frame import event_frame
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 from texvent.view.drawing.canvas import jpeg_bytes, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, PALETTES

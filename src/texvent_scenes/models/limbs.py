@@ -202,12 +202,17 @@ def _within(start: Affine, end: Affine, reach: float) -> Affine:
 
 def _held(trunk: Affine, along: Affine, upright: Affine) -> Affine:
     """[3, 3] axes of a hand: z along what it holds, x near the forearm."""
-    upright = upright / max(float(np.linalg.norm(upright)), 1e-9)
+    upright = _unit(upright)
     ahead = along - (along @ upright) * upright
-    if float(np.linalg.norm(ahead)) < 0.05:
+    if float(ahead @ ahead) < 0.05**2:
         ahead = trunk[:, 0] - (trunk[:, 0] @ upright) * upright
-    ahead = ahead / np.linalg.norm(ahead)
-    return np.column_stack([ahead, np.cross(upright, ahead), upright])
+    (ux, uy, uz), (x, y, z) = upright, _unit(ahead)
+    left = uy * z - uz * y, uz * x - ux * z, ux * y - uy * x
+    return np.array([[x, left[0], ux], [y, left[1], uy], [z, left[2], uz]])
+
+
+def _unit(vector: Affine) -> Affine:
+    return vector / max(math.sqrt(float(vector @ vector)), 1e-9)
 
 
 def read_limbs(rows: Sequence[Mapping[str, Any]]) -> list[Limb]:

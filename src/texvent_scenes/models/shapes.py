@@ -209,7 +209,7 @@ def placed_between(start: Point, end: Point, radius: float, side: float, overlap
 def placed_along(start: Point, end: Point) -> Affine:
     """Axes at the start, in m: z towards the end, y as near to body y as it can be."""
     axes = placed_between(start, end, 1.0, 1.0, 0.0)
-    axes[:, 2] /= np.linalg.norm(axes[:, 2])
+    axes[:, 2] /= max(0.5 * math.dist(start, end), 1e-9)
     axes[:, 3] = start
     return axes
 

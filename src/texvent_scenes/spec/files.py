@@ -12,8 +12,8 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 from texvent.options.values import option_help
-from texvent.runtime.file_names import usable_path
-from texvent.runtime.yaml_text import keys_once
+from texvent.runtime.files.file_names import usable_path
+from texvent.runtime.files.yaml_text import keys_once
 from texvent_scenes.colours import PALETTES
 from texvent_scenes.spec.data import scene_from_data, scene_to_data
 from texvent_scenes.spec.limits import Vocabulary

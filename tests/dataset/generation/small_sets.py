@@ -13,7 +13,7 @@ from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import specification_from
-from texvent.runtime.engines import Engine, SerialEngine
+from texvent.runtime.work.engines import Engine, SerialEngine
 
 
 def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:

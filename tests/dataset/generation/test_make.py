@@ -37,8 +37,8 @@ from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.generation import kept_frames
 from texvent.pipeline import text_to_events
-from texvent.runtime.engines import ProcessEngine
-from texvent.runtime.side_work import begin_side_work
+from texvent.runtime.work.engines import ProcessEngine
+from texvent.runtime.work.side_work import begin_side_work
 from texvent.settings import provenance
 from texvent.settings.resolution import resolve
 from texvent_scenes.raycast.incremental import IncrementalRenderer

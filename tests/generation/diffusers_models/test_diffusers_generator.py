@@ -44,7 +44,7 @@ from texvent.generation.diffusers_models.pipeline_loading import (  # noqa: E402
 from texvent.generation.video_models.config import DiffusersConfig  # noqa: E402
 from texvent.generation.video_models.known_models import MODELS  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
-from texvent.runtime.side_work import finish_side_work  # noqa: E402
+from texvent.runtime.work.side_work import finish_side_work  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
 from texvent.simulation.gpu.support import RunDevice  # noqa: E402
 

@@ -20,8 +20,8 @@ from texvent.generation.videos.stored_video import (
 )
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.io.atomic import is_hidden_part
-from texvent.runtime import side_work
-from texvent.runtime.interrupts import clean_up
+from texvent.runtime.work import side_work
+from texvent.runtime.work.interrupts import clean_up
 from texvent.transfer import Transfer
 
 FPS = Fraction(30_000, 1001)

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeAlias
 
-from texvent.runtime.engines import interruptible, processes
+from texvent.runtime.work.engines import interruptible, processes
 
 
 def run_jobs(

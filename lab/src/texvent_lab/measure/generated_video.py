@@ -23,7 +23,7 @@ from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import MadeVideo, to_16_bits_there, write_video
 from texvent.interpolate.rife.weights import find_rife_weights
 from texvent.pipeline import video_to_events
-from texvent.runtime.side_work import begin_side_work, finish_side_work
+from texvent.runtime.work.side_work import begin_side_work, finish_side_work
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation.gpu.support import RunDevice

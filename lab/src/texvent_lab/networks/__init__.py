@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.networks.weight_files import Tensor
-from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.files.cache_folder import cache_folder
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""

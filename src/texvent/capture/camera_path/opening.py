@@ -28,7 +28,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.frames import MICROSECONDS, Frame, check_intensity
 from texvent.options.arrays import is_array_like
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize
 
 FPS = Fraction(60)

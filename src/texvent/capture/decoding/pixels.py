@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.errors import warn
 from texvent.frames import PixelArray
-from texvent.runtime.media_files import raise_scarcity
+from texvent.runtime.files.media_files import raise_scarcity
 
 LIMITED = (16, 235)
 """Black and white of limited range."""

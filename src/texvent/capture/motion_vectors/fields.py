@@ -21,7 +21,7 @@ from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import NPZ_DAMAGE
 from texvent.io.input_checks import check_zip, reporting_damage
 from texvent.options.arrays import as_array
-from texvent.runtime.file_names import in_natural_order, numbering_gap, usable_path
+from texvent.runtime.files.file_names import in_natural_order, numbering_gap, usable_path
 
 Role: TypeAlias = str
 """Option that named the file (a key of `ROLE_KIND`): the meaning of an array without a name."""

@@ -23,9 +23,9 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.device_names import AUTO, check_device_name
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.engines import Engine, Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
+from texvent.runtime.work.engines import Engine, Outcome, local_engine
 
 DESCRIPTION = """Make a data set from a specification (TOML or YAML). What is complete is kept: the
 same command resumes where it was stopped or killed, on any machine that sees the folder.

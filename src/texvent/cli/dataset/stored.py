@@ -31,7 +31,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
 from texvent.errors import ConfigError, few
 from texvent.prompt_report import ranked
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 from texvent.runtime.threads import count_threads
 
 MOST_LINES, MOST_SENSORS = 20, 12

@@ -25,7 +25,7 @@ from texvent.io.files import codec_that_reads, open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.files.file_names import usable_path
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
 from texvent.transform.filters.apply import filter_events

@@ -16,7 +16,7 @@ from texvent.io.input_checks import refuse_missing
 from texvent.io.reading import TimeUnit
 from texvent.options.time_range import END_OF_TIME_US
 from texvent.options.values import parse_fraction
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.files.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.transform.edits import keep_time
 

@@ -27,7 +27,7 @@ from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.engines import local_engine
+from texvent.runtime.work.engines import local_engine
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 from texvent.view.drawing.palettes import get_palette

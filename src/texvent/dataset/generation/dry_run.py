@@ -14,9 +14,9 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shard_files import FAILED, MADE, ShardRecord, size_in_tar
 from texvent.dataset.specification.items import Items
 from texvent.errors import TexventError
-from texvent.runtime.engines import Outcome, local_engine
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
+from texvent.runtime.work.engines import Outcome, local_engine
 
 
 @dataclass(frozen=True)

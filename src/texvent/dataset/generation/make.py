@@ -25,7 +25,7 @@ from texvent.errors import ConfigError, InputError, OutputError, TexventError, f
 from texvent.io.atomic import sweep
 from texvent.runtime.device_names import AUTO
 from texvent.runtime.displays.progress_option import ProgressOption, open_progress
-from texvent.runtime.engines import local_engine
+from texvent.runtime.work.engines import local_engine
 
 MOST_NAMED = 5
 """Classes that the error names."""

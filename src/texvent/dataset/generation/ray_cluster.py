@@ -17,8 +17,8 @@ from typing import Any
 from texvent._require import require
 from texvent._version import full_version
 from texvent.errors import ConfigError, MissingDependencyError, TexventError, one_line, shown
-from texvent.runtime.engines import ENDING_ALL, Outcome, Task, attempt
 from texvent.runtime.threads import THREADS_VARIABLE
+from texvent.runtime.work.engines import ENDING_ALL, Outcome, Task, attempt
 
 ATTEMPTS = 5
 """Attempts at a shard whose process or node dies."""

@@ -37,7 +37,7 @@ from texvent.pipeline import Simulation, fit_to_sensor, simulate_together, with_
 from texvent.prompt_report import REPORT_KEY
 from texvent.run.prepare import make_video, prepare_video
 from texvent.runtime.device_names import AUTO
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 from texvent.runtime.identity import digest
 from texvent.settings.resolution import Settings
 from texvent.simulation.gpu.support import choose_device

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from texvent.runtime.engines import Engine, Outcome
 from texvent.runtime.progress import NO_PROGRESS, Progress
+from texvent.runtime.work.engines import Engine, Outcome
 
 
 @dataclass

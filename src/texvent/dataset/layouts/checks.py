@@ -13,7 +13,7 @@ from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.layout import Layout
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError, few, shown
-from texvent.runtime.file_names import MAX_NAME_BYTES
+from texvent.runtime.files.file_names import MAX_NAME_BYTES
 
 MOST_CLASSES = 255
 """Their numbers are stored in 8 bits."""

@@ -21,7 +21,7 @@ import numpy as np
 from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.represent.event_frame import count_events
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 from texvent.truth.boxes import CocoFile, open_coco
 
 WINDOW_US = 50_000

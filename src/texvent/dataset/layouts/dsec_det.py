@@ -33,7 +33,7 @@ from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, atomic_folder
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 
 TRACK_RECORD = np.dtype(
     [

@@ -11,7 +11,7 @@ from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.io.atomic import atomic_file
 from texvent.io.files import save
 from texvent.io.metadata import sidecar_path
-from texvent.runtime.file_names import inside
+from texvent.runtime.files.file_names import inside
 
 EVALUATION = ("val", "valid", "validation", "test", "testing")
 """Names of splits that N-ImageNet knows as val."""

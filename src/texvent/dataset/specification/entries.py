@@ -22,7 +22,7 @@ from texvent.dataset.specification.list_files import (
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.generation.subjects import scenes
 from texvent.io.ros.bag_kind import is_bag
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 from texvent.runtime.identity import derived_seed, digest
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}

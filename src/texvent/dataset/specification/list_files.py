@@ -22,8 +22,8 @@ from texvent.errors import (
 )
 from texvent.generation.subjects import SceneValue, Subject, scenes
 from texvent.options.values import option_names
-from texvent.runtime.file_names import NOT_IN_NAMES, inside, usable_path
-from texvent.runtime.yaml_text import check_once, keys_once
+from texvent.runtime.files.file_names import NOT_IN_NAMES, inside, usable_path
+from texvent.runtime.files.yaml_text import check_once, keys_once
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""

@@ -45,7 +45,7 @@ from texvent.frames import (
 from texvent.io.atomic import atomic_file
 from texvent.pairs.on_device import keep_on_device
 from texvent.runtime.devices import Tensor
-from texvent.runtime.media_files import open_media_file, raise_scarcity
+from texvent.runtime.files.media_files import open_media_file, raise_scarcity
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, Transfer, encode_half
 

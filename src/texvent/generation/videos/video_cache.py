@@ -22,8 +22,8 @@ from texvent.frames import PixelArray
 from texvent.generation.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
 from texvent.io.atomic import atomic_file, temporary_folder
 from texvent.options.values import plain
-from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
-from texvent.runtime.side_work import begin_side_work, finish_side_work
+from texvent.runtime.files.cache_folder import CACHE_VARIABLE, cache_folder
+from texvent.runtime.work.side_work import begin_side_work, finish_side_work
 
 LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""

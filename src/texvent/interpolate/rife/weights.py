@@ -16,7 +16,7 @@ from texvent.networks.weight_files import (
     named_tensors,
     read_mapping,
 )
-from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.files.cache_folder import cache_folder
 
 if TYPE_CHECKING:
     from texvent.interpolate.rife.network import RifeNetwork

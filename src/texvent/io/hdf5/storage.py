@@ -19,7 +19,7 @@ from texvent._require import install_command, require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, shown
 from texvent.io.block_writer import BlockWriter, WriteBlock
 from texvent.io.input_checks import reporting_damage
-from texvent.runtime.interrupts import delay_interrupts
+from texvent.runtime.work.interrupts import delay_interrupts
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer, WriteableBuffer

@@ -17,7 +17,7 @@ import numpy as np
 from texvent.errors import FileFormatError, shown
 from texvent.frames import PixelArray
 from texvent.io.ros.messages import MessageFields
-from texvent.runtime.image_files import decode_bytes
+from texvent.runtime.files.image_files import decode_bytes
 
 IMAGE = "sensor_msgs/msg/Image"
 COMPRESSED = "sensor_msgs/msg/CompressedImage"

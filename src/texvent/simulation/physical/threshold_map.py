@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.files.file_names import usable_path
 from texvent.simulation.random.mismatch import LOWEST_THRESHOLD, NominalThresholds
 
 Float64Array = NDArray[np.float64]

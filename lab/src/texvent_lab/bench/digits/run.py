@@ -27,7 +27,7 @@ from texvent.extending import require
 from texvent.io.atomic import atomic_file
 from texvent.run.prepare import prepare_video
 from texvent.run.rate_search import UNREACHED, find_threshold
-from texvent.runtime.cache_folder import make_folder
+from texvent.runtime.files.cache_folder import make_folder
 from texvent.settings.resolution import Settings
 from texvent.simulation.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.data import (

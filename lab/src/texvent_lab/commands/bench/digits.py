@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.files.cache_folder import cache_folder
 from texvent_lab.bench.digits.plan import DigitsPlan
 from texvent_lab.bench.digits.results import digits_table
 from texvent_lab.bench.digits.run import run_digits

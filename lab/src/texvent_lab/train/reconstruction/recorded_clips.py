@@ -17,7 +17,7 @@ from texvent.errors import InputError
 from texvent.extending import full_version
 from texvent.io.atomic import atomic_file
 from texvent.represent.slices import slice_between
-from texvent.runtime.cache_folder import make_folder
+from texvent.runtime.files.cache_folder import make_folder
 from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import fingerprint

@@ -19,7 +19,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
-from texvent.runtime.cache_folder import cache_folder, make_folder
+from texvent.runtime.files.cache_folder import cache_folder, make_folder
 from texvent.runtime.identity import digest
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import fingerprint

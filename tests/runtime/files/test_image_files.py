@@ -15,7 +15,7 @@ from texvent.capture.image_folder import read_image
 from texvent.errors import FileFormatError
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.runtime import memory
-from texvent.runtime.image_files import decode_image, stated_bytes
+from texvent.runtime.files.image_files import decode_image, stated_bytes
 from texvent.runtime.memory import SMALL_BYTES, check_claim
 from texvent.sensor import SensorSize
 from texvent_scenes.pictures import read_image as read_picture

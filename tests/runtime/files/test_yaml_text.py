@@ -7,7 +7,7 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.io.calibration import read_calibration
-from texvent.runtime.yaml_text import load_yaml
+from texvent.runtime.files.yaml_text import load_yaml
 from texvent.settings.config_files import read_config
 
 

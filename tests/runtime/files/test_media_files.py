@@ -8,7 +8,7 @@ import av
 import numpy as np
 import pytest
 
-from texvent.runtime.media_files import open_media
+from texvent.runtime.files.media_files import open_media
 
 
 @pytest.mark.parametrize("ending", ["mp4", "avi", "mkv"])

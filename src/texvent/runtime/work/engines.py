@@ -16,9 +16,9 @@ from multiprocessing import connection
 from typing import Any, Protocol
 
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError
-from texvent.runtime.interrupts import clean_up, raise_interrupted
-from texvent.runtime.side_work import finishing_side_work
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
+from texvent.runtime.work.interrupts import clean_up, raise_interrupted
+from texvent.runtime.work.side_work import finishing_side_work
 
 ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
 """Errors that every further task would meet too."""

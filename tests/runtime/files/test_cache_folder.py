@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.files.cache_folder import cache_folder
 
 
 def test_a_user_without_a_home_has_a_folder_too(monkeypatch: pytest.MonkeyPatch) -> None:

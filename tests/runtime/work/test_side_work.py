@@ -8,13 +8,13 @@ import time
 import pytest
 
 from texvent.errors import InputError, warn, warnings_to
-from texvent.runtime.engines import attempt
-from texvent.runtime.side_work import _running, begin_side_work, finish_side_work
+from texvent.runtime.work.engines import attempt
+from texvent.runtime.work.side_work import _running, begin_side_work, finish_side_work
 
 SCRIPT = """
 import time
-from texvent.runtime import side_work
-from texvent.runtime.interrupts import clean_up
+from texvent.runtime.work import side_work
+from texvent.runtime.work.interrupts import clean_up
 
 side_work.PATIENCE_S = 0.1
 side_work.begin_side_work(0, lambda: (time.sleep({seconds}), print("kept", flush=True)))

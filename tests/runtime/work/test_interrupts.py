@@ -8,7 +8,7 @@ import weakref
 
 import pytest
 
-from texvent.runtime.interrupts import (
+from texvent.runtime.work.interrupts import (
     ENDING,
     REPEAT_S,
     Interrupted,
@@ -109,7 +109,7 @@ def test_a_signal_long_after_the_first_ends_a_clean_up_that_hangs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now = [100.0]
-    monkeypatch.setattr("texvent.runtime.interrupts.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("texvent.runtime.work.interrupts.time.monotonic", lambda: now[0])
     raised: list[int] = []
     with raise_interrupted():
         for _ in range(3):

@@ -6,7 +6,7 @@ from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Protocol, Self
 
-from texvent.runtime.interrupts import delay_interrupts
+from texvent.runtime.work.interrupts import delay_interrupts
 
 DEPTH = 8
 """Most packets in the queue; they are held in memory."""

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
 
-from texvent.runtime.interrupts import clean_up, clean_ups
+from texvent.runtime.work.interrupts import clean_up, clean_ups
 
 PATIENCE_S = 5.0
 """Time that work has to end in where the process is asked to end."""

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import TexventWarning
-from texvent.runtime.file_names import in_natural_order, numbering_gap
+from texvent.runtime.files.file_names import in_natural_order, numbering_gap
 
 PLAIN = [
     ["frame2", "frame10", "frame100"],

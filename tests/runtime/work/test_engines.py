@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import InputError
-from texvent.runtime.engines import ATTEMPTS, Outcome, ProcessEngine
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
+from texvent.runtime.work.engines import ATTEMPTS, Outcome, ProcessEngine
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ def test_no_more_processes_than_asked_for() -> None:
 PROGRAM = """
 import os, sys, time
 from pathlib import Path
-from texvent.runtime.engines import interruptible, start_pool, stop_pools
+from texvent.runtime.work.engines import interruptible, start_pool, stop_pools
 from texvent.io.atomic import hidden_file
 
 def work(folder):
@@ -138,7 +138,7 @@ def is_running(program: Path) -> bool:
 STUBBORN = """
 import signal, sys, time
 from pathlib import Path
-import texvent.runtime.engines as pools
+import texvent.runtime.work.engines as pools
 
 def work(begun):
     signal.signal(signal.SIGTERM, signal.SIG_IGN)

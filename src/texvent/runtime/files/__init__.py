@@ -1,0 +1,1 @@
+"""Files: their names, locks and cache, and opening of images, videos and YAML."""
