@@ -43,6 +43,7 @@ def test_every_noun_that_goes_has_a_speed_of_the_table():
         assert {kind: usual_speed(NOUNS[name], kind) for kind in speeds} == pytest.approx(speeds)
 
 
+@pytest.mark.long
 @for_every(GOING)
 def test_a_body_goes_at_its_usual_speed_and_is_large_enough_where_it_is_seen(noun):
     scene = goes(noun.name)
