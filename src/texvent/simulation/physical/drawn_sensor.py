@@ -34,9 +34,9 @@ class DrawnSensor(NamedTuple):
     """Leak events of all pixels, per second."""
     curve: NoiseCurve
     noise: PoissonNoise
-    """At the highest rate of the curve."""
+    """Noise at the highest rate of the curve."""
     hot: PoissonNoise
-    """Of hot pixels, whatever the intensity."""
+    """Noise of hot pixels, whatever the intensity."""
     phase: Float64Array | float
     """[n] change of each pixel at the first frame, log units, with its sign turned; or 0."""
 

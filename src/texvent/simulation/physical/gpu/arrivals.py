@@ -46,7 +46,7 @@ class NoiseProcess(NamedTuple):
     stream: int
     """Number of the process."""
     mean_hz: float
-    """Of the clip that has most."""
+    """Events per second of the clip that has most."""
     is_thinned: bool
     """Whether the rate depends on intensity."""
 
