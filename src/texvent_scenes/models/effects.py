@@ -64,7 +64,7 @@ class EmitterStyle:
     thickness: tuple[float, float] = (1.0, 0.0)
     """Optical depth of a medium at birth and at the end."""
     fades: bool = True
-    """Whether media are thin when they are just born or about to end."""
+    """Whether media thin out in the second half of their lives; else only at the very end."""
     detail: float = 0.0
     """Fine structure of media, 0..1."""
     light: float = 0.0

@@ -62,7 +62,7 @@ SCENES = {
     "shapes": HandScene((BLOCKER,), high_camera, environment_base=DULL),
     "shadows": HandScene((BOX, BLOCKER), high_camera),
     "mirrored": HandScene((PANE, BALL), high_camera, environment_base=DULL),
-    "sharply mirrored": HandScene((MIRROR, BLOCKER), high_camera, environment_base=DULL),
+    "sharply mirrored": HandScene((MIRROR, BALL), high_camera, environment_base=DULL),
     "media": Drifting((BOX,), high_camera, environment_base=DULL),
 }
 """A scene for each kind of change."""

@@ -168,8 +168,8 @@ class Emitter:
         media["to_world"][:, :, 3] = flown.places
         shade = 0.72 + 0.56 * draws[:, 6:7]
         media["colour"] = (first + (last - first) * age[:, None]) * shade
-        thick = thick * _fade(age) if style.fades else thick
-        media["optical_depth"] = thick * flown.is_there
+        there = _fade(age) if style.fades else np.clip(12.0 * np.minimum(age, 1.0 - age), 0.0, 1.0)
+        media["optical_depth"] = thick * there * flown.is_there
         media["emission"] = _between(style.emission, age)
         media["detail"], media["seed"] = style.detail, 50.0 * draws[:, 6]
         return media
