@@ -38,8 +38,8 @@ INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS = 32
-"""Pixels below which an object is too small to be told."""
+LEAST_PIXELS, _LEAST_AREA = 6, 0.00025
+"""Pixels, and share of the image, below which an object is too small to be told."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden."""
 LEAST_INSIDE = 0.33
@@ -88,6 +88,7 @@ def find_unseen(
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     pixels = {one: view.pixels for one, view in views.items()}
     related = {i for one in description.relations for i in one.targets}
+    least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[Body]]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
@@ -101,7 +102,7 @@ def find_unseen(
             outside.append(thing.noun)
         elif max(views[one.instance].share for one in own) < LEAST_SEEN:
             outside.append(f"{thing.noun} (hidden)")
-        elif most < LEAST_PIXELS:
+        elif most < least_pixels:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")

@@ -103,15 +103,15 @@ def find_violations(
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
-        side = _ON_SIDES.get(thing.placement or "", 0.0) if index not in passing else 0.0
-        if own and side and not any(np.mean(side * one.seen[:, 0]) > _ASIDE for one in own):
+        sign = _ON_SIDES.get(thing.placement or "", 0.0) if index not in passing else 0.0
+        if own and sign and not any(np.mean(sign * one.seen[:, 0]) > _ASIDE for one in own):
             yield Violation("placement", str(thing.placement), f"{names[index]} on the "
                             f"{thing.placement}")  # fmt: skip
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
-            axis, sign = _AXES[motion.direction]
+            axis, way = _AXES[motion.direction]
             all_moved = [one.displacement for one in own]
-            if not any(sign * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
+            if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
 

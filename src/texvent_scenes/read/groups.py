@@ -38,7 +38,7 @@ class Group:
     @property
     def noun(self) -> NounSense | None:
         """Its noun, in the number that is said: "two glasses" are no spectacles."""
-        senses = [one.value for one in self.head.all("noun")] if self.head else []
+        senses: list[NounSense] = [one.value for one in self.head.all("noun")] if self.head else []
         is_many = any(count > 1 for one in self.modifiers for count in _counts(one))
         return next((one for one in senses if one.is_plural or not is_many), (*senses, None)[0])
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
@@ -207,7 +208,7 @@ class _SentenceReader:
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
-            thing = {"noun": noun.noun, "motions": []}
+            thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
             if noun.is_kind:
                 draft.mark(head, noun.noun)
         else:

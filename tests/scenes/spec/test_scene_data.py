@@ -358,7 +358,8 @@ def test_every_object_is_in_view(path):
         instance = video.ground_truth(time_us, time_us + 10_000).instance
         for body, pixels in zip(*np.unique(instance, return_counts=True), strict=True):
             most[int(body)] = max(most.get(int(body), 0), int(pixels))
-    hidden = [noun for body, noun in video.class_names.items() if most.get(body, 0) < LEAST_PIXELS]
+    own = {one.instance: one.noun.name for one in video.scene.actors}
+    hidden = [noun for body, noun in own.items() if most.get(body, 0) < LEAST_PIXELS]
     assert hidden == []
     image = video.at(INSTANTS_US[1]).pixels
     assert np.isfinite(image).all()
