@@ -60,6 +60,17 @@ def test_the_package_page_has_no_link_into_the_repository() -> None:
     assert "make demo" not in whole
 
 
+def test_the_first_sentence_is_shown_as_it_says_and_is_the_same_everywhere() -> None:
+    found = re.search(r"^PROMPT \?= (.+)$", read("Makefile"), re.MULTILINE)
+    assert found is not None
+    reading = texvent.read(found[1])
+    assert not reading.not_understood
+    assert not reading.substituted
+    assert f"![{found[1].capitalize()}: " in read("README.md")
+    assert found[1] in page()
+    assert f'PROMPT = \\"{found[1]}\\"' in read("docs/notebooks/first-events.ipynb")
+
+
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
 def test_workflows_run_pinned_actions_with_few_rights(path: Path) -> None:
     text = path.read_text(encoding="utf-8")

@@ -40,7 +40,8 @@ class Group:
         """Its noun, in the number that is said: "two glasses" are no spectacles."""
         senses: list[NounSense] = [one.value for one in self.head.all("noun")] if self.head else []
         is_many = any(count > 1 for one in self.modifiers for count in _counts(one))
-        return next((one for one in senses if one.is_plural or not is_many), (*senses, None)[0])
+        fitting = [one for one in senses if one.is_plural or not is_many]
+        return next(iter(fitting or senses), None)
 
     @property
     def is_bare(self) -> bool:
