@@ -229,8 +229,10 @@ def test_truth_that_nobody_knows_is_refused(tmp_path):
         texvent.save_truth(MotionFrames(has_ids=False), tmp_path / "a.truth", "ids")
     with pytest.raises(ConfigError, match="truth 'poses' needs a known camera"):
         texvent.save_truth(MotionFrames(), tmp_path / "a.truth", "poses")
-    with pytest.raises(ConfigError, match="fitted to"):
-        texvent.simulate(board_video(), sensor="40x30", truth_folder=tmp_path / "a.truth")
+    with pytest.raises(ConfigError, match="frames that were stretched"):
+        texvent.simulate(
+            board_video(), sensor="40x20", fit="stretch", truth_folder=tmp_path / "a.truth"
+        )
     with pytest.raises(
         ConfigError, match="no part 'flwo' of truth; allowed: flow, flow-back, depth"
     ):

@@ -128,6 +128,8 @@ class TruthSource:
                 "truth 'poses' needs a known camera, which these frames do not have; ask for some "
                 f"of the others: {others}"
             )
+        if "poses" in self.parts and isinstance(self.video, FittedScene):
+            self.video.camera_at(0)  # refused before any work
         highest = max(names, default=0)
         if highest >= MOST_INSTANCES:
             raise ConfigError(f"instance id {highest} is too large; at most {MOST_INSTANCES - 1}")
