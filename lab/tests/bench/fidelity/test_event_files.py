@@ -97,8 +97,11 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     monkeypatch.setattr(oracle_run, "record_truths", lambda *_: pytest.fail("work was done"))
     folder = save_runs(tmp_path / "mine")
     for seed in (33, 54, 68, 85, 97):
-        EventStream.empty(SIZE).save(folder / f"translate-{seed}.h5")
-    path, t_us = folder / "translate-54.h5", LAST_US + 1 if fault == "late" else 5
+        # A jitter of less than a millisecond is no other clock.
+        EventStream.from_columns([1], [2], [LAST_US + 999], [1], size=SIZE).save(
+            folder / f"translate-{seed}.h5"
+        )
+    path, t_us = folder / "translate-54.h5", LAST_US + 1_001 if fault == "late" else 5
     size = "8x6" if fault == "size" else SIZE
     path.unlink()
     if fault != "missing":
@@ -112,7 +115,7 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     (line,) = capsys.readouterr().err.splitlines()
     assert {
         "size": "8x6",
-        "late": f"an event at {LAST_US + 1} µs; the frames of translate-54 are from 0 to {LAST_US}",
+        "late": f"an event at {LAST_US + 1_001} µs; the frames of translate-54 are from 0 to {LAST_US}",
         "missing": "not one event file each of translate-54",
         "beside": "event files beside folders of thresholds (0.2 ...)",
         "damaged": "translate-54.h5",

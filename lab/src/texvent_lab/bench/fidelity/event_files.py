@@ -15,6 +15,9 @@ from texvent.run.rate_search import ThresholdMatch
 from texvent.sensor import SensorSize
 from texvent_lab.bench.fidelity.entries import Entry
 
+TOLERANCE_US = 1_000
+"""Jitter of event times that is no other clock; what lies outside the frames is not scored."""
+
 
 def named_folders(texts: Iterable[str], known: Sequence[str] = ()) -> dict[str, Path]:
     """Row → folder of its events.
@@ -104,13 +107,17 @@ class FileEntry(Entry):
         for files in self.files.values():
             for recording, (first_us, last_us) in spans_us.items():
                 for packet in open_events(files[recording], size=size):
-                    if len(packet) and not first_us <= packet.t[0] <= packet.t[-1] <= last_us:
-                        t_us = packet.t[0] if packet.t[0] < first_us else packet.t[-1]
-                        raise InputError(
-                            f"{files[recording]} has an event at {t_us} µs; the frames of "
-                            f"{recording} are from {first_us} to {last_us} µs, and events must be "
-                            "on their clock"
-                        )
+                    for t_us in map(int, packet.t[[0, -1]] if len(packet) else ()):
+                        if (
+                            not -TOLERANCE_US
+                            <= t_us - first_us
+                            <= last_us - first_us + TOLERANCE_US
+                        ):
+                            raise InputError(
+                                f"{files[recording]} has an event at {t_us} µs; the frames of "
+                                f"{recording} are from {first_us} to {last_us} µs, and events must "
+                                "be on their clock"
+                            )
 
     def packets(
         self,
