@@ -115,7 +115,7 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     (line,) = capsys.readouterr().err.splitlines()
     assert {
         "size": "8x6",
-        "late": f"an event at {LAST_US + 1_001} µs; the frames of translate-54 are from 0 to {LAST_US}",
+        "late": f"at {LAST_US + 1_001} µs; the frames of translate-54 are from 0 to {LAST_US} µs",
         "missing": "not one event file each of translate-54",
         "beside": "event files beside folders of thresholds (0.2 ...)",
         "damaged": "translate-54.h5",
