@@ -66,6 +66,7 @@ def truth():
     return truth
 
 
+@pytest.mark.long
 def test_files_score_as_the_simulator_that_wrote_them(runs, truth):
     rows = FileEntry.find("Mine", runs / "0.2", CLIPS), OURS
     files, ours = (score_entry(truth, row, PLAN.metrics) for row in rows)
@@ -76,6 +77,7 @@ def test_files_score_as_the_simulator_that_wrote_them(runs, truth):
     assert files.default_ratio == ours.default_ratio
 
 
+@pytest.mark.long
 def test_of_several_thresholds_that_one_is_scored_whose_count_is_nearest(runs, truth):
     row = FileEntry.find("Mine", runs, CLIPS)
     counts = {0.1: 900, 0.2: 400, 0.9: 30}
