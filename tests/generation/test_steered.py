@@ -172,6 +172,30 @@ def test_truth_of_frames_that_are_fitted_to_a_sensor_is_that_of_the_part_it_sees
     assert np.array_equal(source.video.instances_at(times[1], points), wanted)
 
 
+def test_what_leaves_the_part_that_a_sensor_sees_is_occluded(scene, rendered):
+    narrow = PreparedFrames(steer(scene, rendered), CaptureConfig(), size=SensorSize(16, 48))
+    times = times_of(scene)
+    row = TruthSource(narrow, ("flow",)).at(list(narrow)[0], None, times[-1]).rows["flow"]
+    x = np.arange(16) + 0.5 + row["flow"][..., 0]
+    leaves = (x < 0) | (x >= 16)
+    assert leaves.any()
+    assert row["occluded"][leaves].all()
+    assert not row["occluded"].all()
+
+
+def test_events_of_black_bars_are_of_nothing(scene, rendered):
+    tall = PreparedFrames(
+        steer(scene, rendered), CaptureConfig(fit="contain"), size=SensorSize(64, 96)
+    )
+    fitted = TruthSource(tall, ("events",)).video
+    rows, columns = np.indices((96, 64)) + 0.5
+    depth, instance = fitted.instances_at(0, np.stack([columns.ravel(), rows.ravel()], axis=-1))
+    truth = fitted.ground_truth(0, 0)
+    assert np.isinf(truth.depth[:24]).all()
+    assert np.array_equal(instance.reshape(96, 64), truth.instance)
+    assert np.allclose(depth.reshape(96, 64), truth.depth)
+
+
 @pytest.mark.parametrize("name", STEERED)
 def test_controls_lengths_and_sizes_that_a_row_does_not_take_are_refused_before_loading(name):
     row = STEERED[name]
