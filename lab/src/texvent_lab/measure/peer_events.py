@@ -16,6 +16,7 @@ import argparse
 import importlib
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.image_folder import ImageFolder
+from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS, Frame
 from texvent.io.atomic import atomic_folder
+from texvent.io.input_checks import existing_folder
 from texvent.sensor import SensorSize
 
 Columns = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
@@ -41,10 +44,14 @@ def _load_eventcv() -> Simulate:
 
     def simulate(frames: list[Frame], threshold: float) -> Columns:
         pixels = np.stack([frame.pixels for frame in frames])
-        fps = MICROSECONDS * (len(frames) - 1) / (frames[-1].t_us - frames[0].t_us)
-        found = eventcv.simulate(pixels, fps=fps, pos_thres=threshold, neg_thres=threshold)
+        times_us = np.array([frame.t_us for frame in frames])
+        even_us = np.linspace(0, times_us[-1] - times_us[0], len(frames))
+        found = eventcv.simulate(
+            pixels, fps=MICROSECONDS / even_us[1], pos_thres=threshold, neg_thres=threshold
+        )
         x, y, t, p = np.asarray(found.numpy()).T
-        return x, y, t + frames[0].t_us, p
+        # It knows a rate alone; frames of a camera may come unevenly.
+        return x, y, np.interp(t, even_us, times_us), p
 
     return simulate
 
@@ -94,6 +101,18 @@ def as_events(columns: Columns, size: SensorSize) -> EventStream:
     return EventStream.from_columns(*whole, size=size)
 
 
+def read_frames(clip: Path) -> list[Frame]:
+    """The frames of a clip in 8-bit grey, as texvent's simulators see them.
+
+    Raises:
+        InputError: they cannot be read, or are fewer than two.
+    """
+    frames = [replace(one, pixels=np.rint(one.luma).astype(np.uint8)) for one in ImageFolder(clip)]
+    if len(frames) < 2:
+        raise InputError(f"{clip} has {len(frames)} frames; events need 2")
+    return frames
+
+
 def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool) -> None:
     """A folder per threshold with an event file per clip.
 
@@ -105,9 +124,11 @@ def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool
 
     Raises:
         OutputError: it exists already, or holds other files.
-        InputError: the frames cannot be read.
+        InputError: there are no frames, or they cannot be read.
     """
-    clips = [one for one in sorted(frames.iterdir()) if one.is_dir()]
+    clips = [one for one in sorted(existing_folder(frames).iterdir()) if one.is_dir()]
+    if not clips:
+        raise InputError(f"{frames} holds no folder of frames; give one of --write-frames")
     with atomic_folder(
         out, overwrite=overwrite, is_own=lambda one: one.suffix == ".h5", is_nested=True
     ) as part:
@@ -115,14 +136,14 @@ def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool
             threshold = round(LOWEST * RATIO**number, 4)
             (part / str(threshold)).mkdir()
             for clip in clips:
-                video = ImageFolder(clip)
-                events = as_events(simulate(list(video), threshold), video.size)
+                given = read_frames(clip)
+                events = as_events(simulate(given, threshold), given[0].size)
                 events.save(part / str(threshold) / f"{clip.name}.h5")
             print(f"threshold {threshold}: {len(clips)} clips", file=sys.stderr)
 
 
 def main() -> int:
-    """Run a program; 2 where it is not installed."""
+    """Run a program; 2 where it is not installed or the folders will not do."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.peer_events")
     parser.add_argument("program", choices=list(PROGRAMS))
     parser.add_argument("frames", type=Path, help="folder of texvent bench ... --write-frames")
@@ -137,7 +158,11 @@ def main() -> int:
     except ImportError as error:
         print(f"error: {chosen.program} cannot be imported here: {error}", file=sys.stderr)
         return 2
-    write_events(simulate, chosen.frames, chosen.out, overwrite=chosen.overwrite)
+    try:
+        write_events(simulate, chosen.frames, chosen.out, overwrite=chosen.overwrite)
+    except TexventError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
     return 0
 
 
