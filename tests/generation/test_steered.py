@@ -175,7 +175,7 @@ def test_truth_of_frames_that_are_fitted_to_a_sensor_is_that_of_the_part_it_sees
 def test_what_leaves_the_part_that_a_sensor_sees_is_occluded(scene, rendered):
     narrow = PreparedFrames(steer(scene, rendered), CaptureConfig(), size=SensorSize(16, 48))
     times = times_of(scene)
-    row = TruthSource(narrow, ("flow",)).at(list(narrow)[0], None, times[-1]).rows["flow"]
+    row = TruthSource(narrow, ("flow",)).at(next(iter(narrow)), None, times[-1]).rows["flow"]
     x = np.arange(16) + 0.5 + row["flow"][..., 0]
     leaves = (x < 0) | (x >= 16)
     assert leaves.any()
