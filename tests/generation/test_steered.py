@@ -10,6 +10,9 @@ import pytest
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
+from texvent.dataset import SampleSource, Specification
+from texvent.dataset.generation.recipe import VIDEOS, Recipe
+from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError
 from texvent.frames import Video
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
@@ -221,3 +224,19 @@ def test_a_model_that_follows_no_scene_says_which_do():
     config = dataclasses.replace(GENERATORS.load("wan-1.3b").config_type(), look="rain")
     with pytest.raises(ConfigError, match=r"wan-1\.3b follows no scene; models that do: wan-vace"):
         check_control(MODELS["wan-1.3b"], config)
+
+
+@pytest.mark.parametrize("is_stored", [True, False])
+def test_a_data_set_filters_by_agreement_where_its_videos_are_made(is_stored):
+    recipe = Recipe.of(
+        Specification(
+            name="steered",
+            sources=(SampleSource(prompts=(SENTENCE,)),),
+            options={"generator": "wan-vace-1.3b"},
+            filters=Filters(least_control_agreement=0.5),
+            store_videos=is_stored,
+        )
+    )
+    (variant,) = recipe.variants
+    source = recipe.settings[VIDEOS if is_stored else variant].extremes[0].source
+    assert (source.least_agreement, source.on_failure) == (0.5, "retry")
