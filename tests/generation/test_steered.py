@@ -17,6 +17,7 @@ from texvent.errors import ConfigError
 from texvent.frames import Video
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
 from texvent.generation.steered_video import SteeredVideo
+from texvent.generation.video_models import model_files
 from texvent.generation.video_models.controls import PIPELINES, check_control
 from texvent.generation.video_models.known_models import MODELS
 from texvent.pipeline import video_to_events
@@ -240,3 +241,28 @@ def test_a_data_set_filters_by_agreement_where_its_videos_are_made(is_stored):
     (variant,) = recipe.variants
     source = recipe.settings[VIDEOS if is_stored else variant].extremes[0].source
     assert (source.least_agreement, source.on_failure) == (0.5, "retry")
+
+
+@pytest.mark.parametrize(
+    ("kept", "is_whole"),
+    [((), False), (("config.json",), False), (("a.safetensors",), False),
+     (("config.json", "a.safetensors"), True)],
+)  # fmt: skip
+def test_a_network_whose_download_was_interrupted_is_fetched_on(
+    kept, is_whole, tmp_path, monkeypatch
+):
+    for name in kept:
+        (tmp_path / name).write_text("{}")
+
+    def snapshot_download(repo, *, local_files_only=False, **_):
+        fetched.append(not local_files_only)
+        if local_files_only and not kept:
+            raise OSError("nothing is here")
+        return str(tmp_path)
+
+    fetched, said = [], []
+    hub = SimpleNamespace(snapshot_download=snapshot_download)
+    monkeypatch.setattr(model_files, "require", lambda *_, **__: hub)
+    assert model_files.find_network("org/name", "depth", said.append) == tmp_path
+    assert fetched == ([False] if is_whole else [False, True])
+    assert bool(said) is not is_whole
