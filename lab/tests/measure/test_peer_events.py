@@ -26,6 +26,7 @@ def given(monkeypatch):
         return SimpleNamespace(numpy=lambda: rows)
 
     monkeypatch.setitem(sys.modules, "eventcv", SimpleNamespace(simulate=simulate))
+    monkeypatch.setattr(peer_events.metadata, "version", {"eventcv": "1.2.3"}.__getitem__)
     return found
 
 
@@ -47,6 +48,8 @@ def test_frames_go_in_grey_and_events_come_back_on_the_clock_of_uneven_frames(
     events = open_events(tmp_path / "out" / "0.05" / "clip.h5").collect()
     assert events.size == (8, 6)
     assert events.t.tolist() == [1_005_000, 1_025_000]
+    assert events.metadata["simulator"] == "eventcv"
+    assert (events.metadata["version"], events.metadata["contrast_threshold"]) == ("1.2.3", 0.05)
 
 
 def test_folders_without_frames_are_named_in_a_line(given, tmp_path, monkeypatch, capsys):

@@ -14,9 +14,11 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import subprocess
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -113,13 +115,31 @@ def read_frames(clip: Path) -> list[Frame]:
     return frames
 
 
-def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool) -> None:
+def describe_program(name: str, clone: Path | None) -> dict[str, str]:
+    """Name of a program, and its version or the commit of its clone, for its files.
+
+    Raises:
+        ImportError: it is not installed, or the folder is no clone.
+    """
+    if clone is None:
+        return {"simulator": name, "version": metadata.version(name)}
+    command = ["git", "-C", str(clone), "rev-parse", "HEAD"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise ImportError(f"{clone} is no clone of its repository")
+    return {"simulator": name, "version": done.stdout.strip()}
+
+
+def write_events(
+    simulate: Simulate, frames: Path, out: Path, *, program: Mapping[str, str], overwrite: bool
+) -> None:
     """A folder per threshold with an event file per clip.
 
     Args:
         simulate: the program.
         frames: folder of `--write-frames`.
         out: folder to write.
+        program: facts to store in every file, beside the threshold.
         overwrite: whether a folder of event files may be replaced.
 
     Raises:
@@ -138,6 +158,7 @@ def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool
             for clip in clips:
                 given = read_frames(clip)
                 events = as_events(simulate(given, threshold), given[0].size)
+                events = events.with_metadata({**program, "contrast_threshold": threshold})
                 events.save(part / str(threshold) / f"{clip.name}.h5")
             print(f"threshold {threshold}: {len(clips)} clips", file=sys.stderr)
 
@@ -155,11 +176,14 @@ def main() -> int:
         sys.path.insert(0, str(chosen.path))
     try:
         simulate = PROGRAMS[chosen.program]()
+        program = describe_program(chosen.program, chosen.path)
     except ImportError as error:
         print(f"error: {chosen.program} cannot be imported here: {error}", file=sys.stderr)
         return 2
     try:
-        write_events(simulate, chosen.frames, chosen.out, overwrite=chosen.overwrite)
+        write_events(
+            simulate, chosen.frames, chosen.out, program=program, overwrite=chosen.overwrite
+        )
     except TexventError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
