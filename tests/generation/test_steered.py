@@ -1,6 +1,7 @@
 """Videos that follow a scene: control videos, agreement, motion and truth, without a network."""
 
 import dataclasses
+import tracemalloc
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -90,6 +91,18 @@ def test_rest_is_white_and_motion_to_the_left_cyan(scene):
     red, green, blue = np.median(flow[1][left], axis=0)
     assert red < min(green, blue)
     assert np.array_equal(flow[0], flow[1])
+
+
+def test_the_flow_of_a_long_clip_is_coloured_frame_by_frame():
+    flow = np.random.default_rng(0).normal(size=(64, 64, 2)).astype(np.float32)
+    truth = SimpleNamespace(flow=flow)
+    clip = SimpleNamespace(fps=16, frame_count=81, ground_truth=lambda *_: truth)
+    tracemalloc.start()
+    drawn = draw_control(clip, "flow")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert drawn.shape == (81, 64, 64, 3)
+    assert peak < 30 * drawn[..., 0].size
 
 
 def test_agreement_tells_a_video_of_the_scene_from_others(scene, rendered):
