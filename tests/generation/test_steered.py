@@ -1,6 +1,7 @@
 """Videos that follow a scene: control videos, agreement, motion and truth, without a network."""
 
 import dataclasses
+import tracemalloc
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -10,10 +11,14 @@ import pytest
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
+from texvent.dataset import SampleSource, Specification
+from texvent.dataset.generation.recipe import VIDEOS, Recipe
+from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError
 from texvent.frames import Video
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
 from texvent.generation.steered_video import SteeredVideo
+from texvent.generation.video_models import model_files
 from texvent.generation.video_models.controls import PIPELINES, check_control
 from texvent.generation.video_models.known_models import MODELS
 from texvent.pipeline import video_to_events
@@ -86,6 +91,18 @@ def test_rest_is_white_and_motion_to_the_left_cyan(scene):
     red, green, blue = np.median(flow[1][left], axis=0)
     assert red < min(green, blue)
     assert np.array_equal(flow[0], flow[1])
+
+
+def test_the_flow_of_a_long_clip_is_coloured_frame_by_frame():
+    flow = np.random.default_rng(0).normal(size=(64, 64, 2)).astype(np.float32)
+    truth = SimpleNamespace(flow=flow)
+    clip = SimpleNamespace(fps=16, frame_count=81, ground_truth=lambda *_: truth)
+    tracemalloc.start()
+    drawn = draw_control(clip, "flow")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert drawn.shape == (81, 64, 64, 3)
+    assert peak < 30 * drawn[..., 0].size
 
 
 def test_agreement_tells_a_video_of_the_scene_from_others(scene, rendered):
@@ -172,6 +189,30 @@ def test_truth_of_frames_that_are_fitted_to_a_sensor_is_that_of_the_part_it_sees
     assert np.array_equal(source.video.instances_at(times[1], points), wanted)
 
 
+def test_what_leaves_the_part_that_a_sensor_sees_is_occluded(scene, rendered):
+    narrow = PreparedFrames(steer(scene, rendered), CaptureConfig(), size=SensorSize(16, 48))
+    times = times_of(scene)
+    row = TruthSource(narrow, ("flow",)).at(next(iter(narrow)), None, times[-1]).rows["flow"]
+    x = np.arange(16) + 0.5 + row["flow"][..., 0]
+    leaves = (x < 0) | (x >= 16)
+    assert leaves.any()
+    assert row["occluded"][leaves].all()
+    assert not row["occluded"].all()
+
+
+def test_events_of_black_bars_are_of_nothing(scene, rendered):
+    tall = PreparedFrames(
+        steer(scene, rendered), CaptureConfig(fit="contain"), size=SensorSize(64, 96)
+    )
+    fitted = TruthSource(tall, ("events",)).video
+    rows, columns = np.indices((96, 64)) + 0.5
+    depth, instance = fitted.instances_at(0, np.stack([columns.ravel(), rows.ravel()], axis=-1))
+    truth = fitted.ground_truth(0, 0)
+    assert np.isinf(truth.depth[:24]).all()
+    assert np.array_equal(instance.reshape(96, 64), truth.instance)
+    assert np.allclose(depth.reshape(96, 64), truth.depth)
+
+
 @pytest.mark.parametrize("name", STEERED)
 def test_controls_lengths_and_sizes_that_a_row_does_not_take_are_refused_before_loading(name):
     row = STEERED[name]
@@ -197,3 +238,44 @@ def test_a_model_that_follows_no_scene_says_which_do():
     config = dataclasses.replace(GENERATORS.load("wan-1.3b").config_type(), look="rain")
     with pytest.raises(ConfigError, match=r"wan-1\.3b follows no scene; models that do: wan-vace"):
         check_control(MODELS["wan-1.3b"], config)
+
+
+@pytest.mark.parametrize("is_stored", [True, False])
+def test_a_data_set_filters_by_agreement_where_its_videos_are_made(is_stored):
+    recipe = Recipe.of(
+        Specification(
+            name="steered",
+            sources=(SampleSource(prompts=(SENTENCE,)),),
+            options={"generator": "wan-vace-1.3b"},
+            filters=Filters(least_control_agreement=0.5),
+            store_videos=is_stored,
+        )
+    )
+    (variant,) = recipe.variants
+    source = recipe.settings[VIDEOS if is_stored else variant].extremes[0].source
+    assert (source.least_agreement, source.on_failure) == (0.5, "retry")
+
+
+@pytest.mark.parametrize(
+    ("kept", "is_whole"),
+    [((), False), (("config.json",), False), (("a.safetensors",), False),
+     (("config.json", "a.safetensors"), True)],
+)  # fmt: skip
+def test_a_network_whose_download_was_interrupted_is_fetched_on(
+    kept, is_whole, tmp_path, monkeypatch
+):
+    for name in kept:
+        (tmp_path / name).write_text("{}")
+
+    def snapshot_download(repo, *, local_files_only=False, **_):
+        fetched.append(not local_files_only)
+        if local_files_only and not kept:
+            raise OSError("nothing is here")
+        return str(tmp_path)
+
+    fetched, said = [], []
+    hub = SimpleNamespace(snapshot_download=snapshot_download)
+    monkeypatch.setattr(model_files, "require", lambda *_, **__: hub)
+    assert model_files.find_network("org/name", "depth", said.append) == tmp_path
+    assert fetched == ([False] if is_whole else [False, True])
+    assert bool(said) is not is_whole

@@ -309,6 +309,7 @@ FAMILIES = {
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }
+"""Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""
 STEERED = {
     "wan-vace": Family(wan_vace, "WanVACEPipeline"),
     "cosmos-transfer": Family(cosmos_transfer, "Cosmos2_5_TransferPipeline"),
@@ -316,5 +317,3 @@ STEERED = {
     "ltx2-control": Family(ltx2_in_context, "LTX2InContextPipeline", {"frames": 9}, frames=9),
 }
 """As `FAMILIES`, of models that follow a scene."""
-
-"""Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""

@@ -9,7 +9,7 @@ import pytest
 torch = pytest.importorskip("torch")
 pytest.importorskip("triton")
 
-from texvent.generation.video_models.known_models import MODELS  # noqa: E402
+from texvent.generation.video_models.known_models import MODELS as VIDEO_MODELS  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 from texvent.simulation.gpu.support import MODELS as ON_GPU  # noqa: E402
 from texvent.simulation.gpu.support import RunDevice  # noqa: E402
@@ -73,7 +73,7 @@ def test_a_model_of_real_size_goes_from_its_files_to_events():
     row = measure_real_size("wan-vace-1.3b", size, "cpu", **shape)
     assert (row["size"], row["frames"]) == ("32x32", 5)
     assert {"loading", "denoise 2 of 2", "decode and check", "simulate"} <= set(row["seconds"])
-    assert set(PUBLISHED) <= set(MODELS)
+    assert set(PUBLISHED) <= set(VIDEO_MODELS)
 
 
 def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):

@@ -95,17 +95,24 @@ def draw_flow(scene: Any) -> Pixels:
     times = times_of(scene)
     pairs = itertools.pairwise(times)
     vectors = np.stack([_truth(scene, first, second).flow for first, second in pairs])
-    vectors = np.nan_to_num(vectors)
-    speed = np.hypot(vectors[..., 0], vectors[..., 1])
-    share = speed / max(float(speed.max(initial=0.0)), 1e-9)
+    np.nan_to_num(vectors, copy=False)
+    fastest = max(float(np.hypot(*np.moveaxis(one, -1, 0)).max()) for one in vectors)
+    # Frame by frame: colours of a whole clip take gigabytes before they are rounded.
+    drawn = np.stack([_colours_of(one, max(fastest, 1e-9)) for one in vectors])
+    return np.concatenate([drawn[:1], drawn])
+
+
+def _colours_of(vectors: NDArray[np.float32], fastest: float) -> Pixels:
+    """Motion [H, W, 2] as colours [H, W, 3]; the fastest is saturated, rest is white."""
+    share = np.hypot(vectors[..., 0], vectors[..., 1]) / fastest
     turn = np.arctan2(-vectors[..., 1], -vectors[..., 0]) / (2 * np.pi) + 0.5  # 0..1, right is 0
     wheel = _wheel()
     place = turn * len(wheel)
     below = place.astype(np.intp) % len(wheel)
     part = (place - np.floor(place))[..., None]
     hue = (1 - part) * wheel[below] + part * wheel[(below + 1) % len(wheel)]
-    drawn = np.rint(255 * (1 - share[..., None] * (1 - hue))).astype(np.uint8)
-    return np.concatenate([drawn[:1], drawn])
+    colours: Pixels = np.rint(255 * (1 - share[..., None] * (1 - hue))).astype(np.uint8)
+    return colours
 
 
 def _wheel() -> NDArray[np.float64]:

@@ -303,7 +303,9 @@ class FittedScene:
         """Truth of the fitted frames; visibility is that in the whole image."""
         truth = self._scene.ground_truth(t0_us, t1_us)
         seen = self._fitted(MotionVectors(truth.flow, None, truth.depth, truth.instance))
-        hidden = self._fitted(MotionVectors(instance=truth.occluded.astype(np.int32))).instance
+        hidden = self._fitted(MotionVectors(instance=truth.occluded.astype(np.int32))).instance > 0
+        rows, columns = np.indices(self.size.shape) + 0.5
+        hidden |= ~_inside(np.stack([columns, rows], axis=-1) + seen.forward, self.size)
         known = {box.instance: box for box in truth.boxes}
         names = {number: box.class_name for number, box in known.items()}
         boxes = tuple(
@@ -311,12 +313,16 @@ class FittedScene:
             for box in boxes_of(seen.instance, names)
             if box.instance in known
         )
-        return GroundTruth(seen.depth, seen.instance, seen.forward, hidden > 0, boxes)
+        return GroundTruth(seen.depth, seen.instance, seen.forward, hidden, boxes)
 
     def instances_at(self, t_us: int, points: NDArray[np.float64]) -> Any:
-        """Depth and instance at image points [k, 2] of the fitted frames."""
+        """Depth and instance at image points [k, 2] of the fitted frames; inf and 0 in bars."""
         scene: Any = self._scene
-        return scene.instances_at(t_us, (points - self._shift) / self._scale)
+        places = (points - self._shift) / self._scale
+        seen = _inside(places, scene.size)
+        depth, instance = np.full(len(points), np.inf), np.zeros(len(points), np.int32)
+        depth[seen], instance[seen] = scene.instances_at(t_us, places[seen])
+        return depth, instance
 
     def camera_at(self, t_us: int) -> PosedCamera:
         """The camera of the fitted frames; its centre is to half a pixel of the scene's.
@@ -333,6 +339,11 @@ class FittedScene:
             )
         width = self._scene.size.width * float(self._scale[0])
         return replace(camera, focal=camera.focal * width / self.size.width)
+
+
+def _inside(points: NDArray[np.floating[Any]], size: SensorSize) -> NDArray[np.bool_]:
+    """Whether points [..., 2] are in an image of this size; NaN is not."""
+    return np.asarray(((points >= 0) & (points < np.array(size))).all(axis=-1))
 
 
 def boxes_of(instance: NDArray[np.int32], class_names: Mapping[int, str]) -> tuple[Box, ...]:

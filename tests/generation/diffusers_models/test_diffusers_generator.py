@@ -4,6 +4,7 @@ Everything but the weights is real: saved by `save_pretrained`, found, checked, 
 decoded by the code that runs the published models. Offline.
 """
 
+import dataclasses
 import json
 import shutil
 import sys
@@ -331,6 +332,10 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
     assert "GPU memory 74 GB, 24.4 GB with --offload model, torch finds" in absent
     assert absent.endswith("; download not known, time not known")
+    part = GENERATORS.load("wan-1.3b")
+    for options, told in (({}, "4090"), ({"width": 416}, "(for 81 frames of 832x480, 50 steps)")):
+        config = dataclasses.replace(part.config_type(), **options)
+        assert part(config, seed=0, size=None).plan(PROMPT).endswith(told)
 
 
 def test_damaged_weights_are_one_line(models, tmp_path):

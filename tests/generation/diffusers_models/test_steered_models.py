@@ -1,5 +1,6 @@
 """Tiny pipelines of the classes that follow a scene, from a scene to labelled events."""
 
+import dataclasses
 import shutil
 
 import numpy as np
@@ -24,6 +25,7 @@ from texvent.dataset.specification.specification import Filters  # noqa: E402
 from texvent.errors import InputError, TexventError  # noqa: E402
 from texvent.generation.diffusers_models import generator as diffusers_generator  # noqa: E402
 from texvent.generation.diffusers_models import pipeline_call  # noqa: E402
+from texvent.generation.video_models import controls  # noqa: E402
 from texvent.generation.video_models.controls import PIPELINES  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
@@ -97,6 +99,16 @@ def test_a_scene_goes_through_every_class_to_labelled_events(name, saved, option
     depth = np.stack([video.ground_truth(f.t_us, f.t_us).depth for f in video.scene]).astype(float)
     near = (1 / depth - (1 / depth).min()) / np.ptp(1 / depth)
     assert np.abs(given[0] - np.rint(255 * near)[..., None]).max() <= 1
+
+
+def test_a_network_that_lies_elsewhere_is_stored_with_its_commit(saved, tmp_path, monkeypatch):
+    whole, network = tmp_path / "cosmos2.5-transfer-2b", tmp_path / "0a1b2c"
+    shutil.copytree(saved("cosmos-transfer"), whole)
+    shutil.move(whole / "controlnet", network)
+    monkeypatch.setattr(controls, "find_network", lambda repo, revision, announce: network)
+    generator = build(whole, control="edges")
+    generator.model = dataclasses.replace(generator.model, repo="org/name")
+    assert generator.generate(SENTENCE).metadata["controlnet_commit"] == "0a1b2c"
 
 
 def test_events_boxes_and_looks_of_one_scene(saved, tmp_path, monkeypatch):

@@ -14,8 +14,11 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import subprocess
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +26,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.image_folder import ImageFolder
+from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS, Frame
 from texvent.io.atomic import atomic_folder
+from texvent.io.input_checks import existing_folder
 from texvent.sensor import SensorSize
 
 Columns = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
@@ -41,10 +46,14 @@ def _load_eventcv() -> Simulate:
 
     def simulate(frames: list[Frame], threshold: float) -> Columns:
         pixels = np.stack([frame.pixels for frame in frames])
-        fps = MICROSECONDS * (len(frames) - 1) / (frames[-1].t_us - frames[0].t_us)
-        found = eventcv.simulate(pixels, fps=fps, pos_thres=threshold, neg_thres=threshold)
+        times_us = np.array([frame.t_us for frame in frames])
+        even_us = np.linspace(0, times_us[-1] - times_us[0], len(frames))
+        found = eventcv.simulate(
+            pixels, fps=MICROSECONDS / even_us[1], pos_thres=threshold, neg_thres=threshold
+        )
         x, y, t, p = np.asarray(found.numpy()).T
-        return x, y, t + frames[0].t_us, p
+        # It knows a rate alone; frames of a camera may come unevenly.
+        return x, y, np.interp(t, even_us, times_us), p
 
     return simulate
 
@@ -94,20 +103,52 @@ def as_events(columns: Columns, size: SensorSize) -> EventStream:
     return EventStream.from_columns(*whole, size=size)
 
 
-def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool) -> None:
+def read_frames(clip: Path) -> list[Frame]:
+    """The frames of a clip in 8-bit grey, as texvent's simulators see them.
+
+    Raises:
+        InputError: they cannot be read, or are fewer than two.
+    """
+    frames = [replace(one, pixels=np.rint(one.luma).astype(np.uint8)) for one in ImageFolder(clip)]
+    if len(frames) < 2:
+        raise InputError(f"{clip} has {len(frames)} frames; events need 2")
+    return frames
+
+
+def describe_program(name: str, clone: Path | None) -> dict[str, str]:
+    """Name of a program, and its version or the commit of its clone, for its files.
+
+    Raises:
+        ImportError: it is not installed, or the folder is no clone.
+    """
+    if clone is None:
+        return {"simulator": name, "version": metadata.version(name)}
+    command = ["git", "-C", str(clone), "rev-parse", "HEAD"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise ImportError(f"{clone} is no clone of its repository")
+    return {"simulator": name, "version": done.stdout.strip()}
+
+
+def write_events(
+    simulate: Simulate, frames: Path, out: Path, *, program: Mapping[str, str], overwrite: bool
+) -> None:
     """A folder per threshold with an event file per clip.
 
     Args:
         simulate: the program.
         frames: folder of `--write-frames`.
         out: folder to write.
+        program: facts to store in every file, beside the threshold.
         overwrite: whether a folder of event files may be replaced.
 
     Raises:
         OutputError: it exists already, or holds other files.
-        InputError: the frames cannot be read.
+        InputError: there are no frames, or they cannot be read.
     """
-    clips = [one for one in sorted(frames.iterdir()) if one.is_dir()]
+    clips = [one for one in sorted(existing_folder(frames).iterdir()) if one.is_dir()]
+    if not clips:
+        raise InputError(f"{frames} holds no folder of frames; give one of --write-frames")
     with atomic_folder(
         out, overwrite=overwrite, is_own=lambda one: one.suffix == ".h5", is_nested=True
     ) as part:
@@ -115,14 +156,15 @@ def write_events(simulate: Simulate, frames: Path, out: Path, *, overwrite: bool
             threshold = round(LOWEST * RATIO**number, 4)
             (part / str(threshold)).mkdir()
             for clip in clips:
-                video = ImageFolder(clip)
-                events = as_events(simulate(list(video), threshold), video.size)
+                given = read_frames(clip)
+                events = as_events(simulate(given, threshold), given[0].size)
+                events = events.with_metadata({**program, "contrast_threshold": threshold})
                 events.save(part / str(threshold) / f"{clip.name}.h5")
             print(f"threshold {threshold}: {len(clips)} clips", file=sys.stderr)
 
 
 def main() -> int:
-    """Run a program; 2 where it is not installed."""
+    """Run a program; 2 where it is not installed or the folders will not do."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.peer_events")
     parser.add_argument("program", choices=list(PROGRAMS))
     parser.add_argument("frames", type=Path, help="folder of texvent bench ... --write-frames")
@@ -134,10 +176,17 @@ def main() -> int:
         sys.path.insert(0, str(chosen.path))
     try:
         simulate = PROGRAMS[chosen.program]()
+        program = describe_program(chosen.program, chosen.path)
     except ImportError as error:
         print(f"error: {chosen.program} cannot be imported here: {error}", file=sys.stderr)
         return 2
-    write_events(simulate, chosen.frames, chosen.out, overwrite=chosen.overwrite)
+    try:
+        write_events(
+            simulate, chosen.frames, chosen.out, program=program, overwrite=chosen.overwrite
+        )
+    except TexventError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
     return 0
 
 

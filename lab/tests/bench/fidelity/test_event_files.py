@@ -16,6 +16,7 @@ from texvent_lab.bench.fidelity.event_files import FileEntry, named_folders
 from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, clip_name, record_truths
 from texvent_lab.bench.fidelity.run import score_entry
 from texvent_lab.bench.oracle.recording import LAST_US, SIZE, oracle_scene, render_video
+from texvent_lab.bench.real import run as real_run
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
 PLAN = FidelityPlan(
@@ -151,3 +152,26 @@ def test_frames_and_events_of_a_recording_are_on_its_own_clock(pan_folder, tmp_p
     match, _ = row.fit(lambda one: scene.count(row, one), scene.fit_count)
     assert (match.threshold, match.ratio) == (0.2, 1.0)
     assert scene.simulate(row, 0.2) == scene.references
+
+
+def test_a_recordings_files_are_refused_before_any_work_and_may_be_silent_for_a_while(
+    pan_folder, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(real_run, "score_entries", lambda *_, **__: pytest.fail("work was done"))
+    path = tmp_path / f"{pan_folder.name}.h5"
+    scene = open_scene(str(pan_folder))
+    given = ["bench", "real", str(pan_folder), "--events", f"Mine={tmp_path}"]
+    for size, t_us, message in (
+        ("8x6", scene.video.times_us[0], "8x6"),
+        (scene.video.size, scene.video.times_us[-1] + 1, f"{path} has no event from"),
+    ):
+        events = EventStream.from_columns([1], [2], [t_us], [1], size=size)
+        events.save(path, overwrite=True)
+        assert main(given) == 2
+        assert message in capsys.readouterr().err
+    late = scene.events.cut(*scene.scored[-1])
+    late.save(path, overwrite=True)
+    row = FileEntry.find("Mine", tmp_path, [pan_folder.name])
+    scene.check(row)
+    assert scene.count(row, None) == 0
+    assert scene.simulate(row, None)[-1] == scene.references[-1]

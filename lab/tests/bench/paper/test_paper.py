@@ -15,7 +15,8 @@ from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
 from texvent.simulation.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity import entries
-from texvent_lab.bench.fidelity.entries import FileEntry, read_ablations
+from texvent_lab.bench.fidelity.entries import read_ablations
+from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import (
@@ -35,6 +36,7 @@ from texvent_lab.bench.paper.run import (
     measure_table,
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
+from texvent_lab.bench.real.run import run_real
 
 from ...nt_imagenet.tiny_data import write_stream
 from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
@@ -230,7 +232,7 @@ def test_event_files_are_on_the_clock_of_the_frames_as_they_are_stored(pan_folde
     late = dataclasses.replace(early, t=early.t + 10**9)
     late.save(tmp_path / f"{scene.scene}.h5", overwrite=True)
     with pytest.raises(InputError, match=r"no event from .* clock of the frames"):
-        scene.simulate(row, None)
+        run_real([scene], [row])
 
 
 def test_a_folder_that_lacks_a_recording_is_named_before_any_work(others, bar, monkeypatch):
@@ -247,7 +249,7 @@ def test_a_folder_that_lacks_a_recording_is_named_before_any_work(others, bar, m
     [
         (1, ("V2CE",), "'V2CE'; it must be NAME=FOLDER"),
         (1, ("V2CE=nowhere",), "'V2CE=nowhere'; it must be NAME=FOLDER, a folder that exists"),
-        (1, ("V2CE=.", "v2ce=.."), "names a column twice"),
+        (1, ("V2CE=.", "v2ce=.."), "names V2CE twice"),
         (4, ("V2CE=.",), "columns of tables 1, 2, 8, 9"),
         (None, ("V2CE=.",), "columns of tables 1, 2, 8, 9"),
     ],

@@ -152,13 +152,14 @@ class Recipe:
         # A stored video cannot be rendered at any instant, whatever its generator could do.
         is_cut_off = self.stores_videos and not self.follows_scenes
         basis = {"interpolate": InterpolateConfig.interpolate} if is_cut_off else {}
-        for name, variant in self.variants.items():
-            own = {**basis, **options, **variant.options}
-            found[name] = ClipSettings(self.command, own, seed)
         of_videos = dict(options)
         if (least := self.specification.filters.least_control_agreement) is not None:
             response = "reject" if options.get("on_failure") == "reject" else "retry"
             of_videos |= {"least_agreement": least, "on_failure": response}
+        making = options if self.stores_videos else of_videos
+        for name, variant in self.variants.items():
+            own = {**basis, **making, **variant.options}
+            found[name] = ClipSettings(self.command, own, seed)
         return {VIDEOS: ClipSettings(self.command, of_videos, seed), **found}
 
     def _check_options(self) -> None:
@@ -167,7 +168,8 @@ class Recipe:
         Raises:
             ConfigError, InputError, MissingDependencyError: as `texvent.run.prepare.check_run`.
         """
-        if self.specification.filters.least_control_agreement and not self.follows_scenes:
+        least = self.specification.filters.least_control_agreement
+        if least is not None and not self.follows_scenes:
             raise ConfigError(
                 "filters sets least_control_agreement, and no generator that follows scenes makes "
                 "the videos; leave it out, or name one in options (texvent generators)"

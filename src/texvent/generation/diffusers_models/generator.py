@@ -58,6 +58,8 @@ from texvent.sensor import SensorSize
 EXTRA = "generate"
 PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
 """Options that decide the pixels, beside model, prompt, seed and files."""
+OF_COST = ("frames", "width", "height", "steps")
+"""Options that decide the time, which a row knows for its own values."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
@@ -126,9 +128,9 @@ class DiffusersGenerator:
         else:  # all files are here: options that do not fit them are refused too
             self._prepare(NoProgress())
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
-        cost = self.model.cost
-        if config.frames != self.model.frames or config.steps != self.model.steps:
-            cost += f" (for {self.model.frames} frames, {self.model.steps} steps)"
+        row, cost = self.model, self.model.cost
+        if row.minutes and any(getattr(config, one) != getattr(row, one) for one in OF_COST):
+            cost += f" (for {row.frames} frames of {row.width}x{row.height}, {row.steps} steps)"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
         device, free = resolve_device()
@@ -217,6 +219,7 @@ class DiffusersGenerator:
         facts = {
             "source": model.source,
             "commit": files.commit,
+            **{f"{name}_commit": part.name for name, part in parts},
             "pipeline": pipeline_class.__name__,
             "dtype": request.placement.dtype,
             "licence": model.licence_and_terms,

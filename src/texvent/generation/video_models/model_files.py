@@ -6,6 +6,7 @@ Missing and pickled weights are refused before anything is loaded, so that error
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import json
 import logging
@@ -100,16 +101,16 @@ def find_network(repo: str, revision: str, announce: Callable[[str], None]) -> P
     """
     hub = require("huggingface_hub", extra=EXTRA)
     wanted = [CONFIG, "*.safetensors", "*.safetensors.index*.json"]
+    fetch = functools.partial(hub.snapshot_download, repo, revision=revision, allow_patterns=wanted)
+    # Files may be missing after an interruption.
+    with contextlib.suppress(OSError, ValueError, InputError):
+        folder = Path(fetch(local_files_only=True))
+        _check_part(folder, CONTROL_PART)
+        if (folder / CONFIG).is_file():
+            return folder
+    announce(f"fetching {repo}@{revision} from the model hub")
     try:
-        return Path(
-            hub.snapshot_download(
-                repo, revision=revision, allow_patterns=wanted, local_files_only=True
-            )
-        )
-    except (OSError, ValueError):
-        announce(f"fetching {repo}@{revision} from the model hub")
-    try:
-        return Path(hub.snapshot_download(repo, revision=revision, allow_patterns=wanted))
+        return Path(fetch())
     except (OSError, ValueError) as error:
         raise TexventError(
             f"{repo}@{revision} is not on this machine and cannot be fetched: {one_line(error)}"

@@ -94,30 +94,22 @@ class FileEntry(Entry):
         ratio = counts[best] / target if target else math.nan
         return ThresholdMatch(best, ratio, len(counts)), math.nan
 
-    def check(self, size: SensorSize, spans_us: Mapping[str, tuple[int, int]]) -> None:
+    def check(
+        self, size: SensorSize, spans_us: Mapping[str, tuple[int, int]], *, is_part: bool = False
+    ) -> None:
         """Read all files, which may hold nothing but events of their frames.
 
         Args:
             size: of the frames.
             spans_us: recording → time of its first frame, and of its last.
+            is_part: whether there are other frames, so that some events suffice inside a span.
 
         Raises:
             InputError, FileFormatError: a file is damaged, of another size or another clock.
         """
         for files in self.files.values():
-            for recording, (first_us, last_us) in spans_us.items():
-                for packet in open_events(files[recording], size=size):
-                    for t_us in map(int, packet.t[[0, -1]] if len(packet) else ()):
-                        if (
-                            not -TOLERANCE_US
-                            <= t_us - first_us
-                            <= last_us - first_us + TOLERANCE_US
-                        ):
-                            raise InputError(
-                                f"{files[recording]} has an event at {t_us} µs; the frames of "
-                                f"{recording} are from {first_us} to {last_us} µs, and events must "
-                                "be on their clock"
-                            )
+            for recording, span_us in spans_us.items():
+                _check_file(files[recording], recording, size, span_us, is_part=is_part)
 
     def packets(
         self,
@@ -129,21 +121,36 @@ class FileEntry(Entry):
         """The events of a recording in a span of time.
 
         Raises:
-            InputError: all are outside it, they have another size, or thresholds wait for a fit.
+            InputError: they have another size, or thresholds wait for a fit.
         """
         if threshold not in self.files:
             raise InputError(
                 f"{self.program} has runs at several thresholds, and none is fitted here; give the "
                 "folder of one of them"
             )
-        packets = open_events(self.files[threshold][recording], size=size)
-        found = packets.cut(*span_us)
-        if not any(map(len, found)) and any(map(len, packets)):
+        return open_events(self.files[threshold][recording], size=size).cut(*span_us)
+
+
+def _check_file(
+    path: Path, recording: str, size: SensorSize, span_us: tuple[int, int], *, is_part: bool
+) -> None:
+    """See `FileEntry.check`."""
+    first_us, last_us = span_us
+    count = inside = 0
+    for packet in open_events(path, size=size):
+        count += len(packet)
+        inside += len(packet.cut(first_us - TOLERANCE_US, last_us + TOLERANCE_US + 1))
+        if inside < count and not is_part:
+            t_us = packet.t[0] if packet.t[0] < first_us - TOLERANCE_US else packet.t[-1]
             raise InputError(
-                f"{self.files[threshold][recording]} has no event from {span_us[0]} to "
-                f"{span_us[1]} µs; times must be on the clock of the frames of {recording}"
+                f"{path} has an event at {t_us} µs; the frames of {recording} are from {first_us} "
+                f"to {last_us} µs, and events must be on their clock"
             )
-        return found
+    if count and not inside:
+        raise InputError(
+            f"{path} has no event from {first_us} to {last_us} µs; times must be on the clock of "
+            f"the frames of {recording}"
+        )
 
 
 def _threshold_of(name: str) -> float | None:

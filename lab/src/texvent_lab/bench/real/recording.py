@@ -85,10 +85,16 @@ class RealScene:
         events = self._simulate(entry, self.whole, threshold)
         return [events.cut(*span) for span in self.scored]
 
+    def check(self, entry: Entry) -> None:
+        """Refuse event files that are not of these frames; see `FileEntry.check`."""
+        if isinstance(entry, FileEntry):
+            times_us = self.video.times_us
+            span_us = times_us[0] - self.offset_us, times_us[-1] - self.offset_us
+            entry.check(self.video.size, {self.scene: span_us}, is_part=True)
+
     def _simulate(self, entry: Entry, span: TimeSpan, threshold: float | None) -> EventStream:
         if isinstance(entry, FileEntry):
-            start_us, stop_us = (edge - self.offset_us for edge in span)
-            span_us = start_us, stop_us
+            span_us = span.start_us - self.offset_us, span.stop_us - self.offset_us
             found = entry.packets(self.scene, self.video.size, span_us, threshold).collect()
             return dataclasses.replace(found, t=found.t + self.offset_us)
         settings = adapt_settings(entry.settings(SEED), self.frames_gamma)

@@ -64,6 +64,7 @@ def run_real(
 
     Raises:
         ConfigError: an entry does not exist or needs the true frames, or jobs is below 1.
+        InputError, FileFormatError: events of another program are damaged, or not of these frames.
     """
     check_range("jobs", jobs, 1)
     start = time.perf_counter()
@@ -71,6 +72,8 @@ def run_real(
         entry.settings(SEED)
         if entry.interpolate == "exact":
             raise ConfigError(f"{entry.name} needs the true frames, which no recording has")
+        for scene in scenes:
+            scene.check(entry)
     scores, skipped = score_entries(scenes, entries, metrics, jobs=jobs, progress=progress)
     return FidelityReport(
         environment=describe_environment(),

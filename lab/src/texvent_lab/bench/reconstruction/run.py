@@ -261,8 +261,9 @@ def packets_of(
     """Events of a row on a recording, and δ of a simulator that has one, log units."""
     if isinstance(entry, FileEntry):
         times_us = plan.frame_times_us(recording)
-        span_us = times_us[0], times_us[-1]
-        return entry.packets(recording.name, recording.frames.size, span_us), None
+        span_us, size = (times_us[0], times_us[-1]), recording.frames.size
+        entry.check(size, {recording.name: span_us}, is_part=True)
+        return entry.packets(recording.name, size, span_us), None
     simulation = simulate_recording(recording, entry, plan)
     return simulation.packets, _threshold_of(simulation)
 
