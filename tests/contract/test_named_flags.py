@@ -39,9 +39,9 @@ FOREIGN = {
         "--table",
         "--show",
     ),
-    *("--local-dir", "--save-dir", "--dataset", "--standalone", "--draw"),
+    *("--local-dir", "--save-dir", "--dataset", "--standalone", "--draw", "--real-size"),
 }
-"""Flags of pip, git, Docker, ROS, Slurm and the like, of CSS and of tools/."""
+"""Flags of pip, git, Docker, ROS, Slurm and the like, of CSS, of tools/ and measure."""
 PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.shipped())]
 OF_PARTS = {
     flag_of(name)

@@ -74,7 +74,7 @@ class PreparedFrames(ChangedFrames):
 
     @property
     def fit(self) -> str:
-        """How frames are fitted to the wanted size."""
+        """Fit of frames to the wanted size."""
         return self._config.fit
 
     def __iter__(self) -> Iterator[Frame]:

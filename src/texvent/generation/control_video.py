@@ -25,7 +25,7 @@ from texvent.ground_truth import GroundTruth
 
 Pixels = NDArray[np.uint8]
 EDGE_THRESHOLDS = (100, 200)
-"""Of Canny's gradient, levels: "medium" of Cosmos-Transfer2.5."""
+"""Thresholds of Canny's gradient, levels: "medium" of Cosmos-Transfer2.5."""
 HUE_STEP = 0.618_034
 """Golden ratio: hues of following ids lie far apart."""
 WHEEL = ((255, 0, 0, 15), (255, 255, 0, 6), (0, 255, 0, 4), (0, 255, 255, 11), (0, 0, 255, 13),

@@ -141,7 +141,7 @@ class Limb:
     """
 
     name: str
-    """Of its end; its bones are "upper NAME" and "lower NAME"."""
+    """Name of its end; its bones are "upper NAME" and "lower NAME"."""
     channels: str
     """Begins the names of its channels."""
     side: float

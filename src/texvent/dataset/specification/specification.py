@@ -132,7 +132,7 @@ class Filters:
     Example:
         >>> from texvent.dataset import Filters
         >>> Filters(max_events=50_000)
-        Filters(min_events=200, max_events=50000, failed_videos=False)
+        Filters(min_events=200, max_events=50000, failed_videos=False, least_control_agreement=None)
     """
 
     min_events: int = FEWEST_SIGNAL

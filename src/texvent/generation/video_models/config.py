@@ -160,7 +160,7 @@ class VideoModel:
 
     @property
     def steering(self) -> ControlPipeline | None:
-        """How its videos follow a scene; None: they follow none."""
+        """Control by which its videos follow a scene; None: they follow none."""
         return PIPELINES.get(self.pipeline or "")
 
     @property

@@ -111,7 +111,7 @@ def flow_arrows(flow: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 LEAST_CONTRAST = 16
-"""Of the colours of a legend to their ground, levels."""
+"""Least difference of a legend's colours from their ground, levels."""
 TARGET_WIDTH = 1280.0
 MAX_FACTOR = 10
 GAP = 2

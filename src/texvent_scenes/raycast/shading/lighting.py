@@ -122,7 +122,7 @@ _UNDERWATER = 9
 SHARP = 0.01
 """Roughness below which a surface shows a sharp image, radians."""
 _OFF = 1e-3
-"""What a mirrored ray meets nearer than this, in units of the camera's depth, does not count."""
+"""Least distance at which a mirrored ray meets a surface, in units of the camera's depth."""
 _ALL = -1
 """Bits of all lamps."""
 
