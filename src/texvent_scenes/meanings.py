@@ -6,6 +6,9 @@ from collections.abc import Iterator
 
 from texvent_scenes.read.lexicon import Senses, lexicon_of, split_prompt
 
+_FIELDS = {"turns_hz": "rate_hz"}
+"""Fields of words, and of scenes, where they differ."""
+
 
 def list_meanings(word: str) -> Iterator[tuple[str, object]]:
     """Kinds of a word or phrase, such as "noun" or "direction", and its value as each.
@@ -30,7 +33,8 @@ def meanings_of(senses: Senses) -> Iterator[tuple[str, object]]:
             case "pose":
                 yield "motion", value[1]
             case "field" | "adverb":
-                yield value
+                name, *said = value
+                yield _FIELDS.get(name, name), *said
             case "verb":
                 yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
                 said = (("direction", value.direction), ("relation", value.relation))

@@ -209,6 +209,12 @@ def _is_near(one: Body, other: Body, share: float) -> _Flags:
     return np.asarray(np.linalg.norm(np.maximum(gap[:, :2], 0.0), axis=1) <= share * extent)
 
 
+def _is_beside(one: Body, other: Body) -> _Flags:
+    """Whether it is near, and as high: not on a desk under which the other one lies."""
+    apart = np.abs(one.middle - other.middle)[:, 2] - 0.5 * (one.size + other.size)[:, 2]
+    return np.asarray(_is_near(one, other, 3.0) & (apart <= 0.5 * one.size.max(axis=1)))
+
+
 def _is_between(one: Body, first: Body, second: Body) -> _Flags:
     """Whether its middle lies beside the way from one to the other, nearer than half of that."""
     way = (second.middle - first.middle)[:, :2]
@@ -229,6 +235,7 @@ _RULES: Mapping[str, _Rule] = {
     "front": lambda one, other: _deeper(one, other, -1),
     "left of": lambda one, other: _aside(one, other) <= -0.5,
     "right of": lambda one, other: _aside(one, other) >= 0.5,
+    "beside": _is_beside,
     "at": lambda one, other: _is_near(one, other, 0.4),
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),

@@ -46,13 +46,14 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    return _read(prompt, list_nouns(assets))[0]
+    reading, idle, _ = _read(prompt, list_nouns(assets))
+    return replace(reading, not_understood=(*reading.not_understood, *idle))
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str], list[str]]:
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str], list[str]]:
     """The reading of a prompt, without fields that change nothing.
 
-    The lists are the words that stand for such fields, with reasons, and notes of other ones.
+    With the words that stand for such fields, each with the reason, and notes of other fields.
     """
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
@@ -79,12 +80,12 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, list[str], l
 
 def _without_idle(
     reading: Reading, nouns: Mapping[str, Noun]
-) -> tuple[Reading, list[str], list[str]]:
+) -> tuple[Reading, dict[str, str], list[str]]:
     from texvent_scenes.meanings import list_meanings
     from texvent_scenes.staging.idle_fields import leave_out
 
     scene, shown = reading.scene, list(reading.shown)
-    lost, notes = list[str](), list[str]()
+    lost, notes = dict[str, str](), list[str]()
     for _ in range(_MOST_PASSES):
         idle = _list_idle(scene, nouns)
         if not idle:
@@ -98,7 +99,7 @@ def _without_idle(
                 notes.append(f"{one.path} would change nothing and is left out: {one.why}")
             for word in words if said.isdisjoint(after) else ():
                 shown.remove(word)
-                lost.append(f"{word} ({one.why})")
+                lost[word] = one.why
     return replace(reading, scene=scene, shown=tuple(shown)), lost, notes
 
 
@@ -207,7 +208,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
-        not_shown=tuple(dict.fromkeys(lost)),
+        not_shown=tuple(f"{word} ({why})" for word, why in lost.items()),
     )
     return replace(description, words=words, notes=(*description.notes, *notes))
 

@@ -85,11 +85,13 @@ HELD = {
     "between": (SceneObject("ball"), SceneObject("cube", count=2)),
     "at": (SceneObject("man"), SceneObject("table")),
     "with": (thing("man", ("walk",)), SceneObject("dog")),
+    "beside": (SceneObject("cup"), SceneObject("bottle")),
 }
 OTHER = {
     "on": "under", "under": "above", "above": "on", "left of": "right of", "right of": "left of",
     "behind": "front", "front": "behind", "past": "around", "through": "above",
     "towards": "away from", "around": "through", "between": "on", "at": "above", "with": "through",
+    "beside": "on",
 }  # fmt: skip
 
 
@@ -134,6 +136,8 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a propeller at 6000 rpm", "6000 rpm", None),
         ("a man on the right waves", "on the right", "the man on the right"),
         ("a red ball on the left and a cube on the right", "on the right", None),
+        ("a bottle beside a laptop on a desk", "beside", "the bottle beside the laptop"),
+        ("a dog runs beside a cyclist", "beside", None),
         ("a dog on a wet road", "wet", None),
         ("a dog in a wet forest", "wet", "wet"),
     ],

@@ -166,7 +166,9 @@ PICTURE = '[[objects]]\nnoun = "billboard"\npicture = { kind = "file", value = "
 @pytest.mark.parametrize(
     "values",
     [{"video": "/etc/passwd"}, {"video": "../a.mp4"}, {"video": "link/a.mp4"}, {"prompt": PICTURE},
-     {"prompt": "/etc/a.toml"}, {"prompt": "a ball", "generator": "/etc/model"}],
+     {"prompt": "/etc/a.toml"}, {"prompt": "a poster of /etc/a.png"},
+     {"prompt": "a poster of ../a.png"}, {"prompt": "a ball", "generator": "/etc/model"},
+     {"prompt": "a ball", "generator": "~/model"}, {"prompt": "a ball", "generator": "~root"}],
 )  # fmt: skip
 def test_files_elsewhere_are_refused_with_what_to_do(tmp_path, values):
     (tmp_path / "in").mkdir()

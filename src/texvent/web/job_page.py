@@ -211,9 +211,8 @@ class JobServer(PageServer):
                 path.write_text(subject, encoding="utf-8")
                 subject = str(path)
             try:
-                if scenes().is_scene_file(subject):
-                    for file in scenes().files_of(scenes().load_scene(subject)):
-                        self._allowed(file)
+                for file in _files_of(subject, is_read=has_stills):
+                    self._allowed(file)
             except TexventError as error:
                 shutil.rmtree(folder)
                 raise InputError(str(error).replace(f"{folder}/", "")) from None
@@ -238,16 +237,15 @@ class JobServer(PageServer):
         """
         texts = {name: str(text).strip() for name, text in values.items()}
         video, prompt = texts.get("video", ""), texts.get("prompt", "")
-        flags = flags_of(texts)
         if video:
-            self.begin("simulate", flags, self._allowed(video))
+            self.begin("simulate", flags_of(texts), self._allowed(video))
             return
         name = texts.get("generator") or GENERATORS.names()[0]
-        if os.sep in name and not name.startswith(HUB):
-            self._allowed(name)
+        if name.startswith("~") or (os.sep in name and not name.startswith(HUB)):
+            name = texts["generator"] = self._allowed(name)
         subject = self._allowed(prompt) if scenes().is_scene_file(prompt) else prompt
         has_stills = getattr(GENERATORS.load(name), "takes_scenes", False)
-        self.begin("generate", flags, subject, has_stills=has_stills)
+        self.begin("generate", flags_of(texts), subject, has_stills=has_stills)
 
     def _allowed(self, text: str) -> str:
         """The path of a file that the page may read: in the user's folder, or sent by the page.
@@ -255,7 +253,7 @@ class JobServer(PageServer):
         Raises:
             InputError: it is elsewhere.
         """
-        path = Path(os.path.realpath(usable_path(self._home / text)))
+        path = Path(os.path.realpath(usable_path(self._home / os.path.expanduser(text))))
         if not (path.is_relative_to(self._home) or path.is_relative_to(self._sent)):
             raise InputError(
                 f"{shown(text)} is outside of {self._home}; choose the file with the button, or "
@@ -302,6 +300,15 @@ class JobServer(PageServer):
         name, kind, policy = RESULTS[path]
         file = None if self.job is None else self.job.file(name)
         return None if file is None else Answer(file.read_bytes(), kind, policy)
+
+
+def _files_of(subject: str, *, is_read: bool) -> list[str]:
+    """Files that a scene file names, or a sentence if a generator reads it as a scene."""
+    if scenes().is_scene_file(subject):
+        return scenes().files_of(scenes().load_scene(subject))
+    with contextlib.suppress(TexventError):  # the job says what cannot be read
+        return scenes().files_of(scenes().read(subject).scene) if is_read else []
+    return []
 
 
 def flags_of(texts: Mapping[str, str]) -> list[str]:

@@ -20,7 +20,7 @@ from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
 
-_UNTURNED = ("handheld", "static")
+_UNTURNED, _OPPOSITE = ("handheld", "static"), "opposite"
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
             "relation", "camera")  # fmt: skip
@@ -62,11 +62,22 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
         # "at 900 rpm"; "stops after 1 second": until then it goes
         motions.insert(0, {"kind": "spin" if field == "turns_hz" else "move"})
     motion = motions[-1]
-    pace, end = motion.get("pace", 1.0), motion.get("end_pace")
-    if field == "speed_m_s" and end is not None and end > pace:
-        value *= pace / end  # "accelerates to 50 km/h"
     field = "rate_hz" if field == "turns_hz" else field
-    motion[field] = round(pace * value, 6) if field == "pace" else value
+    motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
+
+
+def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
+    """Say by paces at which speed a motion ends: "accelerates from 10 km/h to 50 km/h"."""
+    end_m_s, start_m_s = motion.pop("end_m_s"), motion.get("speed_m_s")
+    pace, end_pace = motion.get("pace", 1.0), motion["end_pace"]
+    if start_m_s is None and end_pace > pace:
+        motion["speed_m_s"] = end_m_s * pace / end_pace
+        return
+    start_m_s = pace * (noun.speed_m_s or 1.0) if start_m_s is None else start_m_s
+    start_m_s = max(start_m_s, 0.001 * end_m_s)  # paces are multiples of a speed, which is not 0
+    most_m_s = max(start_m_s, end_m_s) or 1.0
+    paces = (round(one / most_m_s, 6) for one in (start_m_s, end_m_s))
+    motion |= {"speed_m_s": start_m_s, **dict(zip(("pace", "end_pace"), paces, strict=True))}
 
 
 def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:
@@ -182,17 +193,34 @@ class SceneDraft:
         in_air = {one["kind"] for one in thing["motions"]} & word_set("things", "in_air")
         return self.nouns[thing["noun"]].motion in ("walk", "drive") and not in_air
 
+    def say_field(self, token: Token, said: Sense, index: int) -> None:
+        """Set a field of an object; of a speed also the one that it reaches: "brakes to 2 m/s"."""
+        motions, before = self.things[index]["motions"], self.tokens[token.at - 1].text
+        (name, value), end = said.value, motions[-1].get("end_pace") if motions else None
+        if name == "speed_m_s" and end is not None:
+            is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
+            name = "end_m_s" if is_end else name
+        set_field(self.things[index], said.kind, name, value)
+
     def part_ways(self, parted: Sequence[int]) -> bool:
         """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
-        first = self.things[parted[0]] if parted else {}
-        if len(parted) == 1 and first["count"] > 1:
-            half = {**deepcopy(first), "count": first["count"] // 2}
-            first["count"] -= half["count"]
-            self.things.append(half)
-            parted = [*parted, len(self.things) - 1]
-        for number, index in enumerate(parted if parted[1:] else ()):
-            set_field(self.things[index], "adverb", "direction", ("right", "left")[number % 2])
-        return bool(parted[1:])
+        is_one = sum(self.things[index]["count"] for index in parted) < 2
+        sides = ("right", "left") if parted[1:] else (_OPPOSITE,)
+        for number, index in enumerate(() if is_one else parted):
+            set_field(self.things[index], "adverb", "direction", sides[number % len(sides)])
+        return not is_one
+
+    def _halve(self, own: int) -> None:
+        """Lead halves of an object's copies to the right and to the left."""
+        first, other = self.things[own], len(self.things)
+        half = {**deepcopy(first), "count": first["count"] // 2}
+        first["count"] -= half["count"]
+        for relation in first["relations"]:  # "and collide": with each other
+            relation["to"] = tuple(other if one == own else one for one in relation["to"])
+        for thing, side in ((first, "right"), (half, "left")):
+            for motion in thing["motions"]:
+                motion |= {"direction": side} if motion.get("direction") == _OPPOSITE else {}
+        self.things += [half] if half["count"] else []
 
     def fits(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
@@ -308,6 +336,11 @@ class SceneDraft:
         """The scene; copies of objects that have most are left out until it holds them all."""
         while sum(one["count"] for one in self.things) > MAX_BODIES:
             max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
+        for index, one in enumerate([*self.things]):
+            for motion in (each for each in one["motions"] if "end_m_s" in each):
+                _reach_speed(motion, self.nouns[one["noun"]])
+            if any(each.get("direction") == _OPPOSITE for each in one["motions"]):
+                self._halve(index)
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
             done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")

@@ -226,7 +226,8 @@ MAX_COUNT = 24
 _RANGES = {"speed_m_s": (0.0, 1000.0)}
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
-_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
+_NUMBER = r"(?:(?<!\S)[-−])?(?:\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+_WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
 
 
@@ -321,7 +322,7 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
-    is_number = length == 1 and words[at][0].isdecimal()
+    is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
     if length == 1 and words[at].casefold() == "after" and (time := _read_time(words, at, lexicon)):
         return time
     return _read_quantity(words, at, lexicon) if is_number else (length, senses)
@@ -362,7 +363,7 @@ def _without_chance(
 
 def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
     """A number of things, or a speed or frequency with its unit, in the range of scenes."""
-    number = float(words[at].replace(",", ""))
+    number = float(words[at].replace(",", "").replace("−", "-"))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
         for sense in lexicon.get(unit, ()):
@@ -372,4 +373,5 @@ def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int
                 is_shown = least <= number * factor <= most
                 said = Sense("adverb", (field, number * factor))
                 return 1 + length, (said,) if is_shown else ()
-    return 1, (Sense("field", ("count", max(1, min(round(number), MAX_COUNT)))),)
+    count = Sense("field", ("count", max(1, min(round(number), MAX_COUNT))))
+    return 1, (count,) if number >= 0.0 else ()

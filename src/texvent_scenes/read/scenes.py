@@ -12,7 +12,7 @@ from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place, set_field
+from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent_scenes.spec.data import PLACING
@@ -249,8 +249,8 @@ class _SentenceReader:
             if not draft.part_ways(subjects):
                 return
         elif said is not None and things:
-            for thing in things:
-                set_field(thing, said.kind, field, value)
+            for index in subjects:
+                draft.say_field(token, said, index)
         else:
             if not self._draft.set_scene(token) and things and token.verbs("ing", "ed"):
                 self._act(token, subjects, [], has_object=False)

@@ -310,7 +310,7 @@ class Scene:
     place: Place = field(default_factory=Place)
     """Surroundings."""
     absent: tuple[Annotated[str, Word("noun")], ...] = ()
-    """Nouns that no scenery may show."""
+    """Nouns that no scenery may show; of people or traffic, one stands for all."""
 
     def __add__(self, part: Part) -> Self:
         """The scene with one more object, effect or lamp, or with another camera, light or place.

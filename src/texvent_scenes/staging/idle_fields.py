@@ -47,8 +47,8 @@ _ALIKE = (
     ("clockwise", "counter-clockwise"),
 )
 """Directions of travel and of turns: if one of them changes something, each says something."""
-_SHARES = (0.0, 0.13, 0.29, 0.5, 0.71, 0.97)
-"""Instants at which bodies are compared, as shares of the clip."""
+_SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
+"""Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
 _MOST_NAMED = 6
 
@@ -82,11 +82,13 @@ class _Body:
 
     def differ(self, one: SceneObject, other: SceneObject) -> bool:
         """Whether what is drawn of two objects is not the same."""
-        starts = [each.start_s or 0.0 for each in (*one.motions, *other.motions)]
-        duration_s = _USUAL_S + max(starts, default=0.0)
+        starts = (each.start_s or 0.0 for each in (*one.motions, *other.motions))
+        start_s = max(starts, default=0.0)
+        duration_s = _USUAL_S + start_s
         actors = [self._put_on(each, duration_s) for each in (one, other)]
         first, second = actors
-        times = [share * duration_s for share in _SHARES]
+        times = [start_s + share * _USUAL_S for share in _SHARES]
+        times += [share * start_s for share in _SHARES if start_s]
         if first.goes_across != second.goes_across or any(map(_is_apart(*actors), times)):
             return True
         return any(not _look_alike(first, second, time_s) for time_s in times)

@@ -216,6 +216,19 @@ def test_words_whose_fields_change_nothing_are_not_shown():
     assert words.not_shown == ("quickly (speed_m_s takes its place; leave one of them out)",)
     words = understand("a grating moves right and a car drives right", NOUNS).words
     assert "right" in words.shown
+    prompt = "a dog drives at 600 rpm on wet grass"
+    words, reading = understand(prompt, NOUNS).words, read(prompt)
+    assert [one.partition(" (")[0] for one in words.not_shown] == ["600 rpm", "wet"]
+    assert reading.not_understood == ("600 rpm", "wet")
+    assert reading.shown == words.shown
+
+
+@pytest.mark.parametrize("start_s", [0.3, 1.0, 2.0, 5.0, 60.0])
+@pytest.mark.parametrize("what", ["dog jumps", "man jumps", "ball bounces", "woman waves"])
+def test_a_motion_that_begins_late_is_not_taken_for_rest(what, start_s):
+    (thing,) = read(f"a {what} after {start_s} seconds").scene.objects
+    ((kind, start),) = ((one.kind, one.start_s) for one in thing.motions)
+    assert (f"{kind}s", start) == (what.split()[1], start_s)
 
 
 def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():
