@@ -163,7 +163,7 @@ def test_a_recordings_files_are_refused_before_any_work_and_may_be_silent_for_a_
     given = ["bench", "real", str(pan_folder), "--events", f"Mine={tmp_path}"]
     for size, t_us, message in (
         ("8x6", scene.video.times_us[0], "8x6"),
-        (scene.video.size, scene.video.times_us[-1] + 1, f"{path} has no event from"),
+        (scene.video.size, scene.video.times_us[-1] + 1_001, f"{path} has no event from"),
     ):
         events = EventStream.from_columns([1], [2], [t_us], [1], size=size)
         events.save(path, overwrite=True)
