@@ -97,7 +97,11 @@ const startPage = () => {
 startPage();
 // A page that frames this one may make room for all of it.
 if (parent !== window) {
-  const tell = () => parent.postMessage({ height: document.body.offsetHeight }, "*");
-  tell(); // out of sight nothing is observed
+  const tell = () => {
+    const height = document.body.offsetHeight;
+    if (height) parent.postMessage({ height }, "*");
+    else setTimeout(tell, 200); // not laid out yet; and out of sight nothing is observed
+  };
+  tell();
   new ResizeObserver(tell).observe(document.body);
 }
