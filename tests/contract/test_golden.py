@@ -63,6 +63,8 @@ def test_no_golden_of_an_option_is_that_of_another_case() -> None:
         assert stored.count(digest_of_option) == 1
 
 
+# SENPI's own threshold is high for so small a clip: most of its events are noise.
+@pytest.mark.filterwarnings("ignore:only .* events are signal")
 @pytest.mark.parametrize("name", CASES)
 def test_golden_events_are_those_of_the_release(name: str) -> None:
     made: Any = CASES[name]()
