@@ -143,7 +143,7 @@ class Limb:
     name: str
     """Name of its end; its bones are "upper NAME" and "lower NAME"."""
     channels: str
-    """Begins the names of its channels."""
+    """Prefix of the names of its channels."""
     side: float
     """1 = left, -1 = right."""
     on: str

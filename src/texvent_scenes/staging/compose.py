@@ -48,7 +48,7 @@ _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK, _WADING = -0.18, -0.55
-"""Height of the origin of what swims at the surface, in its sizes; of what has legs."""
+"""Height of the origin of swimmers at the surface, in their sizes; of those with legs."""
 
 
 @dataclass(frozen=True)

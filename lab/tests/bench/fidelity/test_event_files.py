@@ -13,7 +13,12 @@ from texvent.events import EventStream
 from texvent_lab.bench.fidelity import oracle_run
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.fidelity.event_files import FileEntry, named_folders
-from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, clip_name, record_truths
+from texvent_lab.bench.fidelity.oracle_run import (
+    FidelityPlan,
+    clip_name,
+    record_truths,
+    run_fidelity,
+)
 from texvent_lab.bench.fidelity.run import score_entry
 from texvent_lab.bench.oracle.recording import LAST_US, SIZE, oracle_scene, render_video
 from texvent_lab.bench.real import run as real_run
@@ -123,6 +128,18 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
         "beside": "event files beside folders of thresholds (0.2 ...)",
         "damaged": "translate-54.h5",
     }[fault] in line
+
+
+def test_rows_that_tables_could_not_tell_apart_are_refused(runs, tmp_path, monkeypatch):
+    monkeypatch.setattr(oracle_run, "record_truths", lambda *_: pytest.fail("work was done"))
+    named = replace(FileEntry.find("Mine", runs / "0.2", CLIPS), program=OURS.name)
+    for rows in ((OURS, OURS), (OURS, named)):
+        with pytest.raises(ConfigError, match="2 rows are called 'esim, none'; name each row once"):
+            run_fidelity(replace(PLAN, entries=rows))
+    for name in ("0.2", "0.20"):
+        (tmp_path / name).mkdir()
+    with pytest.raises(InputError, match="are of one threshold; keep one"):
+        FileEntry.find("Mine", tmp_path, CLIPS)
 
 
 def test_rows_are_named_once_by_folders_that_exist(tmp_path):

@@ -35,7 +35,7 @@ WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
 RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
 CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
 _HIP, _ANKLE = 0.95, 0.08
-"""Heights of one who stands."""
+"""Heights of a standing person."""
 _UPPER_ARM, _LOWER_ARM = 0.29, 0.35
 _LIMBS: Mapping[str, tuple[str, str]] = {
     "left": ("arms", "hand"), "right": ("arms", "hand"),
@@ -116,7 +116,7 @@ STANDING: Values = {
     **_read_channels(read_track(motion_of("activities", USUAL)).at(0.0)),
     "left.tool": (0.0, 0.0, 1.0),
 }
-"""All channels of one who stands."""
+"""All channels of a standing person."""
 
 
 def find_channels(pose: Pose, *, runs: bool) -> dict[str, float]:

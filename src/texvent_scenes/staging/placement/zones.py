@@ -134,7 +134,7 @@ class _Zones:
         self.clear_strip(RoadLine(train.track.at(0.0).yaw, (float(x), float(y))), _RAILS_M)
 
     def use_lanes(self, lane_m: float, road: RoadLine) -> None:
-        """The other lane is for traffic of the other way and for what stands while others drive.
+        """The other lane takes oncoming traffic, and objects at rest while others drive.
 
         Those that go the same way do so one behind the other.
         """

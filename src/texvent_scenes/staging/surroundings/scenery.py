@@ -31,7 +31,7 @@ _FAR_SHORE_M = 100.0
 _ROOM_M = 0.4
 """Between scenery and the way of an object, m."""
 _KERB_M = 0.3
-"""From the edge of a road to what stands along it, m."""
+"""Distance of roadside objects from the edge of a road, m."""
 _USUAL_DISTANCE_M = 16.0
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""

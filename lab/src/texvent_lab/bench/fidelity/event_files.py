@@ -63,11 +63,17 @@ class FileEntry(Entry):
         Sub-folders named by numbers are runs at these thresholds, one of which is then fitted.
 
         Raises:
-            InputError: a recording has no file there, or several; files lie beside thresholds.
+            InputError: a recording has no file there, or several; files lie beside thresholds, or
+                two folders are of one threshold.
         """
         inside = sorted(folder.iterdir())
-        runs = {_threshold_of(one.name): one for one in inside if one.is_dir()}
-        runs.pop(None, None)
+        runs: dict[float | None, Path] = {}
+        for one in inside:
+            threshold = _threshold_of(one.name) if one.is_dir() else None
+            if threshold in runs:
+                raise InputError(f"{runs[threshold]} and {one} are of one threshold; keep one")
+            if threshold is not None:
+                runs[threshold] = one
         if runs and any(is_event_path(one) for one in inside if one not in runs.values()):
             raise InputError(
                 f"{folder} holds event files beside folders of thresholds "

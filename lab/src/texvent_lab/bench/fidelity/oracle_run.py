@@ -18,7 +18,13 @@ from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
-from texvent_lab.bench.fidelity.run import NULL, measure_bounds, score_entries, score_recorded
+from texvent_lab.bench.fidelity.run import (
+    NULL,
+    check_names,
+    measure_bounds,
+    score_entries,
+    score_recorded,
+)
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
 from texvent_lab.bench.oracle.pixel import (
     FLOOR_SEED,
@@ -159,12 +165,13 @@ def run_fidelity(
         progress: told of every step.
 
     Raises:
-        ConfigError: the plan names something that does not exist, or jobs is below 1.
+        ConfigError: the plan names something that does not exist or twice, or jobs is below 1.
         InputError, FileFormatError: events of another program are damaged, or not of these frames.
     """
     check_range("jobs", jobs, 1)
     start = time.perf_counter()
     entries = list(plan.entries) or choose_entries()
+    check_names(entries)
     spans_us = {clip_name(*pair): (0, LAST_US) for pair in plan.clips}
     for entry in entries:
         entry.settings(0)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 import time
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
-from texvent.errors import TexventError
+from texvent.errors import ConfigError, TexventError, shown
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.protocol import Metric
@@ -56,6 +57,18 @@ class Truth(Protocol):
 
 
 Metrics = Sequence[str | Metric]
+
+
+def check_names(entries: Iterable[Entry]) -> None:
+    """Refuse rows that tables could not tell apart.
+
+    Raises:
+        ConfigError: two rows have one name.
+    """
+    counts = Counter(entry.name for entry in entries)
+    for name, count in counts.items():
+        if count > 1:
+            raise ConfigError(f"{count} rows are called {shown(name)}; name each row once")
 
 
 def score_entries(

@@ -15,6 +15,7 @@ from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent_lab.bench.fidelity.run import (
     NULL,
     Metrics,
+    check_names,
     measure_bounds,
     score_entries,
     score_recorded,
@@ -63,11 +64,13 @@ def run_real(
         progress: told of every step.
 
     Raises:
-        ConfigError: an entry does not exist or needs the true frames, or jobs is below 1.
+        ConfigError: an entry does not exist, is named twice or needs true frames, or jobs is below
+            1.
         InputError, FileFormatError: events of another program are damaged, or not of these frames.
     """
     check_range("jobs", jobs, 1)
     start = time.perf_counter()
+    check_names(entries)
     for entry in entries:
         entry.settings(SEED)
         if entry.interpolate == "exact":
