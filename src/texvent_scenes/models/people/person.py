@@ -75,7 +75,7 @@ def _read_figure(
 
 
 def _draw_skirt(cloth: Material, _: Instant, maps: Maps) -> list[ModelPart]:
-    """A cone from the chest down to the knees; of a seated person it begins lower and is narrower."""
+    """A cone from chest to knees; of a seated person it begins lower and is narrower."""
     torso, *shins = (
         np.asarray(maps[name]) for name in ("torso", "lower left foot", "lower right foot")
     )
