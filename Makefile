@@ -98,7 +98,7 @@ picture: demo
 
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5 $(BRIEF)
-	$(if $(BRIEF),@echo "A brief run; make test-all runs all combinations of rows of tables, and the long tests whole")
+	@test -z "$(BRIEF)" || echo "A brief run; make test-all runs all combinations of rows of tables, and the long tests whole"
 
 test-all:
 	$(MAKE) test BRIEF=
