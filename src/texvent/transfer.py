@@ -45,17 +45,16 @@ class Transfer(StrEnum):
 def encode_srgb(light: NDArray[Any]) -> Float32Array:
     """Light (1 is white) as gamma-coded levels (255 is white) by sRGB's curve, unrounded.
 
-    The curve goes on above white; light below 0 counts as 0.
+    The curve goes on above white; light below 0 counts as 0. It is computed in float64: powers of
+    float32 differ between processors.
 
     Example:
         >>> encode_srgb(np.array([0.0, 0.5, 1.0, 4.0])).round().tolist()
         [0.0, 188.0, 255.0, 465.0]
     """
-    light = np.maximum(np.asarray(light, dtype=np.float32), np.float32(0))  # keeps NaN
-    low = light * np.float32(12.92)
-    high = np.float32(1.055) * np.power(light, np.float32(1 / 2.4)) - np.float32(0.055)
-    coded = np.where(light <= np.float32(LINEAR_BELOW), low, high)
-    return np.asarray(coded * np.float32(WHITE), dtype=np.float32)
+    light = np.maximum(np.asarray(light, dtype=np.float32), 0.0).astype(np.float64)  # keeps NaN
+    curve = 1.055 * light ** (1 / 2.4) - 0.055
+    return (WHITE * np.where(light <= LINEAR_BELOW, 12.92 * light, curve)).astype(np.float32)
 
 
 def linear_levels(light: NDArray[Any]) -> Float32Array:

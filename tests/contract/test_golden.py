@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -21,6 +24,7 @@ from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig, RunConfig
 
 CASES = dict(event_cases())
+ROOT = Path(__file__).parents[2]
 IN_PRESETS = {"cache=local", "timestamp_rule=eq7"}
 """Of the preset "paper"."""
 
@@ -61,6 +65,19 @@ def test_no_golden_of_an_option_is_that_of_another_case() -> None:
     stored = list(json.loads(EVENTS_FILE.read_text()).values())
     for digest_of_option in stored[-len(OPTION_CASES) :]:
         assert stored.count(digest_of_option) == 1
+
+
+def test_a_rendered_scene_has_the_same_events_on_older_processors() -> None:
+    """NumPy computes powers of float32 by other code where a processor has AVX-512 or AVX2."""
+    from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
+
+    name = "prompt=car simulator=voltmeter interpolate=exact"
+    code = "import tests.contract.golden as g; print(g.digest(N, dict(g.event_cases())[N]()))"
+    newer = " ".join(one for one in __cpu_dispatch__ if __cpu_features__.get(one))
+    environment = os.environ | {"NPY_DISABLE_CPU_FEATURES": newer}
+    command = [sys.executable, "-c", code.replace("N", repr(name))]
+    made = subprocess.run(command, env=environment, cwd=ROOT, capture_output=True, check=True)
+    assert made.stdout.decode().strip() == json.loads(EVENTS_FILE.read_text())[name]
 
 
 # SENPI's own threshold is high for so small a clip: most of its events are noise.

@@ -38,7 +38,7 @@ def matching_levels(levels: PixelArray, transfer: Transfer) -> PixelArray:
         levels = encode_srgb(levels / np.float32(WHITE))
     if levels.dtype.kind != "f" or levels.max() <= WHITE:
         return levels
-    compressed = np.float32(WHITE) * (1 + np.log(np.maximum(levels, WHITE) / np.float32(WHITE)))
+    compressed = WHITE * (1 + np.log(np.maximum(levels, WHITE) / WHITE, dtype=np.float64))
     return np.where(levels > WHITE, compressed, levels).astype(np.float32)
 
 
