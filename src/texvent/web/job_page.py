@@ -241,7 +241,8 @@ class JobServer(PageServer):
             self.begin("simulate", flags_of(texts), self._allowed(video))
             return
         name = texts.get("generator") or GENERATORS.names()[0]
-        if name.startswith("~") or (os.sep in name and not name.startswith(HUB)):
+        is_listed = name.startswith(HUB) or name in GENERATORS.names()
+        if not is_listed and (name[0] == "~" or os.sep in name or os.path.isdir(self._home / name)):
             name = texts["generator"] = self._allowed(name)
         subject = self._allowed(prompt) if scenes().is_scene_file(prompt) else prompt
         has_stills = getattr(GENERATORS.load(name), "takes_scenes", False)

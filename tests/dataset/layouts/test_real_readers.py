@@ -1,17 +1,22 @@
-"""Layouts read back by evlib, which has Prophesee's tools too, and by pycocotools."""
+"""Layouts read back by evlib, which has Prophesee's tools too, pycocotools, tonic, SpikingJelly.
+
+tonic is under the GPL: `make test-gpl` alone installs it.
+"""
 
 from __future__ import annotations
 
+import importlib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.conftest import make_set
+from tests.dataset.conftest import assert_same, make_set, samples_of
 from tests.dataset.layouts.crossing import SIZE, crossing, crossing_events
 
 from texvent.cli.app import main
-from texvent.dataset.export import LAYOUTS
+from texvent.dataset.export import LAYOUTS, export
 from texvent.dataset.layouts.rvt import REPRESENTATION
+from texvent.dataset.stored.folder import StoredDataset
 
 
 @pytest.mark.detect
@@ -86,3 +91,68 @@ def test_pycocotools_indexes_the_images(tmp_path: Path) -> None:
     assert (men, found.loadCats([2])[0]["name"], len(found.getImgIds())) == (2, "man", 5)
     image = found.loadImgs(found.getImgIds(catIds=[2]))[0]
     assert (tmp_path / "train" / image["file_name"]).is_file()
+
+
+SPIKING = {"n-mnist": "34x34", "dvs-gesture": "128x128"}
+NUMBERS = {"bus": 0, "car": 1, "taxi": 2}
+
+
+@pytest.fixture(params=SPIKING)
+def spiking(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, Path, Path]:
+    """Name of a layout, a data set of three classes, and the folder of its export."""
+    colours = {"colour": ["red", "white"]}
+    source = {"template": "a {colour} {class} drives left", "words": colours, "classes": [*NUMBERS]}
+    made = make_set(
+        tmp_path / "made",
+        sources=[source],
+        splits={"train": 0.5, "test": 0.5},
+        options={"duration": 0.15, "sensor": SPIKING[request.param], "samples": 1},
+        variants={"paper": {}},
+    )
+    done = export(StoredDataset.open(made), request.param, tmp_path / "out")
+    assert f"its classes are {', '.join(f'{n} {one}' for one, n in NUMBERS.items())}" in done.doubts
+    return request.param, made, tmp_path / "out"
+
+
+@pytest.mark.gpl
+def test_tonics_own_loaders_read_every_event(
+    spiking: tuple[str, Path, Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, made, out = spiking
+    datasets = importlib.import_module("tonic.datasets")
+    loader = {"n-mnist": datasets.NMNIST, "dvs-gesture": datasets.DVSGesture}[name]
+    monkeypatch.setattr(loader, "_check_exists", lambda self: True)
+    wanted = samples_of(made)
+    for split in ("train", "test"):
+        found = loader(str(out), train=split == "train")
+        for path, (columns, number) in zip(map(Path, found.data), found, strict=True):
+            key = path.parent.name.split("_")[1] if name == "dvs-gesture" else path.stem
+            expected_split, label, events = wanted.pop(key)
+            assert (expected_split, NUMBERS[label]) == (split, number)
+            assert len(events) > 0
+            assert_same(columns, events)
+    assert not wanted
+
+
+@pytest.mark.detect
+def test_spikingjellys_own_loaders_read_every_event(spiking: tuple[str, Path, Path]) -> None:
+    from spikingjelly.datasets.dvs128_gesture import DVS128Gesture
+    from spikingjelly.datasets.n_mnist import NMNIST
+
+    name, made, out = spiking
+    loader = {"n-mnist": NMNIST, "dvs-gesture": DVS128Gesture}[name]
+    wanted = samples_of(made)
+    for split in ("train", "test"):
+        found = loader(str(out), train=split == "train")
+        frames = loader(
+            str(out), split == "train", data_type="frame", frames_number=3, split_by="number"
+        )
+        for (path, _), (columns, number), (dense, _) in zip(
+            found.samples, found, frames, strict=True
+        ):
+            expected_split, label, events = wanted.pop(Path(path).stem)
+            assert (expected_split, NUMBERS[label]) == (split, number)
+            assert_same(columns, events)
+            assert dense.shape == (3, 2, *events.size.shape)
+            assert dense.sum() == len(events) > 0
+    assert not wanted

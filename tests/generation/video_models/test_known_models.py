@@ -45,7 +45,7 @@ def test_events_of_a_learned_model_have_the_size_of_its_video_unless_a_sensor_is
     assert named.size == (240, 180)
 
 
-def test_hub_repositories_and_folders_are_generators():
+def test_hub_repositories_and_folders_are_generators(tmp_path, monkeypatch):
     part = GENERATORS.load("hub:someone/their-model@v2")
     assert (part.model.repo, part.model.revision, part.model.fps) == (
         "someone/their-model",
@@ -55,6 +55,14 @@ def test_hub_repositories_and_folders_are_generators():
     folder = GENERATORS.load("./my-model")
     assert folder.model.folder == Path("my-model")
     assert not folder.model.repo
+    with pytest.raises(ConfigError, match=r"generator '\./my-model' is no folder"):
+        _ = folder(folder.config_type(), seed=0, size=None).fps
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "plain").mkdir()
+    with pytest.raises(ConfigError, match="unknown generator 'plain'"):
+        GENERATORS.load("plain")
+    (tmp_path / "plain/model_index.json").touch()
+    assert GENERATORS.load("plain").model.folder == Path("plain")
 
 
 @pytest.mark.parametrize("name", ["hub:name", "hub:../x", "hub:a/b--c"])

@@ -11,7 +11,7 @@ Each sample is written twice, for the loaders of two libraries, which take the e
 where 3 is the number of the class. Tonic multiplies times by 1000 and cuts off what is below a µs,
 so a quarter of a µs is added, and they come out as they were.
 
-Source: tonic 1.7 and SpikingJelly 0.0.0.0.14, their loaders.
+Source: tonic 1.7 and SpikingJelly 2.0, their loaders.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent._version import __version__
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.generation.diffusers_models.guardrail import (
     PART,
     check_prompt,
@@ -146,9 +146,11 @@ class DiffusersGenerator:
         """Frame rate that the model is given or was made for.
 
         Raises:
-            ConfigError: neither the option nor the model's row states it.
+            ConfigError: neither the option nor the model's row states it, or no folder is there.
         """
-        rate = self.config.fps or self.model.fps
+        rate, folder = self.config.fps or self.model.fps, self.model.folder
+        if rate is None and folder is not None and not folder.is_dir():
+            raise ConfigError(f"generator {shown(self.model.name)} is no folder; check its path")
         if rate is None:
             raise ConfigError(
                 f"the frame rate of {self.model.name} is not known, and it is nowhere in the "

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from texvent.errors import ConfigError, shown, warn
 from texvent.generation.video_models.config import LEAST_FPS, DiffusersConfig, VideoModel
 from texvent.generation.video_models.controls import with_controls
-from texvent.generation.video_models.model_files import HUB, REPOSITORY
+from texvent.generation.video_models.model_files import HUB, INDEX, REPOSITORY
 
 if TYPE_CHECKING:
     from texvent.generation.diffusers_models.generator import DiffusersGenerator
@@ -121,6 +121,7 @@ def find(name: str) -> ModelGenerator | None:
         name.startswith(("./", "../", "~"))
         or path.is_absolute()
         or (os.sep in name and path.is_dir())
+        or os.path.isfile(path / INDEX)
     ):
         known = _row_like(path.name)
         model = dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
