@@ -39,7 +39,7 @@ from texvent.generation.diffusers_models.pipeline_loading import (
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.controls import check_class, check_control, find_control_part
-from texvent.generation.video_models.lora import check_loras, parse_lora
+from texvent.generation.video_models.lora import check_loras, find_row_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
     find_files,
@@ -60,7 +60,7 @@ PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_pro
 """Options that decide the pixels, beside model, prompt, seed and files."""
 OF_COST = ("frames", "width", "height", "steps")
 """Options that decide the time, which a row knows for its own values."""
-PIXEL_FACTS = ("call", "sigmas", "scheduler")
+PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
@@ -123,6 +123,8 @@ class DiffusersGenerator:
         if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        if folder is not None and find_row_loras(self.model) is None:
+            folder = None
         if folder is None:
             self._check_before_loading()
         else:  # all files are here: options that do not fit them are refused too
@@ -171,12 +173,14 @@ class DiffusersGenerator:
         for lora in self._loras:
             if not lora.file.is_file():
                 raise InputError(f"there is no LoRA {lora.file}; check its path")
+        if self.model.folder is not None:
+            find_row_loras(self.model)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _check_before_loading(self) -> None:
         """Refuse faults that show without the model's files, which may have to be fetched first."""
         model, config = self.model, self.config
-        if config.lora:
+        if config.lora or model.loras:
             require("peft", extra=EXTRA)
         name = model.pipeline
         if config.image is not None:
@@ -192,8 +196,9 @@ class DiffusersGenerator:
         if self._request is not None:
             return self._request
         self._check_before_loading()
-        model, config, loras = self.model, self.config, self._loras
+        model, config = self.model, self.config
         files = find_files(model, progress.announce)
+        loras = (*(find_row_loras(model, progress.announce) or ()), *self._loras)
         check_class(model, files.folder)
         parts = find_control_part(model, config, files.folder, progress.announce)
         device, free = resolve_device()
@@ -203,23 +208,27 @@ class DiffusersGenerator:
                 [
                     fingerprint(files.folder),
                     *(fingerprint(part) for _, part in parts),
-                    *(_sha256(one.file) for one in self._loras),
+                    *(_sha256(one.file) for one in loras),
                 ]
             ),
             class_name=(model.image_pipeline if config.image else None) or model.pipeline,
             placement=place(model, config, device, free),
             decoder_in_float32=model.needs_float32_vae,
             loras=loras,
-            scheduler=tuple(model.scheduler.items()),
+            scheduler=tuple(
+                (name, tuple(value) if isinstance(value, list) else value)
+                for name, value in model.scheduler.items()
+            ),
             parts=parts,
         )
         pipeline_class = find_pipeline_class(request)
-        check_loras(loras, pipeline_class)
+        check_loras(loras, pipeline_class, files.folder)
         check_options(pipeline_class, config)
         facts = {
             "source": model.source,
             "commit": files.commit,
             **{f"{name}_commit": part.name for name, part in parts},
+            "lora_sha256": [_sha256(one.file) for one in loras[: len(model.loras)]] or None,
             "pipeline": pipeline_class.__name__,
             "dtype": request.placement.dtype,
             "licence": model.licence_and_terms,

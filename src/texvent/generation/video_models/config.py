@@ -152,6 +152,13 @@ class VideoModel:
     """Branch with the network of a control, `{}` for its name; empty: it is among the parts."""
     control_lora: str = ""
     """Repository of the LoRA that follows a scene."""
+    loras: tuple[str, ...] = ()
+    """Files of the LoRA that makes few steps enough, `organisation/name/path` on the model hub: for
+    the network, and for the second one of models that have two."""
+    lora_gb: float | None = None
+    """Size of these files, GB, as listings of them state it."""
+    of_paper: bool = False
+    """Whether the paper uses it."""
 
     @property
     def is_low_fps(self) -> bool:
@@ -180,6 +187,9 @@ class VideoModel:
         """Download and time that it needs, for messages."""
         size = "not known" if self.download_gb is None else f"{self.download_gb:g} GB"
         told = ", ".join(f"{value:g} min on {card}" for card, value in self.minutes.items())
+        if self.loras:
+            lora = "not known" if self.lora_gb is None else f"{self.lora_gb:g} GB"
+            size += f", and of its LoRA {lora} ({', '.join(self.loras)})"
         return f"download {size}, time {f'about {told}' if told else 'not known'}"
 
     @property
