@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.scenes.assets.glb_bar import write_bar
 
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
@@ -14,7 +15,7 @@ from texvent.config import CaptureConfig
 from texvent.dataset import SampleSource, Specification
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.specification.specification import Filters
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.frames import Video, frame_time_us
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
 from texvent.generation.steered_video import SteeredVideo
@@ -285,6 +286,21 @@ def test_controls_lengths_and_sizes_that_a_row_does_not_take_are_refused_before_
     if lora:
         with pytest.raises(ConfigError, match="follows a scene by a LoRA, and none is given"):
             check_control(row, dataclasses.replace(usual, lora=()))
+
+
+def test_models_of_the_user_are_in_the_scene_that_a_video_follows(tmp_path):
+    write_bar(tmp_path / "magic_wand.glb")
+    part = GENERATORS.load("wan-vace-1.3b")
+    small = {"frames": 5, "width": 64, "height": 48, "assets": tmp_path}
+    config = dataclasses.replace(part.config_type(), **small)
+    generator = part(config, seed=0, size=None)
+    control = generator.draw("a magic wand moves left")
+    assert control.frame_count == 5
+    assert "magic wand" in generator._steering.scene.class_names.values()
+    assert "files" in generator._request_facts()
+    bare = part(dataclasses.replace(config, assets=None), seed=0, size=None)
+    with pytest.raises(InputError, match="nothing in the prompt was understood: magic, wand"):
+        bare.draw("a magic wand moves left")
 
 
 def test_a_model_that_follows_no_scene_says_which_do():

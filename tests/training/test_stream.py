@@ -355,6 +355,24 @@ def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass
     assert len(stream.skipped) == 2
 
 
+def test_videos_that_break_off_and_frames_with_nan_are_skipped_with_their_reason(tmp_path):
+    film = (Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4").read_bytes()
+    (tmp_path / "a_whole.mp4").write_bytes(film)
+    (tmp_path / "b_broken.mp4").write_bytes(film[: len(film) // 2])
+    bad = np.full((12, 20, 30), 100, np.float32)
+    bad[6, 3, 3] = np.nan
+    np.save(tmp_path / "c_nan.npy", bad)
+    sources = [str(tmp_path / name) for name in ("a_whole.mp4", "b_broken.mp4", "c_nan.npy")]
+    stream = EventStream(sources, fps=25, **{**SMALL, "frames": 8})
+    with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
+        found = take(stream, 3)
+    assert len(told) == 1
+    assert {int(source) for batch in found for source in batch.draws["source"]} == {0}
+    assert set(stream.skipped) == {1, 2}
+    assert re.search(r"b_broken.mp4 is damaged \(a packet is incomplete\)", stream.skipped[1])
+    assert re.search(r"frame 6 .* that are NaN", stream.skipped[2])
+
+
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [

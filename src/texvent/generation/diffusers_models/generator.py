@@ -24,6 +24,7 @@ from texvent.generation.diffusers_models.guardrail import (
     guardrail_version,
     needs_guardrail,
 )
+from texvent.generation.diffusers_models.modular import find_class
 from texvent.generation.diffusers_models.pipeline_call import (
     call_pipeline,
     check_options,
@@ -38,7 +39,12 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     resolve_device,
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
-from texvent.generation.video_models.controls import check_class, check_control, find_control_part
+from texvent.generation.video_models.controls import (
+    check_class,
+    check_control,
+    check_shape,
+    find_control_part,
+)
 from texvent.generation.video_models.lora import check_loras, find_row_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
@@ -166,6 +172,7 @@ class DiffusersGenerator:
     def _check_model(self) -> None:
         """Refuse options that the model does not take, and files that are not here."""
         check_control(self.model, self.config)
+        check_shape(self.model, self.config)
         if self.config.image is not None:
             read_image(self.config.image)
         elif self.model.needs_image:
@@ -187,7 +194,7 @@ class DiffusersGenerator:
             name = model.image_pipeline or name
         if name is None:
             return
-        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        pipeline_class = find_class(name)
         if pipeline_class is not None:  # else the installed one is too old, which loading says
             check_options(pipeline_class, config)
 

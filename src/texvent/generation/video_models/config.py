@@ -67,6 +67,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     scene_seed: int | None = None
     """Seed of the scene that the video follows, so that several looks share one; none: that of the
     video."""
+    assets: Path | None = None
+    """Folder of models (GLB, OBJ, PLY) for the scene that the video follows; see docs/assets.md."""
     least_agreement: float | None = None
     """Least share of the scene's edges and motion that the video must show (0: chance, 1: all);
     one that shows less failed, see on_failure."""
@@ -146,6 +148,12 @@ class VideoModel:
     """Whether the decoder should stay in float32 (Wan's page asks for it)."""
     ignores_fps: bool = False
     """Whether the rate is known not to change the frames."""
+    unused: tuple[str, ...] = ()
+    """Parts of its repository that are not needed for a video from text or an image."""
+    frame_range: tuple[int, int] | None = None
+    """Fewest and most frames that it makes; None: not known."""
+    multiple: int | None = None
+    """Width and height are multiples of it; None: not known."""
     longest: int | None = None
     """Most frames over which it follows a scene; None: no limit is known."""
     control_revision: str = ""

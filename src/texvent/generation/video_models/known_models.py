@@ -37,7 +37,9 @@ def _read_table() -> dict[str, VideoModel]:
         facts = {**table.get(own.pop("like", ""), {}), **own}
         maker = next((one for one in publishers if facts["repo"].startswith(one)), None)
         facts.setdefault("negative_prompt", publishers.get(maker))
-        facts |= {key: tuple(facts.get(key, ())) for key in ("sigmas", "loras")}
+        facts |= {key: tuple(facts.get(key, ())) for key in ("sigmas", "loras", "unused")}
+        if "frame_range" in facts:
+            facts["frame_range"] = tuple(facts["frame_range"])
         rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])})
     return rows
 
