@@ -17,6 +17,7 @@ from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
 from texvent.generation.video_models.config import LEAST_FPS, VideoModel
 from texvent.generation.video_models.known_models import MODELS
+from texvent.generation.video_models.lora import find_row_loras
 from texvent.generation.video_models.model_files import find_downloaded
 
 DESCRIPTION = """List the text-to-video generators: what they make, what they need, under which
@@ -116,4 +117,4 @@ def _is_here(model: VideoModel) -> str:
         found = find_downloaded(model)
     except FileFormatError:
         return "damaged"
-    return "yes" if found is not None else ""
+    return "yes" if found is not None and find_row_loras(model) is not None else ""
