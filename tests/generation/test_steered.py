@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.scenes.assets.glb_bar import write_bar
 
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
@@ -14,13 +15,14 @@ from texvent.config import CaptureConfig
 from texvent.dataset import SampleSource, Specification
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.specification.specification import Filters
-from texvent.errors import ConfigError
-from texvent.frames import Video
+from texvent.errors import ConfigError, InputError
+from texvent.frames import Video, frame_time_us
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
 from texvent.generation.steered_video import SteeredVideo
 from texvent.generation.video_models import model_files
 from texvent.generation.video_models.controls import PIPELINES, check_control
 from texvent.generation.video_models.known_models import MODELS
+from texvent.interpolate.motion.layers import gamma_coded, linear
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
@@ -165,6 +167,58 @@ def test_events_of_a_model_that_returns_its_control_move_with_the_scene(scene, k
         assert moved < 0.5 * blended
 
 
+class Slide:
+    """A square that slides before a wall, `dx` and `dy` px per frame, as a scene of two layers."""
+
+    fps, size, frame_count = Fraction(16), SensorSize(64, 48), 4
+    top, left, rows, columns = 18, 24, 12, 16
+
+    def __init__(self, dx, dy):
+        self.velocity = np.array([dx, dy]) / frame_time_us(1, self.fps)
+
+    def cover(self, t_us):
+        """Share of each pixel that the square covers, by its exact place."""
+        dx, dy = self.velocity * t_us
+
+        def along(start, length, count):
+            at = np.arange(count)
+            return np.clip(np.minimum(start + length, at + 1) - np.maximum(start, at), 0, 1)
+
+        rows = along(self.top + dy, self.rows, self.size.height)
+        return np.outer(rows, along(self.left + dx, self.columns, self.size.width))
+
+    def ground_truth(self, t0_us, t1_us):
+        is_square = self.cover(t0_us) > 0.5
+        flow = np.where(is_square[..., None], self.velocity * (t1_us - t0_us), 0)
+        depth = np.where(is_square, 2, 10).astype(np.float32)
+        return SimpleNamespace(
+            flow=flow.astype(np.float32), depth=depth, instance=is_square.astype(np.int32)
+        )
+
+
+@pytest.mark.parametrize("count", [1, 3])
+@pytest.mark.parametrize("velocity", [(2, 0), (3, 1), (-4, 2), (5, -3), (1, 0)])
+def test_motion_between_frames_of_a_model_that_returns_its_control_is_exact(velocity, count):
+    """At every instant, of whole pixels and of parts of them: contours by area, in linear light."""
+    scene = Slide(*velocity)
+    control = draw_control(scene, "ids")
+    frames = Video(control, times_of(scene), scene.fps, {})
+    video = SteeredVideo(scene.fps, scene.size, 4, {}, video=frames, scene=scene)
+    settings = resolve("generate", {"interpolate": "motion", "noise": "none", "fixed_count": count})
+    steps = video_to_events(video, settings).steps()
+    between = [frame for frame, _ in steps if not frame.is_source]
+    assert len(between) == 3 * count
+    wall, square = (linear(float(one @ LUMA)) for one in id_colours(1).astype(float))
+    for frame in between:
+        share = scene.cover(frame.t_us)
+        light = share * square + (1 - share) * wall
+        exact = np.vectorize(gamma_coded)(light)
+        assert np.abs(frame.luma - exact).max() < 0.01
+
+
+LUMA = np.array([0.299, 0.587, 0.114])
+
+
 def test_truth_of_frames_that_are_fitted_to_a_sensor_is_that_of_the_part_it_sees(scene, rendered):
     small = PreparedFrames(steer(scene, rendered), CaptureConfig(), size=SensorSize(24, 24))
     frames = list(small)
@@ -232,6 +286,21 @@ def test_controls_lengths_and_sizes_that_a_row_does_not_take_are_refused_before_
     if lora:
         with pytest.raises(ConfigError, match="follows a scene by a LoRA, and none is given"):
             check_control(row, dataclasses.replace(usual, lora=()))
+
+
+def test_models_of_the_user_are_in_the_scene_that_a_video_follows(tmp_path):
+    write_bar(tmp_path / "magic_wand.glb")
+    part = GENERATORS.load("wan-vace-1.3b")
+    small = {"frames": 5, "width": 64, "height": 48, "assets": tmp_path}
+    config = dataclasses.replace(part.config_type(), **small)
+    generator = part(config, seed=0, size=None)
+    control = generator.draw("a magic wand moves left")
+    assert control.frame_count == 5
+    assert "magic wand" in generator._steering.scene.class_names.values()
+    assert "files" in generator._request_facts()
+    bare = part(dataclasses.replace(config, assets=None), seed=0, size=None)
+    with pytest.raises(InputError, match="nothing in the prompt was understood: magic, wand"):
+        bare.draw("a magic wand moves left")
 
 
 def test_a_model_that_follows_no_scene_says_which_do():

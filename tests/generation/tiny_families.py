@@ -4,6 +4,8 @@ Each builder makes a real diffusers pipeline with random weights; `tiny_pipeline
 it in the layout of the published ones.
 """
 
+import json
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -293,6 +295,83 @@ def cogvideox_fun():
     )
 
 
+class ModularParts:
+    """Parts of a modular pipeline, saved as its publisher's repository has them."""
+
+    def __init__(self, kind, **parts):
+        self.kind, self.parts = kind, parts
+
+    def save_pretrained(self, folder, safe_serialization):
+        del safe_serialization
+        index = {"_class_name": self.kind, "_blocks_class_name": "MiniMaxH3Blocks"}
+        for name, part in self.parts.items():
+            part.save_pretrained(folder / name)
+            library, kind = type(part).__module__.partition(".")[0], type(part).__name__
+            origin = {"pretrained_model_name_or_path": "org/name", "subfolder": name}
+            index[name] = [library, kind, {"type_hint": [library, kind], **origin}]
+        index["transformer_ref"] = index["transformer"]  # for another task: not fetched
+        for file in ("model_index.json", "modular_model_index.json"):
+            (folder / file).write_text(json.dumps(index))
+
+
+def minimax_h3():
+    tokenizer = qwen()["tokenizer"]
+    text = SMALL | {"num_hidden_layers": 51, "num_key_value_heads": 2, "head_dim": 8}
+    rope = {"mrope_section": [2, 1, 1], "rope_type": "default", "mrope_interleaved": True}
+    text |= {"vocab_size": len(tokenizer), "rope_scaling": rope, "rope_theta": 5_000_000.0}
+    text |= {"bos_token_id": None, "eos_token_id": None}
+    vision = {"depth": 1, "hidden_size": 16, "intermediate_size": 16, "num_heads": 2}
+    vision |= {"out_hidden_size": 16, "deepstack_visual_indexes": [0]}
+    config = transformers.Qwen3VLConfig(text_config=text, vision_config=vision)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FutureWarning)  # torch's of weight_norm
+        audio_vae = diffusers.AutoencoderKLMiniMaxH3Audio(
+            encoder_dim=2,
+            latent_dim=64,
+            latent_channels=4,
+            num_attention_heads=2,
+            decoder_dim=128,
+            resblock_kernel_sizes=(3,),
+            resblock_dilation_sizes=((1, 3, 5),),
+            latents_mean=[0.0] * 4,
+            latents_std=[1.0] * 4,
+        )
+    return ModularParts(
+        "MiniMaxH3ModularPipeline",
+        text_encoder=transformers.Qwen3VLForConditionalGeneration(config).eval(),
+        tokenizer=tokenizer,
+        vae=diffusers.AutoencoderKLMiniMaxH3(
+            latent_channels=4,
+            block_out_channels=(4, 4, 4, 4, 4, 4),
+            layers_per_block=1,
+            norm_num_groups=2,
+            decoder_num_layers=1,
+            decoder_num_attention_heads=2,
+            decoder_attention_head_dim=16,
+            latents_mean=(0.0,) * 4,
+            latents_std=(1.0,) * 4,
+        ),
+        audio_vae=audio_vae,
+        transformer=diffusers.MiniMaxH3Transformer3DModel(
+            num_attention_heads=2,
+            attention_head_dim=32,
+            hidden_size=64,
+            num_layers=1,
+            num_refiner_layers=1,
+            ffn_dim=32,
+            in_channels=4,
+            audio_in_channels=4,
+            text_dim=16,
+            freq_dim=16,
+            time_embed_hidden_dim=16,
+            time_embed_dim=16,
+            rope_freq_dim=4,
+        ),
+        scheduler=diffusers.MiniMaxH3Scheduler(shift=12.0),
+        audio_scheduler=diffusers.MiniMaxH3Scheduler(shift=3.0),
+    )
+
+
 def ltx2_in_context():
     return ltx2(diffusers.LTX2InContextPipeline)
 
@@ -306,6 +385,14 @@ FAMILIES = {
         {"steps": 8, "guidance": 1.0},
         steps=8,
         named="LTX-2.3-Distilled-Diffusers",
+    ),
+    "minimax-h3": Family(
+        minimax_h3,
+        "MiniMaxH3ModularPipeline",
+        {"fps": 24, "frames": 124, "guidance": None},
+        frames=124,
+        steps=0,
+        named="MiniMax-H3",
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }

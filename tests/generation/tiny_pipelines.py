@@ -69,20 +69,38 @@ def wan_vae():
     return diffusers.AutoencoderKLWan(base_dim=3, z_dim=16, dim_mult=[1, 1, 1, 1], num_res_blocks=1)
 
 
+def wan_transformer():
+    return diffusers.WanTransformer3DModel(
+        num_attention_heads=2,
+        attention_head_dim=12,
+        num_layers=2,
+        text_dim=32,
+        freq_dim=16,
+        ffn_dim=32,
+        patch_size=(1, 2, 2),
+    )
+
+
 def wan(folder):
     return diffusers.WanPipeline(
         **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
         vae=wan_vae(),
         scheduler=diffusers.FlowMatchEulerDiscreteScheduler(shift=7.0),
-        transformer=diffusers.WanTransformer3DModel(
-            num_attention_heads=2,
-            attention_head_dim=12,
-            num_layers=2,
-            text_dim=32,
-            freq_dim=16,
-            ffn_dim=32,
-            patch_size=(1, 2, 2),
+        transformer=wan_transformer(),
+    )
+
+
+def wan22(folder):
+    """A second network takes over below a share of the noise, as in Wan 2.2's 14B."""
+    return diffusers.WanPipeline(
+        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        vae=wan_vae(),
+        scheduler=diffusers.UniPCMultistepScheduler(
+            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
         ),
+        transformer=wan_transformer(),
+        transformer_2=wan_transformer(),
+        boundary_ratio=0.875,
     )
 
 
@@ -249,6 +267,7 @@ def ltx(folder):
 
 BUILDERS = {
     "wan": wan,
+    "wan22": wan22,
     "cosmos": cosmos,
     "cosmos25": cosmos25,
     "cogvideox": cogvideox,

@@ -9,7 +9,7 @@ from tests.dataset.conftest import make_set
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent.training.clip_store import ClipStore
-from texvent.training.sources import TRUTH, PromptClips, VideoClips, find_source
+from texvent.training.sources import TRUTH, Clip, PromptClips, VideoClips, find_source
 
 SIZE = SensorSize(16, 12)
 MOST = 10**9
@@ -90,3 +90,18 @@ def test_sources_that_cannot_be_are_refused(make, message):
 def test_an_empty_folder_is_refused(tmp_path):
     with pytest.raises(InputError, match="holds no video"):
         find_source(tmp_path, SIZE)
+
+
+@pytest.mark.parametrize(
+    ("frames", "times_us", "message"),
+    [
+        (np.zeros((3, 4, 5), np.float32), [0, 1, 2], r"are float32 \[3, 4, 5\]; .* uint8 luma"),
+        (np.zeros((4, 5), np.uint8), [0, 1, 2, 3], r"are uint8 \[4, 5\]"),
+        (np.zeros((0, 4, 5), np.uint8), [], r"are uint8 \[0, 4, 5\]"),
+        (np.zeros((3, 4, 5), np.uint8), [0, 1], "must rise, one per frame"),
+        (np.zeros((3, 4, 5), np.uint8), [0, 2, 2], "must rise, one per frame"),
+    ],
+)
+def test_a_clip_of_a_users_source_that_kernels_cannot_take_is_refused(frames, times_us, message):
+    with pytest.raises(InputError, match=message):
+        Clip(frames, np.array(times_us, np.int64))

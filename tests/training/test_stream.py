@@ -14,18 +14,23 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError, TexventWarning
-from texvent.frames import Video
+from texvent.events import EventStream as Events
+from texvent.frames import Frame, Video
 from texvent.represent.time_surface import time_surface
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
+from texvent.simulation.clips.physical_cpu import seed_of
 from texvent.simulation.clips.pixels import ClipOutputs
+from texvent.simulation.physical.simulator import PhysicalSimulator
 
 from .written import HEIGHT, STEP, WIDTH, Sliding, write_folders
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 
-from texvent.training import ClipRanges, EventStream  # noqa: E402
+from texvent.training import Clip, ClipRanges, EventStream, PhysicalRanges  # noqa: E402
+from texvent.training.cuts import CutPlan, cut_clip  # noqa: E402
+from texvent.training.draws import draw_clip  # noqa: E402
 from texvent.training.sources import read_clip  # noqa: E402
 
 SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
@@ -60,13 +65,17 @@ def prints(batches: Any) -> dict[int, bytes]:
     }
 
 
-@pytest.mark.parametrize(("world", "workers"), [(2, 0), (3, 0), (1, 2), (2, 2)])
-def test_equal_seeds_give_equal_batches_on_any_ranks_and_workers(folder, world, workers):
-    expected = prints(take(EventStream(folder, seed=5, **SMALL), PASSES))
+@pytest.mark.parametrize(
+    ("world", "workers", "pixels"),
+    [(2, 0, "v2v"), (3, 0, "v2v"), (1, 2, "v2v"), (2, 2, "v2v"), (2, 0, "physical")],
+)
+def test_equal_seeds_give_equal_batches_on_any_ranks_and_workers(folder, world, workers, pixels):
+    options = {**SMALL, "seed": 5, "randomize": pixels}
+    expected = prints(take(EventStream(folder, **options), PASSES))
     assert len(set(expected.values())) == PASSES
     found: dict[int, bytes] = {}
     for rank in range(world):
-        stream = EventStream(folder, seed=5, rank=rank, world=world, **SMALL)
+        stream = EventStream(folder, rank=rank, world=world, **options)
         loader = torch.utils.data.DataLoader(
             stream, batch_size=None, num_workers=workers, collate_fn=lambda one: one
         )
@@ -137,6 +146,85 @@ def test_every_range_is_drawn_from_for_each_clip(batches):
         assert len(np.unique(drawn[name])) > 3, name
     # As many of each source, to within the pass that has begun.
     assert np.ptp(np.bincount(drawn["source"])) <= 1
+
+
+@pytest.mark.parametrize("per", [1, 2])
+def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
+    """Bit for bit those of the simulator, whose kernels are tested against NumPy."""
+    ranges = PhysicalRanges(hot_fraction=(0.0, 0.1), noise_scale=(0.5, 50.0), pause=(0.0, 0.0))
+    small = {**SMALL, "frames": 4 // per, "frames_per_grid": per}
+    stream = EventStream(
+        Sliding(), randomize=ranges, outputs=("grids", "counts", "events"), seed=7, **small
+    )
+    plan = CutPlan(SensorSize(16, 12), 4, per, ranges, ())
+    seen = 0
+    for batch in take(stream, 2):
+        for clip, events in enumerate(batch.events):
+            number = batch.number * SMALL["batch"] + clip
+            draw = draw_clip(ranges, 7, number, 4)
+            cut = cut_clip(Sliding().read(int(batch.draws["source"][clip]), (), 2**30), draw, plan)
+            simulator = PhysicalSimulator(ranges.config(draw.numbers), seed=seed_of(draw.key))
+            pairs = zip(cut.frames, cut.times_us.tolist(), strict=True)
+            expected = Events.concat(
+                [simulator.step(Frame(np.ascontiguousarray(one), t_us)) for one, t_us in pairs]
+            )
+            found = events.as_columns()
+            for name in "xytp":
+                assert np.array_equal(getattr(found, name), getattr(expected, name)), name
+            assert int(batch.counts[clip].sum()) == len(expected) > 0
+            edges = batch.times_us[clip].tolist()
+            for window, (start, stop) in enumerate(itertools.pairwise(edges)):
+                part = voxel_e2vid(expected.cut(start, stop), bins=5)
+                assert np.array_equal(batch.grids[clip, window], part)
+            assert batch.draws["threshold_on"][clip] == draw.numbers[0]
+            seen += len(expected)
+    assert seen > 1000
+
+
+def test_every_physical_range_is_drawn_from_for_each_clip(folder):
+    ranges = PhysicalRanges()
+    batches = take(EventStream(folder, randomize="physical", outputs="counts", **SMALL), 10)
+    for name in ranges.drawn:
+        drawn = np.concatenate([batch.draws[name] for batch in batches])
+        low, high = getattr(ranges, name)
+        assert len(np.unique(drawn)) == len(drawn), name
+        assert low <= drawn.min() < low + 0.2 * (high - low), name
+        assert high >= drawn.max() > high - 0.2 * (high - low), name
+
+
+def test_each_physical_option_reaches_the_events():
+    quiet = {
+        "threshold": (0.2, 0.2), "ratio": (1, 1), "noise_scale": (0, 0), "leak_rate_hz": (0, 0),
+        "refractory_us": (0, 0), "cutoff_hz": (0, 0), "pause": (0, 0), "flip": 0,
+        "has_phase": False, "mismatch": (0, 0), "hot_fraction": (0, 0),
+    }  # fmt: skip
+
+    def counts(source, **other):
+        ranges = PhysicalRanges(**{**quiet, **other})
+        stream = EventStream(source, randomize=ranges, outputs="counts", **SMALL)
+        return take(stream, 1)[0].counts.sum(dim=(0, 1, 3, 4)).tolist()
+
+    still, moving = Still(), Sliding()
+    assert counts(still) == [0, 0]
+    off, on = counts(still, leak_rate_hz=(1000, 1000))
+    assert (off, on > 100) == (0, True)
+    assert min(counts(still, noise_scale=(1000, 1000))) > 50
+    assert min(counts(still, hot_fraction=(1, 1))) > 50
+    whole = sum(counts(moving))
+    for name, value in {"threshold": 0.4, "refractory_us": 5000, "cutoff_hz": 20}.items():
+        assert sum(counts(moving, **{name: (value, value)})) < 0.8 * whole, name
+    assert counts(moving, ratio=(2, 2)) != counts(moving)
+    assert counts(moving, mismatch=(0.1, 0.1)) != counts(moving)
+    assert sum(counts(moving, has_phase=True)) > 0.8 * whole
+
+
+class Still(Sliding):
+    """A texture at rest, for long enough that rates show."""
+
+    def read(self, index, truth, most_bytes):
+        clip = super().read(index, (), most_bytes)
+        frames = np.repeat(clip.frames[:1] // 4, len(clip.frames), axis=0)
+        return Clip(frames, clip.times_us * 10)
 
 
 def test_thresholds_reach_the_events(folder):
@@ -265,6 +353,24 @@ def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass
     assert len(told) == 1
     assert {int(source) for batch in found for source in batch.draws["source"]} == {0}
     assert len(stream.skipped) == 2
+
+
+def test_videos_that_break_off_and_frames_with_nan_are_skipped_with_their_reason(tmp_path):
+    film = (Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4").read_bytes()
+    (tmp_path / "a_whole.mp4").write_bytes(film)
+    (tmp_path / "b_broken.mp4").write_bytes(film[: len(film) // 2])
+    bad = np.full((12, 20, 30), 100, np.float32)
+    bad[6, 3, 3] = np.nan
+    np.save(tmp_path / "c_nan.npy", bad)
+    sources = [str(tmp_path / name) for name in ("a_whole.mp4", "b_broken.mp4", "c_nan.npy")]
+    stream = EventStream(sources, fps=25, **{**SMALL, "frames": 8})
+    with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
+        found = take(stream, 3)
+    assert len(told) == 1
+    assert {int(source) for batch in found for source in batch.draws["source"]} == {0}
+    assert set(stream.skipped) == {1, 2}
+    assert re.search(r"b_broken.mp4 is damaged \(a packet is incomplete\)", stream.skipped[1])
+    assert re.search(r"frame 6 .* that are NaN", stream.skipped[2])
 
 
 @pytest.mark.parametrize(

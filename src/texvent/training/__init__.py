@@ -13,7 +13,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from texvent.training.draws import ClipRanges
+    from texvent.training.draws import ClipRanges, PhysicalRanges
     from texvent.training.sources import Clip, ClipSource, PromptClips, StoredClips, VideoClips
     from texvent.training.stream import Batch, EventStream
 
@@ -23,6 +23,7 @@ _HOME_OF = {
     "ClipRanges": "draws",
     "ClipSource": "sources",
     "EventStream": "stream",
+    "PhysicalRanges": "draws",
     "PromptClips": "sources",
     "StoredClips": "sources",
     "VideoClips": "sources",
@@ -34,6 +35,7 @@ __all__ = [
     "ClipRanges",
     "ClipSource",
     "EventStream",
+    "PhysicalRanges",
     "PromptClips",
     "StoredClips",
     "VideoClips",

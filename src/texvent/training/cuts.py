@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
-from texvent.training.draws import ClipDraw, ClipRanges
+from texvent.training.draws import ClipDraw, Ranges
 from texvent.training.sources import Clip
 from texvent.truth.boxes import clip_boxes, detection_target
 
@@ -22,7 +22,7 @@ class CutPlan(NamedTuple):
     intervals: int
     """T, between the frames that are simulated."""
     intervals_per_window: int
-    ranges: ClipRanges
+    ranges: Ranges
     truth: tuple[str, ...]
 
     def check(self, clip: Clip, name: str) -> None:

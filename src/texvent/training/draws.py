@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from types import MappingProxyType
-from typing import NamedTuple, TypeAlias
+from typing import ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 from texvent.simulation.model_options import RATIO_LIMIT, THRESHOLDS
+from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.random.draws import draw_uniforms, frame_key
 
 Limits: TypeAlias = tuple[float, float]
@@ -26,6 +28,9 @@ _ALLOWED: Mapping[str, Limits] = MappingProxyType(
         "noise": (0.0, 10.0),
         "hot_fraction": (0.0, 1.0),
         "hot_noise": (0.0, 10.0),
+        "noise_scale": (0.0, 1e3),
+        "leak_rate_hz": (0.0, 1e3),
+        "cutoff_hz": (0.0, 1e6),
         "refractory_us": (0, 10**6),
         "speed": (1, 1000),
         "pause": (0.0, 1.0),
@@ -37,35 +42,16 @@ _ALLOWED: Mapping[str, Limits] = MappingProxyType(
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClipRanges:
-    """Ranges that the pixels and the motion of every clip are drawn from; V2V's by default.
+class MotionRanges:
+    """Ranges that the motion of every clip is drawn from, with what all pixel models share.
 
     Raises:
         ConfigError: a limit is out of range, or the lower one is above the higher.
-
-    Source: V2V, "Scaling event-based vision through efficient video-to-voxel simulation", NeurIPS
-        2025, and the defaults of its program. It has no mismatch, refractory period or speed.
-
-    Example:
-        >>> from texvent.training import ClipRanges
-        >>> ClipRanges(threshold=(0.1, 0.5), flip=0.0).noise
-        (0.0, 0.2)
     """
 
-    threshold: Limits = THRESHOLDS["v2v"][:2]
-    """Smaller contrast threshold, log units."""
-    ratio: Limits = (1.0, RATIO_LIMIT)
-    """The larger threshold by the smaller; which polarity has it is drawn too."""
-    mismatch: Limits = (0.0, 0.0)
-    """Standard deviation of thresholds between pixels, a share of the threshold."""
-    noise: Limits = (0.0, 0.2)
-    """Standard deviation of what brightness moves by at every frame, log units."""
-    hot_fraction: Limits = (0.0, 0.001)
-    """Share of hot pixels."""
-    hot_noise: Limits = (0.0, 0.2)
-    """Standard deviation of what a hot pixel moves by, the same at every frame, log units."""
-    refractory_us: Limits = (0, 0)
-    """Refractory period, µs."""
+    drawn: ClassVar[Mapping[str, int]]
+    """Number that a model draws beside its thresholds → the place of its chance."""
+
     speed: tuple[int, int] = (1, 1)
     """Playback speed: so many frames of the video are one step, at the video's frame rate."""
     pause: Limits = (0.01, 0.98)
@@ -73,11 +59,11 @@ class ClipRanges:
     flip: float = 0.5
     """Probability of a mirrored clip."""
     gamma: float = 2.2
-    """γ of the video: brightness is ln((I / 255)^γ + ε)."""
-    log_eps: float = 1e-3
-    """ε of that."""
+    """γ of the video: light is (I / 255)^γ."""
     has_phase: bool = True
     """References begin anywhere between the two thresholds, not at the first frame."""
+    refractory_us: Limits = (0, 0)
+    """Refractory period, µs."""
 
     def __post_init__(self) -> None:
         for one in fields(self):
@@ -94,11 +80,104 @@ class ClipRanges:
                 raise ConfigError(f"{one.name} is {shown(value)}; give the lowest value first")
 
 
+@dataclass(frozen=True, kw_only=True)
+class ClipRanges(MotionRanges):
+    """Ranges that the pixels and the motion of every clip are drawn from; V2V's by default.
+
+    Source: V2V, "Scaling event-based vision through efficient video-to-voxel simulation", NeurIPS
+        2025, and the defaults of its program. It has no mismatch, refractory period or speed.
+
+    Example:
+        >>> from texvent.training import ClipRanges
+        >>> ClipRanges(threshold=(0.1, 0.5), flip=0.0).noise
+        (0.0, 0.2)
+    """
+
+    drawn: ClassVar[Mapping[str, int]] = MappingProxyType(
+        {"mismatch": 3, "noise": 4, "hot_fraction": 5, "hot_noise": 6, "refractory_us": 7}
+    )
+
+    threshold: Limits = THRESHOLDS["v2v"][:2]
+    """Smaller contrast threshold, log units."""
+    ratio: Limits = (1.0, RATIO_LIMIT)
+    """The larger threshold by the smaller; which polarity has it is drawn too."""
+    mismatch: Limits = (0.0, 0.0)
+    """Standard deviation of thresholds between pixels, a share of the threshold."""
+    noise: Limits = (0.0, 0.2)
+    """Standard deviation of what brightness moves by at every frame, log units."""
+    hot_fraction: Limits = (0.0, 0.001)
+    """Share of hot pixels."""
+    hot_noise: Limits = (0.0, 0.2)
+    """Standard deviation of what a hot pixel moves by, the same at every frame, log units."""
+    log_eps: float = 1e-3
+    """ε of brightness, ln((I / 255)^γ + ε)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhysicalRanges(MotionRanges):
+    """Ranges for the `physical` pixel model, around the presets of its cameras; on a CPU.
+
+    Example:
+        >>> from texvent.training import PhysicalRanges
+        >>> PhysicalRanges(leak_rate_hz=(0.0, 0.0)).cutoff_hz
+        (100.0, 500.0)
+    """
+
+    drawn: ClassVar[Mapping[str, int]] = MappingProxyType(
+        {
+            "mismatch": 3,
+            "noise_scale": 4,
+            "hot_fraction": 5,
+            "leak_rate_hz": 6,
+            "refractory_us": 7,
+            "cutoff_hz": 13,
+        }
+    )
+
+    threshold: Limits = (0.15, 0.5)
+    """Smaller contrast threshold, log units."""
+    ratio: Limits = (1.0, 1.5)
+    """The larger threshold by the smaller; which polarity has it is drawn too."""
+    mismatch: Limits = (0.0, 0.05)
+    """Standard deviation of thresholds between pixels, log units."""
+    noise_scale: Limits = (0.1, 1.0)
+    """Factor of the noise that a DAVIS346 has by intensity."""
+    hot_fraction: Limits = (0.0, 0.001)
+    """Share of hot pixels."""
+    leak_rate_hz: Limits = (0.0, 0.1)
+    """ON events per pixel and second from leakage."""
+    refractory_us: Limits = (0, 1000)
+    """Refractory period, µs."""
+    cutoff_hz: Limits = (100.0, 500.0)
+    """Bandwidth of the photoreceptor at white."""
+
+    def config(self, numbers: NDArray[np.float64]) -> PhysicalConfig:
+        """Options of the pixels of a clip, by what `draw_clip` drew."""
+        on, off, mismatch, noise_scale, hot_fraction, leak_hz, refractory_us, cutoff_hz = (
+            float(one) for one in numbers[:8]
+        )
+        return PhysicalConfig(
+            gamma=self.gamma,
+            contrast_threshold=math.sqrt(on * off),
+            on_off_ratio=on / off,
+            threshold_sigma=mismatch,
+            initial_phase="random" if self.has_phase else "zero",
+            cutoff_hz=cutoff_hz,
+            refractory_period_us=int(refractory_us),
+            leak_rate_hz=leak_hz,
+            noise_scale=noise_scale,
+            hot_pixel_fraction=hot_fraction,
+        )
+
+
 NO_DRAWS = ClipRanges(
     threshold=(0.2, 0.2), ratio=(1.0, 1.0), noise=(0.0, 0.0), hot_fraction=(0.0, 0.0),
     hot_noise=(0.0, 0.0), pause=(0.0, 0.0), flip=0.0, has_phase=False,
 )  # fmt: skip
-RANGES: Mapping[str, ClipRanges] = MappingProxyType({"v2v": ClipRanges(), "none": NO_DRAWS})
+Ranges: TypeAlias = ClipRanges | PhysicalRanges
+RANGES: Mapping[str, Ranges] = MappingProxyType(
+    {"v2v": ClipRanges(), "physical": PhysicalRanges(), "none": NO_DRAWS}
+)
 """By name; of "none", only the place in the video is drawn."""
 
 
@@ -108,7 +187,8 @@ class ClipDraw(NamedTuple):
     key: np.uint64
     """Key of its pixels."""
     numbers: NDArray[np.float64]
-    """[8], a row of `clips.pixels.ClipPixels.numbers`."""
+    """Thresholds, the numbers that its ranges name in `drawn`, and 1 where references have a phase:
+    of `ClipRanges` a row of `clips.pixels.ClipPixels.numbers`."""
     is_flipped: bool
     speed: float
     """A chance, 0..1."""
@@ -118,7 +198,7 @@ class ClipDraw(NamedTuple):
     """[T] whether an interval shows the same frame again."""
 
 
-def draw_clip(ranges: ClipRanges, seed: int, number: int, intervals: int) -> ClipDraw:
+def draw_clip(ranges: Ranges, seed: int, number: int, intervals: int) -> ClipDraw:
     """The draws of clip `number` of a stream: of seed and number alone.
 
     Args:
@@ -136,8 +216,7 @@ def draw_clip(ranges: ClipRanges, seed: int, number: int, intervals: int) -> Cli
 
     thresholds = [value("threshold", 0)] * 2
     thresholds[int(chance[2] < 0.5)] *= value("ratio", 1)
-    names = ("mismatch", "noise", "hot_fraction", "hot_noise", "refractory_us")
-    drawn = [value(name, 3 + at) for at, name in enumerate(names)]
+    drawn = [value(name, at) for name, at in ranges.drawn.items()]
     is_paused = np.zeros(intervals, np.bool_)
     paused = False
     for at, one in enumerate(draw_uniforms(key, 0, 1, np.arange(intervals))):

@@ -43,6 +43,9 @@ CODING_GAMMA = 2.2
 class Clip:
     """A video in memory, with its truth.
 
+    Raises:
+        InputError: frames of another kind or shape, or times that do not rise.
+
     Example:
         >>> import numpy as np
         >>> from texvent.training import Clip
@@ -57,6 +60,16 @@ class Clip:
     truth: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     """`flow`: px from each frame to the next, x right and y down, [N − 1, 2, H, W] float32;
     `depth`: m, [N, H, W] float32; `boxes`: records of `texvent.truth.boxes.BOX_RECORD`, by time."""
+
+    def __post_init__(self) -> None:
+        shape, times_us = self.frames.shape, self.times_us
+        if self.frames.dtype != np.uint8 or len(shape) != 3 or not all(shape):
+            raise InputError(
+                f"frames of a clip are {self.frames.dtype} {list(shape)}; they must be uint8 luma, "
+                "[frames, rows, columns]"
+            )
+        if times_us.shape != shape[:1] or (np.diff(times_us) <= 0).any():
+            raise InputError("times of a clip must rise, one per frame")
 
     @property
     def nbytes(self) -> int:

@@ -21,17 +21,20 @@ from texvent.represent.time_surface import MAX_TAU_US
 from texvent.runtime.device_names import check_device_name
 from texvent.runtime.devices import explain_device_memory, find_gpu, triton_fault
 from texvent.runtime.work.prefetch import prefetch
-from texvent.sensor import SensorSize, SizeLike, as_size
-from texvent.simulation.clips.pixels import (
-    ClipArrays,
-    ClipOutputs,
-    ClipPixels,
-    byte_brightness,
-    check_clips,
-)
+from texvent.sensor import SizeLike, as_size
+from texvent.simulation.clips.pixels import ClipOutputs, check_clips
 from texvent.training.clip_store import ClipStore
 from texvent.training.cuts import Cut, CutPlan, cut_clip
-from texvent.training.draws import RANGES, ClipDraw, ClipRanges, draw_clip, order_of_pass
+from texvent.training.draws import (
+    RANGES,
+    ClipDraw,
+    ClipRanges,
+    PhysicalRanges,
+    Ranges,
+    draw_clip,
+    order_of_pass,
+)
+from texvent.training.simulated import events_of, simulate_clips
 from texvent.training.sources import TRUTH, Clip, find_source
 
 _torch: Any = require("torch", extra="torch")
@@ -42,10 +45,7 @@ OUTPUTS = ("grids", "counts", "surfaces", "events")
 AHEAD = 2
 """Batches whose frames are cut ahead."""
 GIB = 2**30
-DRAWN = (
-    "threshold_on", "threshold_off", "mismatch", "noise", "hot_fraction", "hot_noise",
-    "refractory_us",
-)  # fmt: skip
+THRESHOLDS = ("threshold_on", "threshold_off")
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,8 +139,9 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     """Decay time of surfaces, µs."""
     device: str = "cpu"
     """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
-    randomize: str | ClipRanges = "v2v"
-    """Draws per clip: "v2v", "none" (the place in the video alone), or ranges."""
+    randomize: str | ClipRanges | PhysicalRanges = "v2v"
+    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings, on a CPU; "none"
+    (the place in the video alone); or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0
@@ -168,6 +169,11 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             counts="counts" in chosen, latest="surfaces" in chosen, events="events" in chosen,
         )  # fmt: skip
         self._device = _checked_device(self.device)
+        if isinstance(self._ranges, PhysicalRanges) and self._device.type != "cpu":
+            raise ConfigError(
+                f"device is {shown(self.device)}, and pixels of the physical model are drawn per "
+                "clip on a CPU; give device='cpu', or randomize='v2v'"
+            )
         self._plan = CutPlan(
             as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
@@ -305,14 +311,13 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         ranges, per = self._ranges, self.frames_per_grid
         numbers = np.stack([draw.numbers for draw in ready.draws])
         keys = np.array([draw.key for draw in ready.draws], np.uint64)
-        pixels = ClipPixels(numbers, keys, byte_brightness(ranges.gamma, ranges.log_eps))
         frames = _torch.from_numpy(np.stack([cut.frames for cut in ready.cuts])).to(self._device)
         times_us = np.stack([cut.times_us for cut in ready.cuts])
         check_clips(frames, times_us, self._outputs)
-        made = _run(frames, times_us, pixels, self._outputs)
+        made = simulate_clips(frames, times_us, ranges, (numbers, keys), self._outputs)
         windows = _torch.from_numpy(times_us[:, ::per].copy()).to(self._device)
         places = np.array([cut.place for cut in ready.cuts])
-        draws = dict(zip(DRAWN, numbers.T, strict=False))
+        draws = dict(zip((*THRESHOLDS, *ranges.drawn), numbers.T, strict=False))
         draws |= dict(zip(("start", "top", "left", "speed"), places.T, strict=True))
         draws["source"] = np.array(ready.sources)
         draws["is_flipped"] = np.array([draw.is_flipped for draw in ready.draws])
@@ -324,7 +329,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             grids=made.grids,
             counts=made.counts,
             surfaces=None if made.latest is None else self._surfaces(made.latest, windows),
-            events=None if made.words is None else _events_of(made, self._plan.size),
+            events=None if made.words is None else events_of(made, self._plan.size),
             truth={name: self._truth_of(name, ready.cuts) for name in self._names},
             draws=draws,
         )
@@ -360,40 +365,13 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
 _order = lru_cache(maxsize=4)(order_of_pass)
 
 
-def _run(
-    frames: Tensor, times_us: NDArray[np.int64], pixels: ClipPixels, outputs: ClipOutputs
-) -> ClipArrays:
-    """Arrays of the clips, on the device of the frames."""
-    if frames.device.type != "cpu":
-        from texvent.simulation.clips.scan_triton import simulate_on_gpu
-
-        return simulate_on_gpu(frames, times_us, pixels, outputs)
-    from texvent.simulation.clips.scan_cpu import simulate_on_cpu
-
-    made = simulate_on_cpu(frames.numpy(), times_us, pixels, outputs)
-    grids, counts, latest, words = (
-        None if one is None else _torch.from_numpy(one) for one in made[:4]
-    )
-    return ClipArrays(grids, counts, latest, words, made.ends)
-
-
-def _events_of(made: ClipArrays, size: SensorSize) -> EventBatch:
-    area = size.width * size.height
-    cell = made.words >> 1
-    pixel, ends = (cell % area).int(), tuple(made.ends.tolist()) if made.ends is not None else ()
-    return EventBatch(
-        pixel % size.width, pixel // size.width, cell // area, (made.words & 1).to(_torch.int8),
-        ends, (size,) * len(ends),
-    )  # fmt: skip
-
-
-def _ranges_of(randomize: object) -> ClipRanges:
-    if isinstance(randomize, ClipRanges):
+def _ranges_of(randomize: object) -> Ranges:
+    if isinstance(randomize, ClipRanges | PhysicalRanges):
         return randomize
     if not isinstance(randomize, str) or randomize not in RANGES:
         raise ConfigError(
             f"randomize is {shown(randomize)}; {suggest(str(randomize), tuple(RANGES))}, or give "
-            "ClipRanges"
+            "ClipRanges or PhysicalRanges"
         )
     return RANGES[randomize]
 

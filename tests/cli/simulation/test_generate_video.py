@@ -59,6 +59,10 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert {"24", "121", "1280x704", "74", "24.4", "NVIDIA", "bypassed"} <= set(row.split())
     assert shown.splitlines()[0].startswith("procedural")
     assert "texvent[generate]" in shown
+    marked = {line.split()[0] for line in shown.splitlines() if line[:40].split()[1:2] == ["*"]}
+    assert marked == {"cosmos-7b", "wan-1.3b", "wan-14b", "cogvideox-5b", "cogvideox-2b"}
+    unknown = next(line for line in shown.splitlines() if line.startswith("ltx2.5 "))
+    assert "  not known  " in unknown
 
 
 def test_a_model_of_few_frames_per_second_warns_in_one_line(folder, capsys):
@@ -88,4 +92,4 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
     monkeypatch.setattr("texvent.cli.setup.generators.find_downloaded", damaged)
     assert run("generators") == 0
     rows = capsys.readouterr().out.splitlines()
-    assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"
+    assert next(line for line in rows if line.startswith("wan2.2-5b")).split()[1] == "damaged"

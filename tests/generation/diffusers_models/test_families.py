@@ -4,6 +4,8 @@ Saved by `save_pretrained`; found, checked, loaded, called and decoded by the co
 published models. Offline.
 """
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,7 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("diffusers")
 
 
-from texvent.errors import InputError  # noqa: E402
+from texvent.errors import ConfigError, FileFormatError, InputError  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_families import FAMILIES  # noqa: E402
@@ -84,8 +86,9 @@ def test_guidance_reaches_pipelines_that_keep_it_in_a_guider(make):
     assert np.array_equal(weak, again), "the scale of one call does not stay for the next"
 
 
-def test_the_frame_rate_is_an_input_of_cosmos_3(make):
-    slow, fast = (pixels(make("cosmos3", fps=fps)[0]) for fps in (16, 30))
+@pytest.mark.parametrize("name", ["cosmos3", "ltx2-distilled"])
+def test_the_frame_rate_is_an_input_of_cosmos_3_and_ltx(make, name):
+    slow, fast = (pixels(make(name, fps=fps)[0]) for fps in (24, 50))
     assert not np.array_equal(slow, fast)
 
 
@@ -103,3 +106,55 @@ def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make)
     assert cosmos_guardrail.CosmosSafetyChecker.checked_frames == before + video.frame_count
     with pytest.raises(InputError, match="guardrail blocks this prompt"):
         build(saved("cosmos3")).generate("a weapon")
+
+
+H3 = FAMILIES["minimax-h3"].options
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"frames": 100}, "frames is 100; .*MiniMax-H3 makes 120 to 345 frames"),
+        ({"width": 40}, "width is 40; .*MiniMax-H3 takes multiples of 32"),
+        ({"guidance": 3.0}, "guidance is set, but MiniMaxH3ModularPipeline does not take it"),
+        ({"negative_prompt": "dark"}, "negative_prompt is set, but MiniMaxH3ModularPipeline"),
+    ],
+)
+def test_what_minimax_h3_does_not_take_is_refused_before_it_is_loaded(saved, options, said):
+    watcher = Watcher()
+    with pytest.raises(ConfigError, match=said):
+        build(saved("minimax-h3"), **{**H3, **options}).generate(PROMPT, progress=watcher)
+    assert watcher.lines == []
+
+
+def test_parts_of_a_modular_pipeline_that_lack_or_are_damaged_are_named(saved, tmp_path):
+    folder = shutil.copytree(saved("minimax-h3"), tmp_path / "MiniMax-H3")
+    weights = next((folder / "vae").glob("*.safetensors"))
+    weights.write_bytes(b"no weights")
+    with pytest.raises(FileFormatError, match=r"MiniMax-H3 cannot be loaded .* vae") as told:
+        build(folder, **H3).generate(PROMPT)
+    assert "\n" not in str(told.value)
+    weights.unlink()
+    with pytest.raises(InputError, match=r"lacks its weights in .*vae"):
+        build(folder, **H3).generate(PROMPT)
+    shutil.rmtree(folder / "vae")
+    with pytest.raises(InputError, match=r"lacks the folder .*vae "):
+        build(folder, **H3).generate(PROMPT)
+
+
+def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(saved, make, tmp_path):
+    from safetensors.torch import load_file, save_file
+
+    weights = load_file(next((saved("minimax-h3") / "transformer").glob("*.safetensors")))
+    layer = next(name for name in weights if name.endswith("to_q.weight"))
+    rows, columns = weights[layer].shape
+    path = tmp_path / "fast.safetensors"
+    name = f"transformer.{layer.removesuffix('.weight')}.lora_"
+    for size in (columns, columns + 1):
+        factors = {"A": torch.ones(2, size), "B": torch.ones(rows, 2)}
+        save_file({f"{name}{one}.weight": factor for one, factor in factors.items()}, path)
+        if size == columns:
+            plain, other = (pixels(make("minimax-h3", lora=one)[0]) for one in ((), (str(path),)))
+            assert not np.array_equal(plain, other)
+    with pytest.raises(FileFormatError, match=f"is {rows}x{columns + 1} in it, and not {rows}x"):
+        make("minimax-h3", lora=(str(path),))

@@ -1,5 +1,6 @@
 """LoRA on pipelines of the real classes, against matrices merged by hand."""
 
+import dataclasses
 import shutil
 import sys
 from pathlib import Path
@@ -14,15 +15,19 @@ peft = pytest.importorskip("peft")
 
 from safetensors.torch import load_file, save_file  # noqa: E402
 
+from texvent._registry import GENERATORS  # noqa: E402
 from texvent.errors import (  # noqa: E402
     ConfigError,
     FileFormatError,
+    InputError,
     MissingDependencyError,
 )
-from texvent.generation.video_models.lora import Lora, parse_lora  # noqa: E402
+from texvent.generation.diffusers_models.generator import DiffusersGenerator  # noqa: E402
+from texvent.generation.video_models.known_models import MODELS  # noqa: E402
+from texvent.generation.video_models.lora import PARTS, Lora, parse_lora  # noqa: E402
 from texvent.generation.videos.stored_video import StoredVideo  # noqa: E402
 
-from ..tiny_models import PROMPT, build, pixels  # noqa: E402
+from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 from ..watcher import Watcher  # noqa: E402
 
 RANK = 2
@@ -121,6 +126,128 @@ def test_pipelines_without_lora_and_a_missing_package_say_so(models, tmp_path, m
     with pytest.raises(MissingDependencyError, match=r"texvent\[generate\]"):
         build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=watcher)
     assert watcher.lines == [], "refused before anything was loaded"
+
+
+WAN_NAMES = {
+    f"attn{n}.to_{one}": f"{kind}_attn.{one[0]}"
+    for n, kind in ((1, "self"), (2, "cross"))
+    for one in ("q", "k", "v", "out.0")
+}
+WAN_NAMES |= {"ffn.net.0.proj": "ffn.0", "ffn.net.2": "ffn.2"}  # fmt: skip
+ALPHA = 4.0
+
+
+def save_wan_adapter(path, pairs, prefix):
+    """Save the pairs under the names of Wan's own network, as Wan2.2-Lightning is read."""
+    tensors = {}
+    for name, (down, up) in pairs.items():
+        block, _, layer = name.removeprefix("blocks.").partition(".")
+        own = f"{prefix}blocks.{block}.{WAN_NAMES[layer]}"
+        tensors[f"{own}.lora_down.weight"] = down.contiguous()
+        tensors[f"{own}.lora_up.weight"] = up.contiguous()
+        tensors[f"{own}.alpha"] = torch.tensor(ALPHA)
+    save_file(tensors, path, {"format": "pt"})
+
+
+@pytest.fixture
+def lightning(models, tmp_path):
+    """A tiny Wan 2.2 as a folder with its LoRA, and the same with merged matrices."""
+
+    def make(prefix="diffusion_model."):
+        folder = shutil.copytree(models("wan22"), tmp_path / "wan2.2-a14b-lightning")
+        merged = shutil.copytree(models("wan22"), tmp_path / "merged")
+        for seed, (part, file) in enumerate(zip(PARTS, LIGHTNING, strict=True)):
+            weights_file = next((merged / part).glob("*.safetensors"))
+            weights = load_file(weights_file)
+            pairs = factors(weights, seed)
+            save_wan_adapter(folder / file, pairs, prefix)
+            for name, (down, up) in pairs.items():
+                weights[f"{name}.weight"] += ALPHA / RANK * up @ down
+            save_file(weights, weights_file, {"format": "pt"})
+        return folder, merged
+
+    return make
+
+
+LIGHTNING = "high_noise_model.safetensors", "low_noise_model.safetensors"
+FEW = {"steps": 4, "guidance": 1.0}
+
+
+@pytest.mark.parametrize("prefix", ["diffusion_model.", ""])
+def test_a_rows_lora_reach_both_networks_of_wan_2_2(lightning, prefix):
+    folder, merged = lightning(prefix)
+    made = build(folder, **FEW).generate(PROMPT)
+    assert len(made.metadata["lora_sha256"]) == 2
+    row = MODELS["wan2.2-a14b-lightning"]
+    part = GENERATORS.load(str(merged))
+    bare = dataclasses.replace(part.model, scheduler=row.scheduler, ignores_fps=True)
+    config = dataclasses.replace(part.config_type(), **{**OPTIONS, **FEW})
+    expected = pixels(DiffusersGenerator(config, model=bare, seed=3).generate(PROMPT)).astype(int)
+    assert np.abs(pixels(made).astype(int) - expected).max() <= 20
+    for one in PARTS:  # each network counts
+        file = next((merged / one).glob("*.safetensors"))
+        shutil.copy(next((folder / one).glob("*.safetensors")), file)
+        other = pixels(DiffusersGenerator(config, model=bare, seed=3).generate(PROMPT)).astype(int)
+        assert np.abs(other - expected).max() > 1000
+        expected = other
+
+
+@pytest.mark.parametrize("kind", ["missing", "foreign", "other size", "damaged"])
+def test_a_lora_that_is_missing_or_foreign_is_one_line_before_anything_is_loaded(lightning, kind):
+    folder, _ = lightning()
+    high = folder / LIGHTNING[0]
+    if kind == "missing":
+        high.unlink()
+        error, said = InputError, rf"lacks the LoRA .*{LIGHTNING[0]}, of lightx2v/.*put the file"
+    elif kind == "foreign":
+        save_file({"transformer.other.lora_A.weight": torch.zeros(2, 2)}, high)
+        error, said = FileFormatError, "none of its 1 layers is one of"
+    elif kind == "other size":
+        down, up = torch.zeros(2, 30), torch.zeros(24, 2)
+        save_wan_adapter(high, {"blocks.0.attn1.to_q": (down, up)}, "")
+        error, said = FileFormatError, "layer blocks.0.attn1.to_q is 24x30 in it, and not 24x24"
+    else:
+        high.write_bytes(b"no weights")
+        error, said = FileFormatError, "cannot be loaded as a LoRA of WanPipeline"
+    watcher = Watcher()
+    for ask in (
+        lambda: build(folder, **FEW).generate(PROMPT, progress=watcher),
+        lambda: build(folder, **FEW).plan(PROMPT),
+    ):
+        with pytest.raises(error, match=said) as told:
+            ask()
+        assert "\n" not in str(told.value)
+    assert watcher.lines == [], "refused before anything was loaded"
+
+
+def test_the_dry_run_of_a_few_step_row_names_its_lora_steps_and_sizes():
+    part = GENERATORS.load("wan2.2-a14b-lightning")
+    plan = part(part.config_type(), seed=0, size=None).plan(PROMPT)
+    for said in ("4 steps", *LIGHTNING, "of its LoRA 2.46 GB", "download not known"):
+        assert said in plan, said
+
+
+def test_rows_with_a_lora_take_the_four_euler_steps_of_their_publisher():
+    rows = [row for row in MODELS.values() if row.loras]
+    assert len(rows) == 2
+    for row in rows:
+        assert (row.steps, row.guidance) == (4, 1.0)
+        saved = diffusers.UniPCMultistepScheduler(
+            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
+        )
+        scheduler = type(saved).from_config(saved.config, **row.scheduler)
+        scheduler.set_timesteps(4)
+        base = torch.tensor([1.0, 0.75, 0.5, 0.25, 0.0])
+        levels = 5 * base / (1 + 4 * base)
+        assert torch.allclose(scheduler.sigmas, levels, atol=1e-3)
+        velocities = torch.randn(4, 3, 3, generator=torch.Generator().manual_seed(0))
+        latents = euler = torch.ones(3, 3)
+        for time, now, after, velocity in zip(
+            scheduler.timesteps, levels, levels[1:], velocities, strict=False
+        ):
+            latents = scheduler.step(velocity, time, latents).prev_sample
+            euler = euler + (after - now) * velocity
+            assert torch.allclose(latents, euler, atol=5e-3)
 
 
 @pytest.mark.parametrize(

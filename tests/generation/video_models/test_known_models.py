@@ -81,7 +81,7 @@ def test_a_copy_of_a_known_model_keeps_its_facts():
 
 def test_minutes_and_downloads_of_a_row_have_a_source_and_are_told():
     for row in known_models.MODELS.values():
-        known = bool(row.minutes) or row.download_gb is not None
+        known = bool(row.minutes) or row.download_gb is not None or row.lora_gb is not None
         assert known == bool(row.cost_source), row.name
         assert ("not known" in row.cost) == (not row.minutes or row.download_gb is None)
     assert "time about 4 min on RTX 4090" in known_models.MODELS["wan-1.3b"].cost

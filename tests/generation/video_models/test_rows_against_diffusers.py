@@ -9,6 +9,7 @@ pytestmark = pytest.mark.torch
 pytest.importorskip("torch")
 diffusers = pytest.importorskip("diffusers")
 
+from texvent.generation.diffusers_models.modular import find_class  # noqa: E402
 from texvent.generation.diffusers_models.pipeline_call import ARGUMENTS  # noqa: E402
 from texvent.generation.video_models.known_models import MODELS  # noqa: E402
 
@@ -17,7 +18,7 @@ ABSENT = inspect.Parameter.empty
 
 
 def call_of(pipeline):
-    return inspect.signature(getattr(diffusers, pipeline).__call__).parameters
+    return inspect.signature(find_class(pipeline).__call__).parameters
 
 
 def default(call, option):

@@ -17,6 +17,7 @@ from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
 from texvent.generation.video_models.config import LEAST_FPS, VideoModel
 from texvent.generation.video_models.known_models import MODELS
+from texvent.generation.video_models.lora import find_row_loras
 from texvent.generation.video_models.model_files import find_downloaded
 
 DESCRIPTION = """List the text-to-video generators: what they make, what they need, under which
@@ -26,11 +27,13 @@ diffusers pipeline, or any repository of the model hub.
   texvent generate "a red car" --generator wan2.2-5b
   texvent generate "a red car" --generator ./my-model --fps 24
   texvent generate "a red car" --generator hub:org/name --fps 24"""
+NOT_KNOWN = "not known"
 NOTES = f"""
 Models below {LEAST_FPS} fps are marked low: much moves between two frames. GPU GB, as reported:
 every part on the GPU / with --offload model. None was run here with its published weights; every
 pipeline runs in texvent's tests with tiny random ones. Learned models need texvent[generate], and
 are fetched from the model hub when first used, after showing the licence. --json has sources.
+What people run most is first; * marks the families of the paper, with Open-Sora.
 """
 
 
@@ -92,14 +95,17 @@ def _model_facts(model: VideoModel) -> dict[str, Any]:
 
 def _describe_model(model: VideoModel) -> tuple[str, ...]:
     """Cells of a row."""
-    memory = " / ".join("-" if gb is None else f"{gb:g}" for gb in (model.gpu_gb, model.offload_gb))
+    known = model.gpu_gb, model.offload_gb
+    memory = (
+        " / ".join("-" if gb is None else f"{gb:g}" for gb in known) if any(known) else NOT_KNOWN
+    )
     return (
-        model.name,
+        f"{model.name}{' *' if model.of_paper else ''}",
         _is_here(model),
         f"{model.fps} low" if model.is_low_fps else f"{model.fps}",
         str(model.frames),
         "image's" if model.width is None else f"{model.width}x{model.height}",
-        memory,
+        memory if any(known) else NOT_KNOWN,
         model.licence_and_terms,
     )
 
@@ -111,4 +117,4 @@ def _is_here(model: VideoModel) -> str:
         found = find_downloaded(model)
     except FileFormatError:
         return "damaged"
-    return "yes" if found is not None else ""
+    return "yes" if found is not None and find_row_loras(model) is not None else ""

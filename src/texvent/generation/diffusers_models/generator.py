@@ -24,6 +24,7 @@ from texvent.generation.diffusers_models.guardrail import (
     guardrail_version,
     needs_guardrail,
 )
+from texvent.generation.diffusers_models.modular import find_class
 from texvent.generation.diffusers_models.pipeline_call import (
     call_pipeline,
     check_options,
@@ -38,8 +39,13 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     resolve_device,
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
-from texvent.generation.video_models.controls import check_class, check_control, find_control_part
-from texvent.generation.video_models.lora import check_loras, parse_lora
+from texvent.generation.video_models.controls import (
+    check_class,
+    check_control,
+    check_shape,
+    find_control_part,
+)
+from texvent.generation.video_models.lora import check_loras, find_row_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
     find_files,
@@ -60,7 +66,7 @@ PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_pro
 """Options that decide the pixels, beside model, prompt, seed and files."""
 OF_COST = ("frames", "width", "height", "steps")
 """Options that decide the time, which a row knows for its own values."""
-PIXEL_FACTS = ("call", "sigmas", "scheduler")
+PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
@@ -123,6 +129,8 @@ class DiffusersGenerator:
         if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        if folder is not None and find_row_loras(self.model) is None:
+            folder = None
         if folder is None:
             self._check_before_loading()
         else:  # all files are here: options that do not fit them are refused too
@@ -166,6 +174,7 @@ class DiffusersGenerator:
     def _check_model(self) -> None:
         """Refuse options that the model does not take, and files that are not here."""
         check_control(self.model, self.config)
+        check_shape(self.model, self.config)
         if self.config.image is not None:
             read_image(self.config.image)
         elif self.model.needs_image:
@@ -173,19 +182,21 @@ class DiffusersGenerator:
         for lora in self._loras:
             if not lora.file.is_file():
                 raise InputError(f"there is no LoRA {lora.file}; check its path")
+        if self.model.folder is not None:
+            find_row_loras(self.model)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _check_before_loading(self) -> None:
         """Refuse faults that show without the model's files, which may have to be fetched first."""
         model, config = self.model, self.config
-        if config.lora:
+        if config.lora or model.loras:
             require("peft", extra=EXTRA)
         name = model.pipeline
         if config.image is not None:
             name = model.image_pipeline or name
         if name is None:
             return
-        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        pipeline_class = find_class(name)
         if pipeline_class is not None:  # else the installed one is too old, which loading says
             check_options(pipeline_class, config)
 
@@ -194,8 +205,9 @@ class DiffusersGenerator:
         if self._request is not None:
             return self._request
         self._check_before_loading()
-        model, config, loras = self.model, self.config, self._loras
+        model, config = self.model, self.config
         files = find_files(model, progress.announce)
+        loras = (*(find_row_loras(model, progress.announce) or ()), *self._loras)
         check_class(model, files.folder)
         parts = find_control_part(model, config, files.folder, progress.announce)
         device, free = resolve_device()
@@ -205,23 +217,27 @@ class DiffusersGenerator:
                 [
                     fingerprint(files.folder),
                     *(fingerprint(part) for _, part in parts),
-                    *(_sha256(one.file) for one in self._loras),
+                    *(_sha256(one.file) for one in loras),
                 ]
             ),
             class_name=(model.image_pipeline if config.image else None) or model.pipeline,
             placement=place(model, config, device, free),
             decoder_in_float32=model.needs_float32_vae,
             loras=loras,
-            scheduler=tuple(model.scheduler.items()),
+            scheduler=tuple(
+                (name, tuple(value) if isinstance(value, list) else value)
+                for name, value in model.scheduler.items()
+            ),
             parts=parts,
         )
         pipeline_class = find_pipeline_class(request)
-        check_loras(loras, pipeline_class)
+        check_loras(loras, pipeline_class, files.folder)
         check_options(pipeline_class, config)
         facts = {
             "source": model.source,
             "commit": files.commit,
             **{f"{name}_commit": part.name for name, part in parts},
+            "lora_sha256": [_sha256(one.file) for one in loras[: len(model.loras)]] or None,
             "pipeline": pipeline_class.__name__,
             "dtype": request.placement.dtype,
             "licence": model.licence_and_terms,

@@ -17,6 +17,7 @@ from texvent.generation.diffusers_models.guardrail import (
     load_guardrail,
     needs_guardrail,
 )
+from texvent.generation.diffusers_models.modular import find_class
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.lora import Lora, load_loras
 from texvent.generation.video_models.model_files import loading, read_pipeline_index, without_bars
@@ -156,7 +157,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
         MissingDependencyError: diffusers is not installed.
     """
     name = request.class_name or str(read_pipeline_index(request.folder)["_class_name"])
-    pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+    pipeline_class = find_class(name)
     if pipeline_class is None:
         raise InputError(
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "

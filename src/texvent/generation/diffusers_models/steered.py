@@ -6,7 +6,6 @@ out has the scene's motion and truth.
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -132,7 +131,8 @@ class SteeredGenerator(DiffusersGenerator):
         kind: Any = GENERATORS.load(DEFAULT_GENERATOR)
         frames, size = config.frames or 0, SensorSize(config.width or 0, config.height or 0)
         # Half a frame more, so that rounding takes none away.
-        own = dataclasses.replace(kind.config_type(), fps=fps, duration=float((frames - 0.5) / fps))
+        duration = float((frames - 0.5) / fps)
+        own = kind.config_type(fps=fps, duration=duration, assets=config.assets)
         seed = self.seed if config.scene_seed is None else config.scene_seed
         return kind(own, seed=seed, size=size)
 

@@ -67,6 +67,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     scene_seed: int | None = None
     """Seed of the scene that the video follows, so that several looks share one; none: that of the
     video."""
+    assets: Path | None = None
+    """Folder of models (GLB, OBJ, PLY) for the scene that the video follows; see docs/assets.md."""
     least_agreement: float | None = None
     """Least share of the scene's edges and motion that the video must show (0: chance, 1: all);
     one that shows less failed, see on_failure."""
@@ -146,12 +148,25 @@ class VideoModel:
     """Whether the decoder should stay in float32 (Wan's page asks for it)."""
     ignores_fps: bool = False
     """Whether the rate is known not to change the frames."""
+    unused: tuple[str, ...] = ()
+    """Parts of its repository that are not needed for a video from text or an image."""
+    frame_range: tuple[int, int] | None = None
+    """Fewest and most frames that it makes; None: not known."""
+    multiple: int | None = None
+    """Width and height are multiples of it; None: not known."""
     longest: int | None = None
     """Most frames over which it follows a scene; None: no limit is known."""
     control_revision: str = ""
     """Branch with the network of a control, `{}` for its name; empty: it is among the parts."""
     control_lora: str = ""
     """Repository of the LoRA that follows a scene."""
+    loras: tuple[str, ...] = ()
+    """Files of the LoRA that makes few steps enough, `organisation/name/path` on the model hub: for
+    the network, and for the second one of models that have two."""
+    lora_gb: float | None = None
+    """Size of these files, GB, as listings of them state it."""
+    of_paper: bool = False
+    """Whether the paper uses it."""
 
     @property
     def is_low_fps(self) -> bool:
@@ -180,6 +195,9 @@ class VideoModel:
         """Download and time that it needs, for messages."""
         size = "not known" if self.download_gb is None else f"{self.download_gb:g} GB"
         told = ", ".join(f"{value:g} min on {card}" for card, value in self.minutes.items())
+        if self.loras:
+            lora = "not known" if self.lora_gb is None else f"{self.lora_gb:g} GB"
+            size += f", and of its LoRA {lora} ({', '.join(self.loras)})"
         return f"download {size}, time {f'about {told}' if told else 'not known'}"
 
     @property

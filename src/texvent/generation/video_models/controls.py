@@ -116,7 +116,26 @@ def check_control(model: VideoModel, config: DiffusersConfig) -> None:
     _check_shape(model, config, pipeline)
 
 
-OF_CONTROL = ("look", "scene_seed", "least_agreement")
+def check_shape(model: VideoModel, config: DiffusersConfig) -> None:
+    """Refuse a length or size that a row says its model does not make; nothing is loaded for that.
+
+    Raises:
+        ConfigError: with what it makes.
+    """
+    frames = config.frames
+    if model.frame_range is not None and frames is not None:
+        fewest, most = model.frame_range
+        if not fewest <= frames <= most:
+            raise ConfigError(f"frames is {frames}; {model.name} makes {fewest} to {most} frames")
+    for name in ("width", "height"):
+        value = getattr(config, name)
+        if model.multiple is not None and value is not None and value % model.multiple:
+            raise ConfigError(
+                f"{name} is {value}; {model.name} takes multiples of {model.multiple}"
+            )
+
+
+OF_CONTROL = ("look", "scene_seed", "assets", "least_agreement")
 """Options that belong to a control."""
 
 

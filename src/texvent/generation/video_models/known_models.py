@@ -33,16 +33,19 @@ def _read_table() -> dict[str, VideoModel]:
     text = files(__package__).joinpath("known_models.toml").read_text(encoding="utf-8")
     table, rows = tomllib.loads(text), {}
     publishers = table.pop("negative_prompts")
-    for name, facts in table.items():
+    for name, own in table.items():
+        facts = {**table.get(own.pop("like", ""), {}), **own}
         maker = next((one for one in publishers if facts["repo"].startswith(one)), None)
         facts.setdefault("negative_prompt", publishers.get(maker))
-        sigmas = tuple(facts.pop("sigmas", ()))
-        rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])}, sigmas=sigmas)
+        facts |= {key: tuple(facts.get(key, ())) for key in ("sigmas", "loras", "unused")}
+        if "frame_range" in facts:
+            facts["frame_range"] = tuple(facts["frame_range"])
+        rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])})
     return rows
 
 
 MODELS: Mapping[str, VideoModel] = _read_table()
-"""Name → row, the paper's default first."""
+"""Name → row, what people run most first."""
 
 
 @dataclass(frozen=True)

@@ -89,8 +89,8 @@ CONTROL_PART = "controlnet"
 
 
 def elsewhere_parts(model: VideoModel) -> tuple[str, ...]:
-    """Parts of a model that may lie in folders of their own."""
-    return (CONTROL_PART,) if model.control_revision else ()
+    """Parts of a model that may lie in folders of their own, or are not needed."""
+    return (*((CONTROL_PART,) if model.control_revision else ()), *model.unused)
 
 
 def find_network(repo: str, revision: str, announce: Callable[[str], None]) -> Path:
@@ -127,12 +127,15 @@ def describe_terms(model: VideoModel) -> str:
 
 
 def _download(model: VideoModel) -> Path:
+    from texvent.generation.diffusers_models.modular import MODULAR
+
     diffusers = require("diffusers", extra=EXTRA)
     errors = require("huggingface_hub.errors", extra=EXTRA)
     try:
         with _without_warnings():
             # The class knows which files are needed; an index may name one of another library.
-            pipeline = getattr(diffusers, model.pipeline or "", diffusers.DiffusionPipeline)
+            name = model.pipeline or ""
+            pipeline = MODULAR.get(name) or getattr(diffusers, name, diffusers.DiffusionPipeline)
             return Path(
                 pipeline.download(model.repo, revision=model.revision, use_safetensors=True)
             )
@@ -208,7 +211,8 @@ def check_weight_files(folder: Path, elsewhere_parts: Collection[str] = ()) -> N
     """
     index = read_pipeline_index(folder)
     for part, entry in index.items():
-        is_part = isinstance(entry, list) and len(entry) == 2 and entry[0] is not None
+        # Modular pipelines have a third value: where else the part may be.
+        is_part = isinstance(entry, list) and len(entry) in (2, 3) and entry[0] is not None
         elsewhere = part == "safety_checker" or part in elsewhere_parts
         if not part.startswith("_") and is_part and not elsewhere:
             _check_part(folder / part, str(entry[1]))

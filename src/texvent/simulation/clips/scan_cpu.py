@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,7 +38,7 @@ class _Pixels(NamedTuple):
     fired_us: NDArray[np.int64]
 
 
-class _Found(NamedTuple):
+class FoundEvents(NamedTuple):
     """Room for the events of a window."""
 
     pixel: NDArray[np.int64]
@@ -45,7 +46,7 @@ class _Found(NamedTuple):
     sign: NDArray[np.int64]
 
 
-class _Made(NamedTuple):
+class MadeArrays(NamedTuple):
     """Outputs of one clip, by window; without rows where not asked for."""
 
     grids: NDArray[np.float32]
@@ -64,21 +65,43 @@ def simulate_on_cpu(
     Returns:
         NumPy arrays.
     """
-    count, _, height, width = frames.shape
-    windows, area = (frames.shape[1] - 1) // outputs.intervals_per_window, height * width
-    shape = (count, windows, outputs.bins, area)
-    grids = np.zeros(shape if outputs.grids else (count, 0, 1, 1), np.float32)
-    pairs = (count, windows, 2, area)
-    counts = np.zeros(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
-    latest = np.full(pairs if outputs.latest else (count, 0, 1, 1), -1, np.int32)
+    width, area = frames.shape[3], frames.shape[2] * frames.shape[3]
 
-    def run(clip: int) -> NDArray[np.int64]:
-        made = _Made(grids[clip], counts[clip], latest[clip])
+    def run(clip: int, made: MadeArrays) -> NDArray[np.int64]:
         of_clip = clips.numbers[clip], clips.keys[clip], clips.brightness
         pixel = frames[clip].reshape(-1, area)
         return _run_clip(pixel, times_us[clip], width, of_clip, outputs, made)
 
-    words = run_parts(run, range(count))
+    return make_arrays(frames.shape, outputs, run)
+
+
+def make_arrays(
+    shape: tuple[int, ...],
+    outputs: ClipOutputs,
+    run: Callable[[int, MadeArrays], NDArray[np.int64]],
+) -> ClipArrays:
+    """Arrays of clips, each filled in by a thread.
+
+    Args:
+        shape: of the frames, [B, T + 1, H, W].
+        outputs: what is made.
+        run: fills in what is made of a clip, and returns its events as words, where asked for.
+
+    Returns:
+        NumPy arrays.
+    """
+    count, _, height, width = shape
+    windows, area = (shape[1] - 1) // outputs.intervals_per_window, height * width
+    of_grids = (count, windows, outputs.bins, area)
+    grids = np.zeros(of_grids if outputs.grids else (count, 0, 1, 1), np.float32)
+    pairs = (count, windows, 2, area)
+    counts = np.zeros(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
+    latest = np.full(pairs if outputs.latest else (count, 0, 1, 1), -1, np.int32)
+
+    def run_clip(clip: int) -> NDArray[np.int64]:
+        return run(clip, MadeArrays(grids[clip], counts[clip], latest[clip]))
+
+    words = run_parts(run_clip, range(count))
     ends = np.cumsum([len(one) for one in words])
 
     def shaped(array: NDArray[Any], *, is_asked: bool) -> NDArray[Any] | None:
@@ -99,7 +122,7 @@ def _run_clip(
     width: int,
     clip: tuple[Float64Array, np.uint64, Float64Array],
     outputs: ClipOutputs,
-    made: _Made,
+    made: MadeArrays,
 ) -> NDArray[np.int64]:
     """Fill in what is made of a clip, [T + 1, area]; its events as words, where asked for."""
     area, per = frames.shape[1], outputs.intervals_per_window
@@ -111,13 +134,20 @@ def _run_clip(
             room = _room(2 * len(room.pixel))
         if outputs.events:
             pixel, t_us, sign = (column[:total] for column in room)
-            words.append(np.sort((t_us * area + pixel) << 1 | (sign > 0)))
-        _spread(room, total, int(times_us[first]), first // per, made, sums)
+            words.append(words_of(pixel, t_us, sign > 0, area))
+        spread_events(room, total, int(times_us[first]), first // per, made, sums)
     return np.concatenate(words)
 
 
-def _room(size: int) -> _Found:
-    return _Found(*(np.empty(size, np.int64) for _ in _Found._fields))
+def words_of(
+    pixel: NDArray[np.int64], t_us: NDArray[np.int64], is_on: NDArray[Any], area: int
+) -> NDArray[np.int64]:
+    """Events of a window as sorted words; see `pixels.ClipArrays`."""
+    return np.sort((t_us * area + pixel) << 1 | is_on)
+
+
+def _room(size: int) -> FoundEvents:
+    return FoundEvents(*(np.empty(size, np.int64) for _ in FoundEvents._fields))
 
 
 @jit(inline="always")
@@ -167,7 +197,7 @@ def _scan(
     span: tuple[int, int],
     clip: tuple[Float64Array, np.uint64, Float64Array],
     state: _Pixels,
-    found: _Found,
+    found: FoundEvents,
 ) -> int:
     """Events of a window, not in order; −1, and nothing has moved, where there is no room."""
     numbers, key, table = clip
@@ -231,8 +261,13 @@ def _list_near(
 
 
 @jit(error_model="numpy")
-def _spread(
-    found: _Found, total: int, start_us: int, window: int, made: _Made, sums: NDArray[np.int64]
+def spread_events(
+    found: FoundEvents,
+    total: int,
+    start_us: int,
+    window: int,
+    made: MadeArrays,
+    sums: NDArray[np.int64],
 ) -> None:
     """Add the events of a window to the arrays; `sums`, [area · (bins + 1)], is 0 around it."""
     grids, counts, latest = made
