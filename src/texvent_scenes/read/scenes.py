@@ -27,9 +27,9 @@ from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
-_WATERS = ("sea", "lake", "river")
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
+_WATERS = frozenset({"sea", "lake", "river"})
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -383,8 +383,8 @@ class _SentenceReader:
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
         place = PLACES[draft.parts["place"]["name"]]
-        names = [one.value for head in heads for one in head.all("place")]
-        on_foot = any(map(draft.keeps_to_ground, subjects)) and names[0] in _WATERS
+        names = {one.value for head in heads for one in head.all("place")[:1]}
+        on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
         is_in = on_foot and token.text in ("through", "in", "into")
         if is_in or (token.text == "through" and place.has_shore):
             draft.mark(token, "lost")
