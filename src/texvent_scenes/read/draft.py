@@ -195,6 +195,13 @@ class SceneDraft:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
 
+    def goes_like(self, index: int, other: int) -> bool:
+        """Whether an object goes, and another may go the same way: "drives behind a truck"."""
+        mine, theirs = self.things[index], self.things[other]
+        is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*_MEANS, "move")
+        same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
+        return is_going and same and self.can_go(other) and not theirs["motions"]
+
     def keeps_to_ground(self, index: int) -> bool:
         """Whether an object goes on the ground, and does nothing in the air or in water now."""
         thing = self.things[index]

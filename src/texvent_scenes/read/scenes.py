@@ -417,6 +417,13 @@ class _SentenceReader:
             if target["noun"] not in word_set("things", "ways"):
                 return False  # "kicks a ball over a fence"
             kind = "on"
+        elif kind == "behind" and draft.goes_like(index, targets[0]):
+            if "end_pace" in thing["motions"][0]:
+                return False  # who brakes keeps no pace with another
+            kind = "follow"
+        ridden = [one["to"][0] for one in thing["relations"] if one["kind"] == "ride"]
+        if ridden and kind in word_set("things", "passed") | {"through", "follow"}:
+            return draft.relate(ridden[0], kind, targets)
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
