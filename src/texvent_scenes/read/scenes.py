@@ -395,39 +395,37 @@ class _SentenceReader:
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
-        thing, target = draft.things[index], draft.things[targets[0]]
-        is_table = kind == "with" and thing["noun"] in word_set("things", "tables")
-        if (
-            is_table
-            and not self._draft.can_go(targets[0])
-            and target["noun"] not in nouns_with("seat")
-        ):
-            return all([draft.relate(one, "on", [index]) for one in targets])
-        if kind == "with" and target["noun"] in nouns_with("towering"):
-            return True  # it stands in the distance
-        if kind == "with" and not any(map(self._draft.can_go, (index, *targets))):
-            return False  # "a vase with roses", "a disc with a dot"
-        if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
-            if thing["noun"] not in PERSON_NOUNS:
-                return False
-            kind = "wear"
-        elif kind == "at" and target["noun"] not in word_set("things", "tables"):
-            kind = "beside"
-        elif kind == "above" and draft.keeps_to_ground(index):
-            if target["noun"] not in word_set("things", "ways"):
-                return False  # "kicks a ball over a fence"
-            kind = "on"
-        elif kind == "behind" and draft.goes_like(index, targets[0]):
-            if "end_pace" in thing["motions"][0]:
-                return False  # who brakes keeps no pace with another
-            kind = "follow"
+        thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+        if kind == "with":
+            is_table = thing["noun"] in word_set("things", "tables")
+            if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
+                return all([draft.relate(one, "on", [index]) for one in targets])
+            if noun in nouns_with("towering"):
+                return True  # it stands in the distance
+            if not any(map(draft.can_go, (index, *targets))):
+                return False  # "a vase with roses", "a disc with a dot"
+        kind = self._choose_relation(kind, index, targets[0])
+        sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", sat_at[0]) for one in targets])
         ridden = [one["to"][0] for one in thing["relations"] if one["kind"] == "ride"]
         if ridden and kind in word_set("things", "passed") | {"through", "follow"}:
             return draft.relate(ridden[0], kind, targets)
-        sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        if sat_at and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
-            return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-        return draft.relate(index, kind, targets)
+        return bool(kind) and draft.relate(index, kind, targets)
+
+    def _choose_relation(self, kind: str, index: int, other: int) -> str:
+        """The relation that is meant, which depends on what stands in it; "" = none."""
+        draft = self._draft
+        thing, noun = draft.things[index], draft.things[other]["noun"]
+        if noun in word_set("things", "worn") and kind in ("in", "with"):
+            return "wear" if thing["noun"] in PERSON_NOUNS else ""
+        if kind == "at" and noun not in word_set("things", "tables"):
+            return "beside"
+        if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
+            return "on" if noun in word_set("things", "ways") else ""
+        if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
+            return "" if "end_pace" in thing["motions"][0] else "follow"
+        return kind
 
     # The camera
 
