@@ -139,7 +139,7 @@ class _SentenceReader:
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
     ) -> list[int]:
-        """Objects that are there: of "a cup on a plate on a table" the plate, "next to" one both."""
+        """Objects of a phrase: of "a cup on a plate on a table" the plate, "next to" one both."""
         draft = self._draft
         kind, before = (str(one and one.value) for one in
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
