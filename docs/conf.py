@@ -25,6 +25,7 @@ os.environ.update(TTY_COMPATIBLE="0", NO_COLOR="1", COLUMNS="90")
 
 import camera_tables  # noqa: E402 - docs/site is on the path only now
 import making  # noqa: E402
+import scene_pictures  # noqa: E402
 
 project = "texvent"
 author = "The texvent authors"
@@ -146,6 +147,8 @@ def adapt_page(_: Sphinx, page: str, source: list[str]) -> None:
         text += unlisted(text)
     if page == "simulators/cameras":
         text = camera_tables.with_tables(text)
+    if page == "site/scene-pictures":
+        text += "\n".join(scene_pictures.cards())
     if CHILDREN.get(page):
         names = "\n".join(f"/{child}" for child in CHILDREN[page])
         text += f"\n```{{toctree}}\n:hidden:\n\n{names}\n```\n"

@@ -1,4 +1,4 @@
-"""Parts of the site that the repository does not hold: a film, plots, and pages of tables.
+"""Parts of the site that the repository does not hold: a film, plots, pictures, pages of tables.
 
 Sphinx calls `make_all` before it reads pages. Files newer than their sources are kept.
 """
@@ -26,14 +26,16 @@ BENCHMARKS = {
 
 
 def make_all(folder: Path) -> None:
-    """Make the film of the start page and plots, in a folder; pages of results and licences."""
+    """Make the film, plots and pictures of scenes, in a folder; pages of results and licences."""
     matplotlib.use("agg")
     import film
     import plots
+    import scene_pictures
 
     (folder / "static").mkdir(parents=True, exist_ok=True)
     film.make_film(folder / "static")
     plots.make_plots(folder)
+    scene_pictures.make_pictures(folder)
     make_result_pages()
     make_licences()
 

@@ -55,6 +55,11 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    for one in description.objects:
+        first = next((each.kind for each in one.motions if each.kind != "stand"), "")
+        is_late = bool(one.motions) and (one.motions[0].kind == "stand" or one.motions[0].start_s)
+        if first == "fall" and is_late and one.noun not in nouns_with("falls over"):
+            description = _note(description, f"the {one.noun} is held in the air until it falls")
     if not _has_motion(description, nouns):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))

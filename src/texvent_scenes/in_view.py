@@ -131,6 +131,8 @@ def _list_departures(
         if inside[0] and not inside[-1] and one.noun.name not in told:
             last_s = times[len(inside) - 1 - inside[::-1].index(True)]
             yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
+        elif 0 < sum(inside) < 0.5 * len(inside) and one.noun.name not in told:
+            yield f"the {one.noun.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
 
 
 def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:

@@ -72,6 +72,9 @@ class _Parser(GroupReader):
             self._take()
             if word == "," and clause.verb is not None and self._goes_on(clause.verb):
                 return Clause(about="same")
+            is_doing = self._token().verbs("ing") and not self._token(1).has("noun")
+            if word == "," and clause.verb is not None and is_doing:  # "sits, reading"
+                return Clause(about="meanwhile")
             is_list = clause.subjects and not (clause.verb or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
@@ -181,8 +184,9 @@ class _Parser(GroupReader):
     def _is_verb(self, clause: Clause) -> bool:
         """Whether the token is its verb: a bare form needs several subjects, a noun one before."""
         token = self._token()
-        forms = {one.form for one in token.all("verb")}
-        if not forms or (forms == {"base"} and not clause.is_plural):
+        forms, before = {one.form for one in token.all("verb")}, self._token(-1).text
+        is_open = clause.is_plural or (before == "to" and self._token(-2).has("style"))
+        if not forms or (forms == {"base"} and not is_open):  # "starts to spin"
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
             return clause.has_subject
@@ -203,7 +207,9 @@ class _Parser(GroupReader):
         self._at += 1 + is_back
         if token.text in _IS:  # "the ball is red"
             group = self._group()
-            said = (Phrase(token, (group,)),) if group.head else group.unknown
+            is_word = group.head is None or group.head.has("scene")  # "wet"
+            words = (*group.modifiers, *group.unknown, *([group.head] if group.head else []))
+            said = words if is_word else (Phrase(token, (group,)),)
             return replace(clause, after=(*clause.after, *said))
         phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))

@@ -134,6 +134,8 @@ class SceneDraft:
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
     """Fields of the camera, the light and the place."""
+    _left: list[int] = field(default_factory=list)
+    """Object from which one was parted last."""
     _fates: dict[int, str] = field(default_factory=dict)
     """Number of a token → "lost", "shown", or the noun that it is shown as."""
 
@@ -167,8 +169,10 @@ class SceneDraft:
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
 
-    def set_scene(self, token: Token) -> bool:
-        """Apply a word of light, weather, place or camera, wherever it stands."""
+    def set_scene(self, token: Token, things: Sequence[Any] = ()) -> bool:
+        """Apply a word of light, weather, place or camera; of things, "wet" is theirs alone."""
+        if things and token.text in word_set("things", "own"):
+            return False
         for sense in token.all("shot"):
             self.add_move(split_move(sense.value))
         for part, name, value in (sense.value for sense in token.all("scene")):
@@ -187,11 +191,22 @@ class SceneDraft:
         """Whether an object can go from place to place by itself."""
         return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
 
+    def walks(self, index: int) -> bool:
+        """Whether an object is a person or an animal on feet."""
+        return self.nouns[self.things[index]["noun"]].motion == "walk"
+
+    def goes_like(self, index: int, other: int) -> bool:
+        """Whether an object goes, and another may go the same way: "drives behind a truck"."""
+        mine, theirs = self.things[index], self.things[other]
+        is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*_MEANS, "move")
+        same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
+        return is_going and same and self.can_go(other) and not theirs["motions"]
+
     def keeps_to_ground(self, index: int) -> bool:
-        """Whether an object goes on the ground, and does nothing in the air now."""
+        """Whether an object goes on the ground, and does nothing in the air or in water now."""
         thing = self.things[index]
-        in_air = {one["kind"] for one in thing["motions"]} & word_set("things", "in_air")
-        return self.nouns[thing["noun"]].motion in ("walk", "drive") and not in_air
+        free = {one["kind"] for one in thing["motions"]} & word_set("things", "off_ground")
+        return self.nouns[thing["noun"]].motion in ("walk", "drive") and not free
 
     def say_field(self, token: Token, said: Sense, index: int) -> None:
         """Set a field of an object; of a speed also the one that it reaches: "brakes to 2 m/s"."""
@@ -210,17 +225,40 @@ class SceneDraft:
             set_field(self.things[index], "adverb", "direction", sides[number % len(sides)])
         return not is_one
 
+    def _part(self, own: int, count: int) -> dict[str, Any]:
+        """Make some of an object's copies an object of their own, the last one."""
+        first, other = self.things[own], len(self.things)
+        part = {**deepcopy(first), "count": count}
+        first["count"] -= count
+        for one in self.things:  # "and collide": with each other
+            for relation in one["relations"]:
+                new = (other,) if one is first else (own, other)
+                relation["to"] = tuple(
+                    index for to in relation["to"] for index in (new if to == own else (to,))
+                )
+        self.things += [part] if count else []
+        return part
+
     def _halve(self, own: int) -> None:
         """Lead halves of an object's copies to the right and to the left."""
-        first, other = self.things[own], len(self.things)
-        half = {**deepcopy(first), "count": first["count"] // 2}
-        first["count"] -= half["count"]
-        for relation in first["relations"]:  # "and collide": with each other
-            relation["to"] = tuple(other if one == own else one for one in relation["to"])
-        for thing, side in ((first, "right"), (half, "left")):
+        for thing, side in (
+            (self._part(own, self.things[own]["count"] // 2), "left"), (self.things[own], "right")
+        ):  # fmt: skip
             for motion in thing["motions"]:
                 motion |= {"direction": side} if motion.get("direction") == _OPPOSITE else {}
-        self.things += [half] if half["count"] else []
+
+    def pick(self, word: str) -> list[int]:
+        """Part one from the last object of several copies; or what was left of them."""
+        many = [n for n, one in enumerate(self.things) if one["count"] > 1][-1:]
+        if word not in ("one", "another") or not many:
+            return self._left
+        self._left, (own,) = many, many
+        if any(one.get("direction") == _OPPOSITE for one in self.things[own]["motions"]):
+            self._halve(own)
+            own = len(self.things) - 1
+        if self.things[own]["count"] > 1:
+            self._part(own, 1)
+        return [len(self.things) - 1]
 
     def fits(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
@@ -244,6 +282,9 @@ class SceneDraft:
             case "source" | "lamp":
                 return not has_object and not is_acting
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
+        if goes_on and any(self.nouns[one].is_working for one in names):
+            return False
         if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:

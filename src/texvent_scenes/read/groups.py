@@ -44,6 +44,13 @@ class Group:
         return next(iter(fitting or senses), None)
 
     @property
+    def picks(self) -> str:
+        """As "one" of several things that are named before, "other", or ""."""
+        is_count = any(count > 1 for one in self.unknown for count in _counts(one))
+        words = [one.text for one in self.unknown if self.head is None and not is_count]
+        return next((one for one in ("other", "others", "one", "another") if one in words), "")
+
+    @property
     def is_bare(self) -> bool:
         """Whether it is a noun alone, as in headlines: "fast ball"."""
         is_counted = any(_counts(one) for one in self.modifiers)
@@ -163,6 +170,7 @@ class GroupReader:
         is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
         is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
         is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
+        is_word = is_word and not self._token(1).has("articles")  # "a table outside a cafe"
         return (is_head or is_word) and not is_many
 
     def _agrees(self, article: str, first: int) -> bool:

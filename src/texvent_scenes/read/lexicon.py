@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cache
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -226,9 +227,10 @@ MAX_COUNT = 24
 _RANGES = {"speed_m_s": (0.0, 1000.0)}
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
-_NUMBER = r"(?:(?<!\S)[-−])?(?:\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+_NUMBER = r"(?:(?<!\S)[-−])?(?:\d+ ?[/⁄] ?[1-9]\d*|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
+_SIGNS = str.maketrans("−⁄", "-/")
 
 
 @dataclass(frozen=True)
@@ -362,8 +364,8 @@ def _without_chance(
 
 
 def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
-    """A number of things, or a speed or frequency with its unit, in the range of scenes."""
-    number = float(words[at].replace(",", "").replace("−", "-"))
+    """A number of things, or a speed or frequency with its unit ("1/2 Hz"), in range."""
+    number = float(Fraction(re.sub("[ ,]", "", words[at]).translate(_SIGNS)))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
         for sense in lexicon.get(unit, ()):
@@ -374,4 +376,4 @@ def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int
                 said = Sense("adverb", (field, number * factor))
                 return 1 + length, (said,) if is_shown else ()
     count = Sense("field", ("count", max(1, min(round(number), MAX_COUNT))))
-    return 1, (count,) if number >= 0.0 else ()
+    return 1, (count,) if number >= 0.0 and number.is_integer() else ()

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
@@ -14,14 +14,22 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, VerbSense, lexicon_of, split_prompt, word_set
-from texvent_scenes.spec.data import PLACING
+from texvent_scenes.read.lexicon import (
+    NO_TOKEN,
+    Token,
+    VerbSense,
+    lexicon_of,
+    split_prompt,
+    word_set,
+)
+from texvent_scenes.spec.data import PLACING, SPACED
 from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
+_WATERS = frozenset({"sea", "lake", "river"})
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -116,17 +124,34 @@ class _SentenceReader:
         told: list[int],
     ) -> None:  # fmt: skip
         """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
+        last = NO_TOKEN
         for one in after:
             if isinstance(one, Phrase):
-                sense, things = one.preposition.first("relation"), self._draft.things
-                kinds = {each["kind"] for index in subjects for each in things[index]["relations"]}
-                is_next = sense is not None and sense.value in (kinds if subjects else PLACING)
-                told = self._relate(one, told if is_next else subjects, moved) or moved
-            elif not self._draft.set_scene(one):
+                who = self._choose_placed(one, last, subjects, told)
+                told = self._relate(one, who, moved) or moved
+                last = one.preposition
+            elif not self._draft.set_scene(one, told):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
+
+    def _choose_placed(
+        self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
+    ) -> list[int]:
+        """Objects of a phrase: of "a cup on a plate on a table" the plate, "next to" one both."""
+        draft = self._draft
+        kind, before = (str(one and one.value) for one in
+                        (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
+        kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
+        if kind in (kinds if subjects else PLACING):
+            return told
+        if all(one.head and names_place(one.head, kind) for one in phrase.groups):
+            return subjects
+        if kind in ("on", "in") and before in SPACED:
+            like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
+            return [*dict.fromkeys((*like, *told))]
+        return told if kind in PLACING and before in word_set("things", "passed") else subjects
 
     def _turn_passive(
         self, clause: Clause, subjects: list[int], objects: list[int]
@@ -150,7 +175,9 @@ class _SentenceReader:
             going = [one for one in self._nearest if self._draft.can_go(one)]
             return next(filter(None, (*able, going)), self._subjects)
         if clause.subjects:
-            return [index for group in clause.subjects for index in self._name(group)]
+            named = [self._pick(group) or self._name(group) for group in clause.subjects]
+            picked = [one for one, group in zip(named, clause.subjects, strict=True) if group.picks]
+            return [index for one in (picked if any(picked) else named) for index in one]
         return self._nearest if clause.about == "nearest" else self._subjects
 
     def _is_able(self, clause: Clause, index: int) -> bool:
@@ -162,6 +189,17 @@ class _SentenceReader:
         return any(is_lamp or one.who != "lamp" for one in fitting)
 
     # Noun groups
+
+    def _pick(self, group: Group) -> list[int]:
+        """One of several things, or the others: "two dogs, a brown one and a white one"."""
+        draft = self._draft
+        if group.of is not None and group.picks:  # "one of the dogs"
+            self._name(group.of.groups[0])
+        picked = draft.pick(group.picks) if group.picks else []
+        for token in group.unknown if picked else ():
+            self._say(token, picked)
+            draft.show(*([token] if token.text == group.picks else []))
+        return picked
 
     def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
         """Add what a group names; the indices of its objects, at most one."""
@@ -252,7 +290,7 @@ class _SentenceReader:
             for index in subjects:
                 draft.say_field(token, said, index)
         else:
-            if not self._draft.set_scene(token) and things and token.verbs("ing", "ed"):
+            if not self._draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
@@ -287,7 +325,12 @@ class _SentenceReader:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
         if act.who not in ("source", "lamp"):
+            before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
+            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in DONE_SEATED
+            is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
+            if is_later and before and not is_seated:
+                self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
         elif thing["noun"] not in word_set("things", "flames"):
             if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ
@@ -319,7 +362,7 @@ class _SentenceReader:
         if not targets:
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
-                self._go_to_place(token, subjects or self._nearest, moved)
+                self._go_to_place(token, heads, subjects or self._nearest, moved)
             elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
@@ -331,14 +374,19 @@ class _SentenceReader:
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
 
-    def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
-        """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
+    def _go_to_place(
+        self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]
+    ) -> None:
+        """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
         draft = self._draft
         for index in moved if token.text == "across" else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
         place = PLACES[draft.parts["place"]["name"]]
-        if token.text == "through" and place.has_shore:
+        names = {one.value for head in heads for one in head.all("place")[:1]}
+        on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
+        is_in = on_foot and token.text in ("through", "in", "into")
+        if is_in or (token.text == "through" and place.has_shore):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
@@ -347,32 +395,37 @@ class _SentenceReader:
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
-        thing, target = draft.things[index], draft.things[targets[0]]
-        is_table = kind == "with" and thing["noun"] in word_set("things", "tables")
-        if (
-            is_table
-            and not self._draft.can_go(targets[0])
-            and target["noun"] not in nouns_with("seat")
-        ):
-            return all([draft.relate(one, "on", [index]) for one in targets])
-        if kind == "with" and target["noun"] in nouns_with("towering"):
-            return True  # it stands in the distance
-        if kind == "with" and not any(map(self._draft.can_go, (index, *targets))):
-            return False  # "a vase with roses", "a disc with a dot"
-        if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
-            if thing["noun"] not in PERSON_NOUNS:
-                return False
-            kind = "wear"
-        elif kind == "at" and target["noun"] not in word_set("things", "tables"):
-            kind = "beside"
-        elif kind == "above" and draft.keeps_to_ground(index):
-            if target["noun"] not in word_set("things", "ways"):
-                return False  # "kicks a ball over a fence"
-            kind = "on"
+        thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+        if kind == "with":
+            is_table = thing["noun"] in word_set("things", "tables")
+            if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
+                return all([draft.relate(one, "on", [index]) for one in targets])
+            if noun in nouns_with("towering"):
+                return True  # it stands in the distance
+            if not any(map(draft.can_go, (index, *targets))):
+                return False  # "a vase with roses", "a disc with a dot"
+        kind = self._choose_relation(kind, index, targets[0])
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        if sat_at and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
+        if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-        return draft.relate(index, kind, targets)
+        ridden = [one["to"][0] for one in thing["relations"] if one["kind"] == "ride"]
+        if ridden and kind in word_set("things", "passed") | {"through", "follow"}:
+            return draft.relate(ridden[0], kind, targets)
+        return bool(kind) and draft.relate(index, kind, targets)
+
+    def _choose_relation(self, kind: str, index: int, other: int) -> str:
+        """The relation that is meant, which depends on what stands in it; "" = none."""
+        draft = self._draft
+        thing, noun = draft.things[index], draft.things[other]["noun"]
+        if noun in word_set("things", "worn") and kind in ("in", "with"):
+            return "wear" if thing["noun"] in PERSON_NOUNS else ""
+        if kind == "at" and noun not in word_set("things", "tables"):
+            return "beside"
+        if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
+            return "on" if noun in word_set("things", "ways") else ""
+        if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
+            return "" if "end_pace" in thing["motions"][0] else "follow"
+        return kind
 
     # The camera
 

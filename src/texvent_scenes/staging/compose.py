@@ -223,7 +223,10 @@ def _scatter_all(
         rails = (rule for rule in PLACES["railway"].scenery if rule.is_structure)
         rules.extend(rails if is_outside and PLACES[place].ground is not Ground.NONE else ())
     for backdrop in surroundings.backdrops:
-        rules.extend(PLACES[backdrop].scenery)
+        own = PLACES[backdrop].scenery
+        far = [rule for rule in own if rule.where == "far"]
+        # What stands before the mountains on land would stand in the sea.
+        rules.extend(far if far and PLACES[place].ground is Ground.SEA else own)
     return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
 
 

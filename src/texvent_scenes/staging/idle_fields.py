@@ -167,7 +167,7 @@ def list_idle(scene: Scene, decided: Scene, nouns: Mapping[str, Noun]) -> Iterat
 
 
 def leave_out(scene: Scene, idle: Iterable[Idle]) -> Scene:
-    """The scene without these fields; a motion that a noun does not do is rest."""
+    """The scene without these fields; a motion that a noun does not do is rest, if it can rest."""
     data = scene_to_data(scene)
     for path in (one.path for one in idle):
         *way, last = steps_of(path)
@@ -176,10 +176,14 @@ def leave_out(scene: Scene, idle: Iterable[Idle]) -> Scene:
             place = place[step]
         if last == "kind":
             kept = {name: place[name] for name in ("start_s",) if name in place}
+            rest = {} if place["kind"] in RESTS else {"kind": "stand", **kept}
             place.clear()
-            place |= {"kind": "stand", **kept}
+            place |= rest
         else:
             place.pop(last, None)
+    for one in data.get("objects", ()):
+        if "motions" in one:
+            one["motions"] = [motion for motion in one["motions"] if motion]
     return scene_from_data(data)
 
 

@@ -262,3 +262,15 @@ def test_a_board_tilts_then_rotates_at_the_rate_that_is_said():
     assert max(abs(board.track.at(t).pitch) for t in np.linspace(0.0, 1.0, 21)) > 0.35
     turned = board.track.at(1.9).yaw - board.track.at(1.5).yaw
     assert abs(turned) == pytest.approx(2.0 * math.pi * 0.5 * 0.4, rel=1e-3)
+
+
+def test_a_rest_that_changes_nothing_is_left_out_of_a_sentence():
+    described = understand("a fan spins, then waits", NOUNS)
+    assert [one.kind for one in described.objects[0].motions] == ["work"]
+    assert "waits" not in described.words.shown
+
+
+def test_what_waits_before_it_falls_is_said_to_hang_in_the_air():
+    note = "the ball is held in the air until it falls"
+    assert note in understand("a ball falls after 0.5 seconds", NOUNS).notes
+    assert note not in understand("a ball falls", NOUNS).notes

@@ -160,6 +160,31 @@ def test_a_rolling_ball_does_not_slide():
     np.testing.assert_allclose(after[:, :3] @ lowest + after[:, 3], foot, atol=1e-9)
 
 
+@pytest.mark.parametrize("noun", ["box", "cube", "man", "bottle", "tower"])
+@pytest.mark.parametrize("said", [("topple",), ("move", "topple")])
+def test_what_falls_over_turns_on_its_edge_and_lies_on_the_ground(noun, said):
+    (actor,) = stage(thing(noun, *((kind,) for kind in said))).actors
+    lows = np.array([actor.corners(time_s)[:, 2].min() for time_s in TIMES_S])
+    sinks_m = 0.5 * actor.model.length if noun == "tower" else 0.02 * actor.model.height
+    assert np.abs(lows).max() <= sinks_m + 1e-6
+    assert actor.corners(2.0)[:, 2].max() < 1.1 * max(actor.model.length, actor.model.width)
+
+
+@pytest.mark.parametrize("noun", ["ball", "car", "book", "cat"])
+def test_what_is_low_or_round_does_not_fall_from_the_ground(noun):
+    states = [path_of(Motion("move"), Motion("fall"), noun=noun).at(t) for t in (0.0, 3.0, 4.0)]
+    assert {(one.position[2], one.pitch) for one in states} == {(0.0, 0.0)}
+
+
+@pytest.mark.parametrize(("seat", "posture"), [(None, "sit on ground"), ("chair", "sit")])
+@pytest.mark.parametrize("act", ["read", "drink", "wave"])
+def test_who_sits_goes_on_sitting_while_acting(seat, posture, act):
+    bodies = (thing("man", ("sit",), (act,)), *((thing(seat, ("stand",)),) if seat else ()))
+    man = stage(*bodies, relations=(("on", 0, 1),) if seat else ()).actors[0]
+    assert {man.pose(t).activity.partition(" and ")[0] for t in TIMES_S} == {posture}
+    assert man.pose(1.9).activity == f"{posture} and {act}"
+
+
 @pytest.mark.parametrize(
     ("rounds", "height"),
     [(0.5, 0.75), (1.0, 0.0), (1.8, 0.64), (1.0 + 1.6 + 0.64, 0.64**2), (200.0, 0.0)],

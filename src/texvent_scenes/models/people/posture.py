@@ -14,7 +14,6 @@ from functools import cache
 
 from texvent_scenes.models.activities import (
     ACTIVITIES,
-    SEATED,
     SINGLE_ACTS,
     USUAL,
     ChannelTrack,
@@ -156,9 +155,10 @@ def _act(pose: Pose, *, runs: bool) -> Values:
     amount = 0.0 if activity.startswith("sit") else step_amount(activity, pose.speed_m_s, 0.5)
     base = step(RUN if is_fast else WALK, pose.distance_m, amount)
     act_s = pose.act_s if activity in SINGLE_ACTS else None
-    if activity.startswith(SEATED):
-        base = {**fill(find_posture("sit", pose.time_s) or {}, base), "look": (0.0,)}
-        activity = activity.removeprefix(SEATED)
+    seat, is_seated, doing = activity.partition(" and ")
+    if is_seated:  # "sit on ground and read"
+        base = {**fill(find_posture(seat, pose.time_s) or {}, base), "look": (0.0,)}
+        activity = doing
     time_s = (pose.act_s or 0.0) if activity == "jump" else pose.time_s
     posture = fill(find_posture(activity, time_s, act_s) or {}, base)
     if act_s is not None and amount > 0.0:

@@ -111,6 +111,10 @@ def _fly_off(
     return Track(start.position, home.yaw, keys, terms, floor_m=floor, pivot_m=start.pivot_m)
 
 
+_RAISED_M, _LEAST_ROOM_M = 0.02, 0.02
+"""Height from which on a body stands on another one; the least way to a contact there, m."""
+
+
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """Both come from left and right and touch at one instant; what is fixed stays.
 
@@ -162,9 +166,12 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
 
 
 def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Track:
-    """Along the ground to where it touches, and a little back."""
+    """Along the ground to where it touches, and a little back; on a table from its place there."""
     length = actor.model.length
     speed = actor.noun.speed_m_s or length / contact_s
+    if touching[2] > _RAISED_M and actor.noun.habitat in ("ground", "fixed"):
+        room_m = math.dist(actor.track.at(0.0).position[:2], touching[:2])
+        speed = min(speed, max(room_m, _LEAST_ROOM_M) / contact_s)
     back = speed * _REBOUND.get(actor.noun.motion, 0.0)
     keys = (
         Key(0.0, speed),

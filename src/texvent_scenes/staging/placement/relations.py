@@ -273,9 +273,12 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     if support.high[0] > support.low[0] and target.noun.name not in nouns_with("sat on"):
         x = max(x, support.high[0] - _FRONT_M * scale)
     kind = group.plan.motion.kind
-    doing = SEATED + kind if kind in DONE_SEATED else "sit"
+    done = {one.kind for one in group.scene_object.motions} & DONE_SEATED
+    doing = SEATED + min(done) if done else "sit"
     doing = kind if kind in TO_AND_FROM_SEATS else doing
     group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
+    if done:
+        group.plan = replace(group.plan, path=None)
     group.fit()
     return target.to_world(x, y, support.height - SEAT * scale)
 

@@ -50,7 +50,7 @@ def list_orphans(description: SceneDescription) -> Iterator[int]:
     bound = {n for one in description.relations if one.kind != "with"
              for n in (one.subject, *one.targets)}  # fmt: skip
     bound |= {n for n in (description.index(description.camera.target),) if n is not None}
-    if not any(one.noun in PERSON_NOUNS for one in objects):
+    if not any(one.noun in PERSON_NOUNS | nouns_with("person on a vehicle") for one in objects):
         return
     for number, one in enumerate(objects):
         rests = {motion.kind for motion in one.motions} <= {"stand"}

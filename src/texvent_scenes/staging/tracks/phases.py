@@ -9,8 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
-from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
-from texvent_scenes.models.protocol import Model, Noun
+from texvent_scenes.models.activities import (
+    DONE_SEATED,
+    ON_GROUND,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
+from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
@@ -44,6 +50,8 @@ MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 COMING_DOWN = frozenset({"fall", "bounce", "throw", "sink"})
 """Motions that begin at a height that is said, and lead to the ground."""
+_TIPPING = 0.9
+"""Height over length from which on a body that stands on the ground can fall over."""
 BOUNCY = 0.82
 """Share of its upward speed that a bounce keeps."""
 _RUNNING = 2.5
@@ -171,6 +179,7 @@ def build_path(
         usual_speed_m_s=builder.usual(motions[0]),
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
         pivot_m=builder.pivot_m,
+        edge_m=builder.edge_m,
     )
     return centred(path, duration_s)
 
@@ -223,7 +232,7 @@ class _KeyBuilder:
         self._heading = yaw
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
-        self.pivot_m = 0.0
+        self.pivot_m = self.edge_m = 0.0
         self.initial_height = self._height
 
     def add(self, phase: Phase) -> None:
@@ -410,13 +419,20 @@ class _KeyBuilder:
         self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
 
     def _fall(self, kind: str, span: float) -> None:
-        """Drop to the floor; or what stands there falls over."""
+        """Drop to the floor; what stands there falls over, unless it is low or round."""
         is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
+        is_low = self._model.height < _TIPPING * self._model.length or self._noun.motion == "roll"
+        if kind == "fall" and is_standing and is_low:
+            self._rest(STANDING, span)
+            return
         if kind == "topple" and self._is_first:
             self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
         key = Key(span, activity="stand", restitution=_RESTITUTION)
         if kind == "topple" or is_standing:
+            if self._noun.name not in nouns_with("falls over"):  # those stand on a small foot
+                standing = self._model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+                self.edge_m = float(bounds(standing)[1][0])
             key = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
         self._append(key)
         self._height = 0.0
@@ -427,6 +443,8 @@ class _KeyBuilder:
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
         if not self._is_first:
             activity = _REACHED.get(activity, activity)
+            is_low = last.activity.startswith(("sit", "lie")) and activity in DONE_SEATED
+            activity = f"{ON_GROUND['sit']} and {activity}" if is_low else activity
         if self._noun.name in PERSON_NOUNS:
             activity = ON_GROUND.get(activity, activity)
         if not self._is_first and motion.kind == "stand":

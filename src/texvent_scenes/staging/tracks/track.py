@@ -163,6 +163,8 @@ class Track:
     """Radius at which it rolls without sliding, its middle so high above its origin; 0 = none."""
     pivot_m: float = 0.0
     """`BodyState.pivot_m` of what does not roll."""
+    edge_m: float = 0.0
+    """From its middle to the edge about which it falls over, on which it then lies."""
     is_facing: bool = False
     """Whether it shows its front to the camera all along."""
     anchor: Attachment | None = None
@@ -214,6 +216,7 @@ class Track:
         if key.hop_m > 0.0 and 0.0 <= elapsed <= key.duration_s:
             hop, act_s = hop_of(key, elapsed)
             height += hop
+        height += self.edge_m * abs(math.sin(pitch))
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
         pitch -= math.atan(climb * abs(speed) / (speed**2 + slow**2))
         pitch = now.distance_m / self.radius_m if self.radius_m else pitch

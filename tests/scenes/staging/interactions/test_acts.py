@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, middle, stage
+from tests.scenes.staged import DURATION_S, middle, stage, thing
 
 from texvent_scenes.models.anchors import top_heights
 from texvent_scenes.models.protocol import Pose
@@ -152,3 +152,16 @@ def test_bodies_that_collide_touch_at_one_instant(nouns, moves):
     assert gap(*actors, contact_s - 0.2) > 0.0
     ways = [np.linalg.norm(middle(one, contact_s) - middle(one, 0.0)) for one in actors]
     assert tuple(way > 0.1 for way in ways) == moves
+
+
+def test_what_collides_on_a_table_stays_on_it():
+    cups = thing("cup", ("stand",)), thing("cup", ("stand",))
+    relations = (("collide", 0, 1), ("on", 0, 2), ("on", 1, 2))
+    scene = stage(*cups, thing("table", ("stand",)), relations=relations)
+    *bodies, table = scene.actors
+    low, high = table.corners(0.0).min(axis=0), table.corners(0.0).max(axis=0)
+    for time_s in np.linspace(0.0, 2.0, 9):
+        for one in bodies:
+            at = one.corners(time_s).mean(axis=0)
+            assert np.all((low[:2] <= at[:2]) & (at[:2] <= high[:2]))
+            assert at[2] > high[2]
