@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.transform.recordings import CUTS, packets, streams
 
 from texvent.errors import InputError
@@ -43,7 +44,7 @@ def hundreds(whole):
     return EventPackets(CountedPackets(whole), SIZE, whole.metadata)
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(streams(), CUTS, st.lists(st.integers(-2, 23), min_size=3, max_size=3).map(sorted))
 def test_parts_of_time_put_together_are_the_whole_however_packets_are_cut(events, cuts, times):
     first, middle, last = times

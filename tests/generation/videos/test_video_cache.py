@@ -5,8 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
@@ -62,7 +63,7 @@ def test_a_stored_video_read_as_any_other_video_gives_the_same_frames(tmp_path):
         assert np.array_equal(ours.pixels, theirs.pixels)
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(st.floats(-1, 2, width=32))
 def test_rounding_to_16_bits_clips_and_is_nearest(value):
     levels = to_16_bits(np.full((1, 1, 3), value, np.float32))

@@ -6,8 +6,9 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.camera import project
@@ -70,7 +71,7 @@ def film(*shot, noun="dog", motion=("stand",)):
     return stage(SceneObject(noun, motions=(Motion(*motion),)), camera=Camera(shot))
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(moves, st.sampled_from(["stand", "walk"]))
 def test_every_combination_is_smooth_and_keeps_its_subject(shot, kind):
     scene = film(*shot, motion=(kind,))
