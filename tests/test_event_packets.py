@@ -78,16 +78,6 @@ def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, 
     assert calls[-1] == (COUNT, None, "events")
 
 
-def test_packets_give_an_array_per_slice_of_time(whole, hundreds):
-    arrays = list(hundreds.represent("time-surface", duration_us=10_000))
-    start = int(whole.t[0])
-    assert len(arrays) == 3
-    for number, array in enumerate(arrays):
-        window = (start + number * 10_000, start + (number + 1) * 10_000)
-        part = whole.between(*window)
-        np.testing.assert_array_equal(array, part.represent("time-surface", at_us=window[1]))
-
-
 def test_lazy_packets_are_made_anew_for_each_pass(whole):
     lazy = EventPackets(LazyPackets(lambda: iter([whole])), SIZE)
     assert lazy.collect().equals(whole)

@@ -247,13 +247,7 @@ def ltx(folder):
     )
 
 
-BUILDERS = {
-    "wan": wan,
-    "cosmos": cosmos,
-    "cosmos25": cosmos25,
-    "cogvideox": cogvideox,
-    "ltx": ltx,
-}
+BUILDERS = {"wan": wan, "cosmos": cosmos, "cosmos25": cosmos25, "cogvideox": cogvideox, "ltx": ltx}
 
 
 def save(name: str, folder: Path) -> Path:

@@ -13,12 +13,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning, warnings_to
 from texvent.frames import Video, frame_time_us, transfer_of
-from texvent.generation.videos.stored_video import (
-    reopen,
-    to_16_bits,
-    write_stream,
-    write_video,
-)
+from texvent.generation.videos.stored_video import reopen, to_16_bits, write_stream, write_video
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.io.atomic import is_hidden_part
 from texvent.runtime.work import side_work

@@ -14,16 +14,8 @@ from texvent_scenes.raycast.acceleration import bin_rectangles
 from texvent_scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
 from texvent_scenes.raycast.shading.ground import strip_place
 from texvent_scenes.raycast.shading.material import patch_axes, tile_average
-from texvent_scenes.raycast.shading.value_noise import (
-    box_coverage,
-    square_wave,
-)
-from texvent_scenes.raycast.surfaces.catalogue import (
-    CHANNELS,
-    LEVELS,
-    SURFACES,
-    build_tile,
-)
+from texvent_scenes.raycast.shading.value_noise import box_coverage, square_wave
+from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS, SURFACES, build_tile
 from texvent_scenes.raycast.surfaces.fields import SIDE
 from texvent_scenes.rendered_scene import Ground, Texture
 from texvent_scenes.staging.surroundings.environment import RoadLine

@@ -14,12 +14,7 @@ from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 from texvent.camera import project
 from texvent_scenes.spec.scene import Camera, CameraMove, Motion, MoveKind, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
-from texvent_scenes.staging.camera.framing import (
-    come_near,
-    fit,
-    image_of,
-    measure_prominence,
-)
+from texvent_scenes.staging.camera.framing import come_near, fit, image_of, measure_prominence
 
 ASPECT = 0.75
 SIGNS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])

@@ -82,13 +82,7 @@ def assert_forms_agree(frames, **options) -> EventStream:
 
 
 @examples(150)
-@given(
-    clips(),
-    switches,
-    noises,
-    st.sampled_from([0.01, 0.2, 2.0]),
-    seeds,
-)
+@given(clips(), switches, noises, st.sampled_from([0.01, 0.2, 2.0]), seeds)
 def test_pixels_equal_the_definition(frames, options, noise, threshold, seed):
     options = {"noise": noise, **NOISY, **options}
     assert_forms_agree(frames, contrast_threshold=threshold, seed=seed, **options)
