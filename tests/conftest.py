@@ -43,7 +43,7 @@ sys.path.insert(0, str(Path(__file__).parent / "generation" / "stand_ins"))
 # The first example may compile a kernel, and machines are busy: no property is held to a time.
 UNTIMED = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("quick", UNTIMED, max_examples=50)
-settings.register_profile("brief", UNTIMED, max_examples=20)
+settings.register_profile("brief", UNTIMED, max_examples=12)
 settings.register_profile("few", UNTIMED, max_examples=5)  # of kernels that are not compiled
 settings.register_profile("thorough", UNTIMED, max_examples=1000)
 settings.load_profile("quick")

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.transform.recordings import CUTS, packets, streams
 
 from texvent.errors import InputError
@@ -43,7 +44,7 @@ def hundreds(whole):
     return EventPackets(CountedPackets(whole), SIZE, whole.metadata)
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(streams(), CUTS, st.lists(st.integers(-2, 23), min_size=3, max_size=3).map(sorted))
 def test_parts_of_time_put_together_are_the_whole_however_packets_are_cut(events, cuts, times):
     first, middle, last = times
@@ -75,16 +76,6 @@ def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, 
     assert load(path).metadata["seed"] == 3
     assert calls[0] == (100, None, "events")
     assert calls[-1] == (COUNT, None, "events")
-
-
-def test_packets_give_an_array_per_slice_of_time(whole, hundreds):
-    arrays = list(hundreds.represent("time-surface", duration_us=10_000))
-    start = int(whole.t[0])
-    assert len(arrays) == 3
-    for number, array in enumerate(arrays):
-        window = (start + number * 10_000, start + (number + 1) * 10_000)
-        part = whole.between(*window)
-        np.testing.assert_array_equal(array, part.represent("time-surface", at_us=window[1]))
 
 
 def test_lazy_packets_are_made_anew_for_each_pass(whole):

@@ -5,8 +5,9 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import ConfigError
 from texvent.lens import (
@@ -46,7 +47,7 @@ def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float
 
 @pytest.mark.parametrize("model", DISTORTIONS)
 @given(data=st.data())
-@settings(max_examples=25)
+@examples(25)
 def test_pixels_without_distortion_lie_where_opencv_puts_them(
     model: Distortion, data: st.DataObject
 ) -> None:

@@ -164,7 +164,7 @@ def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
             yield "arguments", source.start(left), source.end(right), new
     before: ast.expr | ast.keyword | None = node.args[-1] if node.args else None
     for one in node.keywords:
-        if one.arg is not None:
+        if one.arg not in (None, "strict"):  # of zip: sizes are those of the code itself
             start = source.end(before) if before else source.start(one)
             end = source.end(one) + (not before and source.data[source.end(one)] == ord(","))
             yield "keyword", start, end, ""

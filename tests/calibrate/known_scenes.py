@@ -39,13 +39,7 @@ def simulate_static(
 
 
 def simulate_flicker(
-    config: PhysicalConfig,
-    size: SensorSize,
-    hz: float,
-    *,
-    ratio: float,
-    number: int,
-    seed: int = 0,
+    config: PhysicalConfig, size: SensorSize, hz: float, *, ratio: float, number: int, seed: int = 0
 ) -> EventStream:
     """Events of a flat field that switches between two brightnesses.
 

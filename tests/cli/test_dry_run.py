@@ -1,16 +1,20 @@
 """`--dry-run`: the first pairs say what the whole run would take."""
 
 from fractions import Fraction
+from itertools import accumulate
 from pathlib import Path
+from unittest import mock
 
 import av
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.dry_run import MOST_PAIRS, estimate_run
+from texvent.cli.dry_run import MOST_PAIRS, MOST_SECONDS, estimate_run
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
@@ -26,6 +30,18 @@ def test_the_first_pairs_are_counted():
     first = texvent.simulate(FRAMES[: MOST_PAIRS + 1], fps=50, **OPTIONS)
     assert f"about {len(first) / MOST_PAIRS * 6:,.0f} events in " in said
     assert "4 of 6 pairs" in said
+
+
+@given(st.lists(st.sampled_from([0.5, 3, 4, 11]), min_size=6, max_size=6))
+def test_no_further_pair_is_begun_after_ten_seconds(seconds):
+    """The first pair, which may compile, does not count for the time of the whole."""
+    ends = [0.0, *accumulate(seconds)]
+    video = Video(FRAMES, [20_000 * i for i in range(len(FRAMES))])
+    with mock.patch("texvent.cli.dry_run.time.perf_counter", side_effect=ends):
+        said = estimate_run(video_to_events(video, resolve("simulate", OPTIONS)))
+    tried = next(n for n, end in enumerate(ends) if n == MOST_PAIRS or end > MOST_SECONDS)
+    usual = seconds[min(1, tried - 1) : tried]
+    assert f" in {6 * sum(usual) / len(usual):,.1f} s ({tried} of 6 pairs" in said
 
 
 def write_images(times_us):

@@ -47,11 +47,7 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
         {**PAPER, "noise": "none"},
         {**PAPER, "noise": "gaussian"},
     ],
-    "esim": [
-        {},
-        {"refractory_period_us": 3000},
-        {"threshold_sigma": 0.05},
-    ],
+    "esim": [{}, {"refractory_period_us": 3000}, {"threshold_sigma": 0.05}],
     "physical": [{}, {"preset": "clean"}, {"sensor": "davis346"}],
     "v2e": [{}, {"preset": "noisy"}],
     "voltmeter": [{}],

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from tests.dataset.conftest import make_set
+from tests.examples import one_of
 
 import texvent.dataset
 from texvent.cli.app import main
@@ -109,7 +110,8 @@ def test_no_text_of_a_received_set_leaves_the_output(
         (tmp_path / name).write_text("mine")
     path, out = folder / document, tmp_path / "a" / "b" / "out"
     tables = json.loads(path.read_text())
-    for place, text in zip(texts(tables), turns, strict=False):
+    places = itertools.islice(texts(tables), 0, None, one_of())
+    for place, text in zip(places, turns, strict=False):
         path.write_text(json.dumps(changed(tables, place, text)))
         out.mkdir(parents=True)
         before = files_beside(tmp_path, out)

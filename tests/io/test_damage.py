@@ -10,8 +10,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
@@ -50,7 +51,8 @@ def test_another_start_time_than_the_one_written_is_refused(tmp_path: Path) -> N
         load(path)
 
 
-@settings(max_examples=120, derandomize=True)
+@pytest.mark.filterwarnings("ignore:.* times, which have no unit")  # without its metadata
+@examples(120, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True), flip=st.integers(1, 255))
 def test_a_flipped_byte_is_refused_or_harmless(sound: Path, share: float, flip: int) -> None:
     content = bytearray(sound.read_bytes())

@@ -96,11 +96,7 @@ def test_event_stream_bytes_count_rows_from_below(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("change", "message"),
-    [
-        ((12, 1), "version 1"),
-        ((15, 2), r"type 2 \(atis\)"),
-        ((15, 9), r"type 9 \(unknown\)"),
-    ],
+    [((12, 1), "version 1"), ((15, 2), r"type 2 \(atis\)"), ((15, 9), r"type 9 \(unknown\)")],
 )
 def test_other_event_streams_are_named(
     tmp_path: Path, change: tuple[int, int], message: str

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 from texvent.event_packets import EventPackets
@@ -189,7 +190,7 @@ def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(
         assert "\n" not in str(caught.value)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(
     rows=st.lists(
         st.tuples(

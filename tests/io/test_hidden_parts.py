@@ -13,12 +13,7 @@ from subprocess import PIPE, Popen
 import pytest
 
 from texvent.io import atomic
-from texvent.io.atomic import (
-    atomic_file,
-    hidden_file,
-    hidden_folder,
-    remove_own_parts,
-)
+from texvent.io.atomic import atomic_file, hidden_file, hidden_folder, remove_own_parts
 
 HOLD = """
 import sys

@@ -29,12 +29,7 @@ def stpp_levels(a, b, window_us=50_000):
             for events, found in zip((a, b), windows, strict=True):
                 for t, x, y, p in rows(events):
                     inside = t % window_us
-                    cell = (
-                        p,
-                        inside * tau // window_us,
-                        y * sigma // height,
-                        x * sigma // width,
-                    )
+                    cell = (p, inside * tau // window_us, y * sigma // height, x * sigma // width)
                     found[t // window_us][cell] += 1
             score = weight = 0
             for number in set(windows[0]) | set(windows[1]):

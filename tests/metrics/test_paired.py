@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
+from tests.examples import examples
 
 from texvent._registry import METRICS
 from texvent.errors import ConfigError, InputError
@@ -71,7 +72,7 @@ def test_what_happens_to_both_streams_changes_no_value(name, change):
 
 @pytest.mark.parametrize("name", EVERY_METRIC)
 @given(a=streams(), b=streams())
-@settings(max_examples=12)
+@examples(12)
 def test_values_are_symmetric_and_in_range_or_undefined(name, a, b):
     metric = describe_metrics()[name]
     value, mirrored = metric(a, b), metric(b, a)
@@ -85,7 +86,7 @@ def test_values_are_symmetric_and_in_range_or_undefined(name, a, b):
 
 @pytest.mark.parametrize("name", EVERY_METRIC)
 @given(a=streams(least=1))
-@settings(max_examples=8)
+@examples(8)
 def test_a_stream_scores_best_against_itself(name, a):
     metric = describe_metrics()[name]
     best = {"lower": metric.range[0], "higher": metric.range[1], "one": 1.0}[metric.better]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.pairs import reference
 from tests.pairs.test_warp import warp_between
 
@@ -62,7 +63,7 @@ def test_a_small_fast_thing_is_where_it_is_and_nowhere_else(warp, position):
     np.testing.assert_allclose(got, there, atol=1e-3)
 
 
-@settings(max_examples=15, deadline=None)
+@examples(15)
 @given(
     st.integers(0, 999),
     st.sampled_from([(1, 1), (5, 9), (16, 21)]),

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent._registry import REPRESENTATIONS
 from texvent.errors import ConfigError, InputError
@@ -23,7 +24,7 @@ DEVICES = ["cpu", "cuda"] if torch.cuda.is_available() else ["cpu"]
 @pytest.mark.parametrize("device", DEVICES)
 @pytest.mark.parametrize("name", REPRESENTATIONS.names())
 @given(data=st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_torch_equals_numpy_with_any_options(name, device, data):
     events = random_events(7, data.draw(st.sampled_from([0, 1, 3000])), SMALL)
     drawn = data.draw(st.fixed_dictionaries({}, optional=DEFINITIONS[name][1]))

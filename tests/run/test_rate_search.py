@@ -6,13 +6,7 @@ from hypothesis import strategies as st
 from texvent.errors import InputError
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
-from texvent.run.rate_search import (
-    HIGHEST,
-    LOWEST,
-    MAX_STEPS,
-    find_threshold,
-    match_rate,
-)
+from texvent.run.rate_search import HIGHEST, LOWEST, MAX_STEPS, find_threshold, match_rate
 from texvent.settings.resolution import resolve
 
 

@@ -10,6 +10,7 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.relation_check import _RULES, Body
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
@@ -105,6 +106,29 @@ def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
         return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).violations]
 
     assert (find(kind), find(OTHER[kind])) == ([], [OTHER[kind]])
+
+
+def block(x, side):
+    """A cube whose middle is at x, m, at each of two instants."""
+    middle = np.array([[one, 0.0, 0.5 * side] for one in x])
+    size = np.full((2, 3), side)
+    parts = np.stack([middle[0] - 0.5 * side, middle[0] + 0.5 * side])[None]
+    return Body(middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts)
+
+
+@pytest.mark.parametrize(
+    ("kind", "x", "held"),
+    [
+        ("towards", (9.0, 8.5), (True, False)), ("away from", (9.0, 9.5), (True, False)),
+        ("in", (1.0, 2.0), (True, False)), ("on", (1.0, 1.0), (True, False)),
+        ("with", (9.0, 9.0), (True, True)), ("at", (9.0, 9.0), (False, False)),
+    ],
+)  # fmt: skip
+def test_room_and_way_are_counted_in_sizes_of_who_is_said_to_be_so(kind, x, held):
+    """A small block and a large one, and the large one and the small one."""
+    small, large = block(x, 0.5), block((0.0, 0.0), 8.0)
+    pairs = (small, large), (large, small)
+    assert tuple(_RULES[kind](*pair).any() for pair in pairs) == held
 
 
 @pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])

@@ -11,11 +11,7 @@ import texvent
 from texvent.errors import warnings_to
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
-from texvent_scenes.procedural import (
-    ProceduralConfig,
-    ProceduralGenerator,
-    ProceduralVideo,
-)
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
 
 from ..scenes.hand_scenes import showcase
 

@@ -18,9 +18,19 @@ def grow(path: Path) -> None:
     path.write_bytes(path.read_bytes() + b"more")
 
 
-def replace(path: Path) -> None:
-    path.write_bytes(b"\xff" * path.stat().st_size)
+def alter(path: Path, place: int) -> None:
+    content = bytearray(path.read_bytes())
+    content[place] ^= 1
+    path.write_bytes(content)
     os.utime(path, ns=(1, path.stat().st_mtime_ns + 1))
+
+
+def begin_otherwise(path: Path) -> None:
+    alter(path, 0)
+
+
+def end_otherwise(path: Path) -> None:
+    alter(path, -1)
 
 
 def rename(path: Path) -> None:
@@ -35,9 +45,11 @@ def read(path: Path) -> None:
     path.read_bytes()
 
 
-CHANGES = {grow: True, replace: True, rename: True, Path.unlink: True, touch: False, read: False}
+INSIDE = {begin_otherwise: True, end_otherwise: True}
+OUTSIDE = {grow: True, rename: True, Path.unlink: True, touch: False, read: False}
+CHANGES = {**INSIDE, **OUTSIDE}
 """Change of one file → whether the source holds something else afterwards."""
-UNSEEN = {"folder": {replace}, "pattern": {replace}, "file": {rename, Path.unlink}}
+UNSEEN = {"folder": {*INSIDE}, "pattern": {*INSIDE}, "file": {rename, Path.unlink}}
 """Changes that a fingerprint does not show: of several files, names and sizes count."""
 
 

@@ -13,9 +13,12 @@ from texvent.simulation.physical.simulator import PhysicalSimulator
 from texvent.simulation.senpi.simulator import SenpiSimulator
 from texvent.simulation.v2e.config import V2eConfig
 from texvent.simulation.v2e.simulator import V2eSimulator
+from texvent.simulation.voltmeter.config import VoltmeterConfig
 from texvent.simulation.voltmeter.simulator import VoltmeterSimulator
 
 from .pixel_frames import run
+
+pytestmark = pytest.mark.usefixtures("small_parts")
 
 SHAPE = (61, 83)
 """Several blocks of pixels, the last one cut short."""
@@ -75,7 +78,7 @@ def test_a_scene_that_rests_for_long_still_leaks_in_time(leak_rate_hz):
     [
         (V2eSimulator, V2eConfig(leak_rate_hz=4.0, cutoff_hz=30.0, shot_noise_rate_hz=0.2)),
         (V2eSimulator, V2eConfig(leak_rate_hz=0.0, cutoff_hz=30.0)),
-        (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
+        (VoltmeterSimulator, VoltmeterConfig(constants="5.265 20 1e-4 1e-7 0 1e-5")),
         (PhysicalSimulator, PhysicalConfig(noise_scale=0.1)),
     ],
 )

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,9 @@ ROOT = Path(__file__).parents[2]
 def test_a_shell_can_read_every_recipe(given):
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
     targets = re.findall(r"^\.PHONY: (.+)$", makefile, re.MULTILINE)[0].split()
-    asked = ["make", "-n", "--no-print-directory", *targets, *given]
+    # Each use of a name would look for interpreters again.
+    found = [f"{name}={sys.executable}" for name in ("PYTHON", "NEWEST_PYTHON", "OLDEST_PYTHON")]
+    asked = ["make", "-n", "--no-print-directory", *targets, *given, *found]
     recipes = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert "--durations" in recipes
     read = subprocess.run(["sh", "-n"], input=recipes, capture_output=True, text=True, check=False)

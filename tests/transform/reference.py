@@ -93,10 +93,7 @@ RULES = {
         rate_limit,
         {"rate_hz": st.sampled_from([2.5e5, 4e5, 1e6]), "window_us": st.integers(4, 21)},
     ),
-    "hot-pixels": (
-        hot_pixels,
-        {"factor": st.floats(1, 3), "least_events": st.integers(1, 4)},
-    ),
+    "hot-pixels": (hot_pixels, {"factor": st.floats(1, 3), "least_events": st.integers(1, 4)}),
     "mask": (mask, {"pixels": arrays.arrays(bool, SIZE.shape)}),
 }
 """Filter → its rule, and values of each of its options."""

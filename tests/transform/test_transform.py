@@ -9,8 +9,9 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.event_packets import EventPackets
@@ -77,7 +78,7 @@ def test_time_may_start_at_the_first_event() -> None:
     assert len(start_at_zero(EventPackets([], SIZE)).collect()) == 0
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     parts=st.lists(st.tuples(ROWS, st.integers(0, 40), st.integers(0, 40)), min_size=1, max_size=4)
 )

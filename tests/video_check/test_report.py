@@ -11,11 +11,7 @@ from texvent.frames import Frame
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer, decode_srgb
 from texvent.video_check.checks import CHECKS, check_video
-from texvent.video_check.measurements import (
-    VideoMeasurer,
-    block_means,
-    neighbour_correlation,
-)
+from texvent.video_check.measurements import VideoMeasurer, block_means, neighbour_correlation
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 RNG = np.random.default_rng(0)

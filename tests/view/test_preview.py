@@ -51,10 +51,7 @@ def test_no_frame_is_an_input_error_and_leaves_nothing(
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_an_exception_midway_leaves_nothing(
-    tmp_path: Path,
-    steps: Steps,
-    folder_is_clean: Callable[[], bool],
-    error: type[BaseException],
+    tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool], error: type[BaseException]
 ) -> None:
     def interrupt() -> None:
         with Preview(tmp_path / "out", size=SIZE, fps=None) as preview:

@@ -110,14 +110,15 @@ def test_a_link_of_another_page_or_file_opens_the_page_and_an_old_cookie_says_wh
 
 
 def test_the_live_page_shows_latency_records_and_says_that_it_closes(browser, tmp_path):
-    live = LiveEvents(open_frames(CLIP, CaptureConfig()), {"simulator": "esim"})
+    options = {"simulator": "esim", "interpolate": "none", "sensor": "80x45"}
+    live = LiveEvents(open_frames(CLIP, CaptureConfig()), options)
     with LiveServer(live, "clip.mp4", tmp_path) as page:
         browser.get(page.entry)
         browser.refresh()
         assert browser.current_url == page.address  # without the token
         at, wait = (lambda name: browser.find_element("id", name)), WebDriverWait(browser, WAIT_S)
         wait.until(lambda _: at("median").text.endswith(" ms"))
-        assert at("events").get_attribute("naturalWidth") == "320"
+        assert at("events").get_attribute("naturalWidth") == "80"
         at("file").clear()
         at("file").send_keys("no/a.h5")
         at("record").click()

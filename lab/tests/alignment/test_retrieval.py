@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.examples import examples
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -93,7 +94,7 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
 
 @pytest.mark.long
 @given(matrices())
-@settings(max_examples=60)
+@examples(60)
 def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:
     side = len(matrix)
     chance = score(matrix).chance

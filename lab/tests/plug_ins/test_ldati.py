@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.examples import examples
 
 from texvent.simulation.packets import FrameInterval
 from texvent.simulation.random.draws import frame_key
@@ -23,7 +24,7 @@ def rows_of(events):
 
 
 @given(st.data())
-@settings(max_examples=50)
+@examples(50)
 def test_lone_events_come_back_with_their_times_and_crowds_with_their_number(data):
     nodes = data.draw(st.integers(2, 12))
     number = data.draw(arrays(np.int64, (2, nodes - 1, 2, 2), elements=st.integers(0, 3)))

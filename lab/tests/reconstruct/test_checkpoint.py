@@ -9,11 +9,7 @@ import pytest
 
 from texvent.errors import FileFormatError
 from texvent.networks.weight_files import read_mapping
-from texvent_lab.reconstruct.checkpoint import (
-    LEFT_BY_TRAINING,
-    network_settings,
-    read_network,
-)
+from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING, network_settings, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import (

@@ -7,11 +7,7 @@ from tests.represent.definitions import random_events
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.reconstruct.reconstructor import (
-    Reconstructor,
-    find_network,
-    load_reconstructor,
-)
+from texvent_lab.reconstruct.reconstructor import Reconstructor, find_network, load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import HEADS, random_state, save_published

@@ -12,13 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.stored.written_set import (
-    LABELS,
-    SIZE,
-    random_events,
-    write_set,
-    write_shard,
-)
+from tests.dataset.stored.written_set import LABELS, SIZE, random_events, write_set, write_shard
 
 import texvent.dataset
 from texvent.dataset.stored.stored_samples import StoredSamples

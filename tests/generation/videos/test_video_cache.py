@@ -5,19 +5,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning, warnings_to
 from texvent.frames import Video, frame_time_us, transfer_of
-from texvent.generation.videos.stored_video import (
-    reopen,
-    to_16_bits,
-    write_stream,
-    write_video,
-)
+from texvent.generation.videos.stored_video import reopen, to_16_bits, write_stream, write_video
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.io.atomic import is_hidden_part
 from texvent.runtime.work import side_work
@@ -62,7 +58,7 @@ def test_a_stored_video_read_as_any_other_video_gives_the_same_frames(tmp_path):
         assert np.array_equal(ours.pixels, theirs.pixels)
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(st.floats(-1, 2, width=32))
 def test_rounding_to_16_bits_clips_and_is_nearest(value):
     levels = to_16_bits(np.full((1, 1, 3), value, np.float32))

@@ -6,15 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.interpolate.dis_flow.frame_motion import (
-    fit_motion,
-    leads_outside,
-    patch_vectors,
-)
+from texvent.interpolate.dis_flow.frame_motion import fit_motion, leads_outside, patch_vectors
 from texvent.interpolate.dis_flow.pyramid import make_level
 
 WIDTH, HEIGHT = 192, 144
@@ -46,7 +43,7 @@ def similarity(zoom, degrees):
     return np.array([[0, cos - 1, -sin], [0, sin, cos - 1]])
 
 
-@settings(max_examples=20)
+@examples(20)
 @given(
     st.lists(st.floats(-20, 20), min_size=2, max_size=2),
     st.lists(st.floats(-0.3, 0.3), min_size=4, max_size=4),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.interpolate.dis_flow import compiled, reference
 
 from texvent.interpolate.dis_flow.definitions import MARGIN, size_of
@@ -101,7 +102,7 @@ def test_refining_leaves_a_perfect_flow_and_mends_most_of_a_vector_that_is_not(k
     assert abs(kernels.refine(start, stop, flow)[0, 12, 16] - 1.0) < 0.8
 
 
-@settings(max_examples=6)
+@examples(6)
 @given(
     st.sampled_from([(8, 8), (9, 8), (24, 33), (30, 21)]),
     st.floats(0, 40),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.interpolate.dis_flow import compiled, reference
 
 from texvent.interpolate.dis_flow.estimator import DisFlow, count_levels, make_pyramid
@@ -67,7 +68,7 @@ def test_the_shorter_of_two_shifts_that_agree_alike_counts():
     np.testing.assert_allclose(found, (-12, 0), atol=2)
 
 
-@settings(max_examples=12, deadline=None)
+@examples(12)
 @given(st.integers(-32, 32), st.integers(-24, 24), st.integers(0, 99))
 def test_flow_of_a_shift_of_up_to_a_third_of_the_frame_is_that_shift(x, y, seed):
     image = texture(seed)

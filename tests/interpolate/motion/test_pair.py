@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.interpolate.motion.reference import level_at
 from tests.interpolate.motion.scenes import (
     BACKGROUND_M,
@@ -173,7 +174,7 @@ def test_where_no_path_leads_both_frames_are_mixed():
     assert image[5, 6] == pytest.approx((first.luma[5, 6] + second.luma[5, 6]) / 2, abs=0.01)
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(
     x=st.floats(-6, 6),
     y=st.floats(-6, 6),

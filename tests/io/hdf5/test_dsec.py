@@ -10,8 +10,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
 from texvent.event_packets import EventPackets
@@ -56,7 +57,7 @@ def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, count: int) -> No
         assert file.attrs["timestamp_scale_ms"] == 0.001
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(times=st.lists(st.integers(0, 12_000), max_size=25))
 def test_ms_to_idx_follows_its_definition(
     tmp_path_factory: pytest.TempPathFactory, times: list[int]

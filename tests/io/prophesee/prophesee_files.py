@@ -19,12 +19,7 @@ HEADERS = {
     "dat": "% Height 720\n% Version 2\n% Width 1280\n",
 }
 CODES = {"evt2": "I", "evt21": "Q", "evt3": "H", "dat": "Q"}
-EXTENSIONS = {
-    "evt2": ".raw",
-    "evt21": ".raw",
-    "evt3": ".raw",
-    "dat": ".dat",
-}
+EXTENSIONS = {"evt2": ".raw", "evt21": ".raw", "evt3": ".raw", "dat": ".dat"}
 FORMATS = ("evt3", "dat")
 """Formats that are written."""
 

@@ -3,8 +3,9 @@ from __future__ import annotations
 import struct
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError
 from texvent.io.prophesee import prophesee_ecf as ecf_chunks
@@ -66,7 +67,7 @@ def test_a_chunk_of_pairs_worked_out_by_hand() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=60)
+@examples(60)
 @given(events=events_lists)
 def test_every_legal_body_is_read(kind: str, events: list[Event]) -> None:
     assert events_in(make_chunk(events, kind)) == events

@@ -14,13 +14,7 @@ from texvent.io import block_writer, byte_blocks, metadata
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
 
-from .prophesee_files import (
-    EXTENSIONS,
-    FORMATS,
-    at_times,
-    row_bursts,
-    write_words,
-)
+from .prophesee_files import EXTENSIONS, FORMATS, at_times, row_bursts, write_words
 
 EVT = ("evt2", "evt21", "evt3")
 

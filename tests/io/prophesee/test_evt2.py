@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load
@@ -43,7 +44,7 @@ def test_a_small_fall_of_time_is_damage_not_a_wrap(tmp_path: Path) -> None:
         load(path)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(
     st.lists(
         st.one_of(

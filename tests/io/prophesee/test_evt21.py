@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.io.files import load
 from texvent.io.prophesee.evt import Evt21Codec
@@ -46,7 +47,7 @@ def test_the_header_decides_which_half_of_a_word_comes_first(
     assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(
     st.lists(
         st.one_of(

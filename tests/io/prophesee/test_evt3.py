@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.events import EventStream
 from texvent.io import byte_blocks
@@ -92,7 +93,7 @@ def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path: Path) -
     assert load(path).t.tolist() == [0, 2**40]
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(
     st.lists(
         st.one_of(

@@ -23,12 +23,7 @@ from numpy.typing import NDArray
 from texvent.sensor import SensorSize
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
-from texvent_scenes.models.activities import (
-    ACTIVITIES,
-    HAND_GESTURES,
-    HAND_NOUNS,
-    PERSON_NOUNS,
-)
+from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES

@@ -4,8 +4,9 @@ import itertools
 import math
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.adaptive_sampling import UNKNOWN
@@ -30,7 +31,7 @@ def drawn_speeds(rng, most_px, shape=BLOCKS):
 
 
 @seeds
-@settings(max_examples=30)
+@examples(30)
 def test_speeds_reach_half_a_displacement_around(seed):
     speeds = drawn_speeds(np.random.default_rng(seed), 40.0)
     expected = speeds.copy()
@@ -42,7 +43,7 @@ def test_speeds_reach_half_a_displacement_around(seed):
 
 
 @seeds
-@settings(max_examples=30)
+@examples(30)
 def test_a_block_is_as_fast_as_all_that_passes_it(seed):
     rng = np.random.default_rng(seed)
     vectors = np.zeros((*SIZE.shape, 2), np.float32)
@@ -71,7 +72,7 @@ def test_without_a_field_nothing_is_known_and_of_two_fields_the_faster_counts():
 
 
 @seeds
-@settings(max_examples=30)
+@examples(30)
 def test_what_nothing_reaches_stays_what_it_is(seed):
     rng = np.random.default_rng(seed)
     before = rng.choice(np.array([3, 3, 3, 3, 3, 3, 3, 7, UNKNOWN], np.int64), BLOCKS)

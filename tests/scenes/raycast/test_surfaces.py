@@ -5,24 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.scenes.hand_scenes import day
 
 from texvent_scenes.raycast.acceleration import bin_rectangles
 from texvent_scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
 from texvent_scenes.raycast.shading.ground import strip_place
 from texvent_scenes.raycast.shading.material import patch_axes, tile_average
-from texvent_scenes.raycast.shading.value_noise import (
-    box_coverage,
-    square_wave,
-)
-from texvent_scenes.raycast.surfaces.catalogue import (
-    CHANNELS,
-    LEVELS,
-    SURFACES,
-    build_tile,
-)
+from texvent_scenes.raycast.shading.value_noise import box_coverage, square_wave
+from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS, SURFACES, build_tile
 from texvent_scenes.raycast.surfaces.fields import SIDE
 from texvent_scenes.rendered_scene import Ground, Texture
 from texvent_scenes.staging.surroundings.environment import RoadLine
@@ -84,7 +77,7 @@ def test_a_tile_that_repeats_has_no_large_patches(texture):
 
 
 @given(x=METRES, y=METRES, angle=ANGLE, roads=st.lists(st.tuples(METRES, METRES, ANGLE)))
-@settings(max_examples=100)
+@examples(100)
 def test_the_drawn_roads_lie_on_the_lines_of_the_staging(x, y, angle, roads):
     line = RoadLine(angle, (2.0, -1.0), tuple(roads[:MAX_CROSSINGS]))
     environment = replace(
@@ -108,7 +101,7 @@ PLACES = st.floats(-20.0, 20.0)
 
 
 @given(x=PLACES, footprint=st.floats(0.01, 5.0), low=PLACES, width=st.floats(0.0, 10.0))
-@settings(max_examples=60)
+@examples(60)
 def test_a_square_wave_and_a_band_are_averaged_over_the_footprint(x, footprint, low, width):
     points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean(points - np.floor(points) < 0.5)
@@ -122,7 +115,7 @@ def test_a_square_wave_and_a_band_are_averaged_over_the_footprint(x, footprint, 
         st.tuples(*[st.integers(-3, 9)] * 2, *[st.integers(-3, 7)] * 2), max_size=12
     )
 )
-@settings(max_examples=100)
+@examples(100)
 def test_every_cell_lists_the_rectangles_that_touch_it_in_order(rectangles):
     table = np.array(
         [(min(a, b), max(a, b), min(c, d), max(c, d)) for a, b, c, d in rectangles], dtype=np.int64

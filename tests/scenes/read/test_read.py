@@ -3,8 +3,9 @@
 import time
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
@@ -34,7 +35,7 @@ def test_facts_of_short_prompts_are_right():
     assert len(silent) <= MOST_SILENT * len(PROMPTS), silent
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(
     st.lists(st.sampled_from(WORDS) | st.sampled_from(SIGNS), max_size=14).map(" ".join)
     | st.text(max_size=80)

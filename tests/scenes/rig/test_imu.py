@@ -13,13 +13,7 @@ from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.description import IMU_NOISES, ImuNoise
-from texvent_scenes.rig.imu import (
-    GRAVITY,
-    ImuSamples,
-    sample_times_us,
-    true_samples,
-    with_noise,
-)
+from texvent_scenes.rig.imu import GRAVITY, ImuSamples, sample_times_us, true_samples, with_noise
 from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.staging.compose import compose_scene
 

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.examples import examples
 from tests.simulation.references import esim
 from tests.simulation.references.ramp import Ramp, cross_ramp
 
@@ -68,7 +69,7 @@ def test_a_rest_keeps_or_loses_the_levels_it_swallows(is_level_lost, steps):
     assert fired.tolist() == [761] + [NEVER] * 23
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(changes, changes, thresholds, thresholds, rests, st.sampled_from([1, 2, 1000, 41_667]))
 def test_backends_agree_and_crossings_are_sound(start, stop, on, off, rest, duration):
     # Every other pixel of a sensor of twice as many.

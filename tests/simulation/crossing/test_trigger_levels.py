@@ -5,8 +5,9 @@ from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.frames import Frame
 from texvent.simulation.crossing.trigger_levels import BrightnessCurve, OutsidePixels, TriggerLevels
@@ -45,7 +46,7 @@ MODELS = st.builds(
 ).map(lambda config: partial(EsimSimulator, config))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(
     st.lists(st.sampled_from([np.uint8, np.float32]), min_size=3, max_size=6),
     st.integers(0, 2**32),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 import texvent
 from texvent.frames import Video
@@ -70,7 +71,7 @@ def test_cuts_pairs_without_intermediate_frames_and_short_pairs_are_the_same_too
     assert_equal(video, simulator=simulator, max_intermediate=9)
 
 
-@settings(max_examples=15)
+@examples(15)
 @given(st.integers(0, 2**32), st.sampled_from(["texvent", "esim"]), st.floats(0, 40))
 def test_any_frames_give_the_same_events(seed, simulator, spread):
     rng = np.random.default_rng(seed)

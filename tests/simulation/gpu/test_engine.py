@@ -18,16 +18,7 @@ from texvent.simulation.texvent.noise import NOISE_BLOCK
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.simulation.v2e.config import V2eConfig
 
-from .clips import (
-    CLIPS,
-    SEED,
-    TWO_PAIRS,
-    on_cpu,
-    on_gpu,
-    random_clips,
-    random_times,
-    rows,
-)
+from .clips import CLIPS, SEED, TWO_PAIRS, on_cpu, on_gpu, random_clips, random_times, rows
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -54,10 +45,7 @@ TEXVENT = {
 }  # fmt: skip
 FEW: dict[str, Any] = {"log_eps": 0.1}
 """Few crossings per pixel, each of which costs the interpreter time."""
-ESIM = {
-    "esim": {},
-    "esim, two thresholds": {"contrast_threshold_off": 0.4},
-}
+ESIM = {"esim": {}, "esim, two thresholds": {"contrast_threshold_off": 0.4}}
 PHYSICAL = {
     "physical": {
         "gamma": 1.0, "balance": 40.0, "cutoff_hz": 150.0, "cutoff_limit_hz": 60.0,

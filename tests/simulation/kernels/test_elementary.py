@@ -5,8 +5,9 @@ import math
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.simulation.kernels import compiled_elementary, elementary
 
@@ -49,7 +50,7 @@ def _all_compiled(x, turns):
     return log, exponential, decay, gain, compiled_elementary.cosine_of_turns(turns)
 
 
-@settings(max_examples=300)
+@examples(300)
 @given(st.floats(1e-25, 1e9), st.floats(0, 1, exclude_max=True))
 def test_numpy_and_numba_give_equal_bits(x, turns):
     one, turn = np.array([x]), np.array([turns])

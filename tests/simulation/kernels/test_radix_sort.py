@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references import sorting
 
 from texvent.errors import InputError
@@ -28,7 +29,7 @@ def by_pixel(unordered: UnsortedEvents) -> UnsortedEvents:
     return UnsortedEvents(*(column[order] for column in unordered))
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(
     st.integers(0, 2**32),
     st.sampled_from([0, 1, 5, 700, 9000]),

@@ -1,8 +1,9 @@
 """When a decaying change meets a threshold: against a fine search, and equal bits compiled."""
 
 import numpy as np
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references.physical import ChangeCurve, change_after, time_to_threshold
 
 from texvent.simulation.kernels.elementary import exponential
@@ -45,7 +46,7 @@ CURVES = st.builds(
 )
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(CURVES, st.floats(0.05, 0.6))
 @example(curve_of(0.0, 1e-6, 1e-8, 1e-4, 1e6), 0.05)
 def test_backends_agree_and_find_the_first_crossing(curve, on):

@@ -1,8 +1,9 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references import in_both_forms
 
 from texvent.simulation.physical.config import PhysicalConfig
@@ -77,7 +78,7 @@ CONFIGS = st.builds(
 )
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(CONFIGS, st.integers(0, 2**63 - 1), st.integers(0, 99))
 def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scene):
     frames = moving_texture(5, (4, 6), step_us=41_667, seed=scene)

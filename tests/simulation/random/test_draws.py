@@ -3,8 +3,9 @@
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.simulation.random.compiled_draws import draw_uniform, draw_word
 from texvent.simulation.random.draws import draw_normals, draw_uniforms, draw_words, frame_key
@@ -93,7 +94,7 @@ def _numba_draw(key, y, x, draw):
     return draw_word(key, y, x, draw), draw_uniform(key, y, x, draw)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(SEEDS, st.integers(-(2**62), 2**62), COORDINATES, COORDINATES, st.integers(0, 2**32 - 1))
 def test_numpy_and_numba_draw_equal_bits(seed, frame, y, x, draw):
     key = frame_key(seed, frame)

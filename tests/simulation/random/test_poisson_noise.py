@@ -2,8 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references import in_both_forms
 
 from texvent.events import NOISE
@@ -84,7 +85,7 @@ def test_two_streams_of_one_sensor_are_independent():
     assert abs(np.corrcoef(*maps)[0, 1]) < 4 / math.sqrt(3000)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(
     st.integers(0, 2**63 - 1),
     st.tuples(st.integers(1, 9), st.integers(1, 9)),

@@ -10,12 +10,7 @@ from texvent.simulation.crossing.ramp import RefractoryPeriod
 from texvent.simulation.packets import UnsortedEvents
 from texvent.simulation.random.mismatch import PixelMismatch
 from texvent.simulation.v2e.emit_and_reset import EmissionRules, LastEvents
-from texvent.simulation.v2e.low_pass import (
-    SETTLED,
-    CrossingPixels,
-    LowPassInput,
-    V2ePixelState,
-)
+from texvent.simulation.v2e.low_pass import SETTLED, CrossingPixels, LowPassInput, V2ePixelState
 from texvent.simulation.v2e.pixels import lin_log, relative_intensity
 
 

@@ -79,11 +79,7 @@ def _pass_thresholds(
 
 @jit(error_model="numpy")
 def _draw_passage(
-    drift: float,
-    sigma: float,
-    displacement: float,
-    source: tuple[np.uint64, np.uint64],
-    order: int,
+    drift: float, sigma: float, displacement: float, source: tuple[np.uint64, np.uint64], order: int
 ) -> tuple[float, float]:
     """Time until the next passage, µs, and the rate of the displacement until then."""
     (key, place), speed, direction = source, abs(drift), 1.0 if drift >= 0 else -1.0

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references import noise_blocks
 
 from texvent.events import SIGNAL, EventStream
@@ -171,7 +172,7 @@ def test_voltage_noise_reaches_the_threshold_with_the_stated_probability(mean):
     assert noise.std() == pytest.approx(voltage_noise_sd(0.2, mean), rel=0.01)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     st.integers(0, 2**63 - 1),
     st.sampled_from([1, 7, 4095, 4096, 4097, 20_000]),

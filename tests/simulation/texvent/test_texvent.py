@@ -84,10 +84,7 @@ GLOBAL_STEP = (3.636, 7.273, 10.909, 14.545, 18.182)
         ({"cache": "global", "reset": "step"}, GLOBAL_STEP),
         ({"cache": "global", "reset": "current"}, (3.636, 7.636, 11.636, 15.636, 19.636)),
         # 10 % and 5 % per second.
-        (
-            {"cache": "global", "residual_decay_hz": -math.log(0.9)},
-            (4.541, 8.896, 13.480, 17.856),
-        ),
+        ({"cache": "global", "residual_decay_hz": -math.log(0.9)}, (4.541, 8.896, 13.480, 17.856)),
         (
             {"cache": "global", "residual_decay_hz": -math.log(0.95)},
             (3.926, 7.867, 11.818, 15.778, 19.746),

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.simulation.references import definitions, in_both_forms
 
 from texvent.errors import InputError
@@ -16,7 +17,7 @@ from texvent.frames import HIGHEST_INTENSITY, Frame
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 
 TYPES = (np.uint8, np.uint16, np.float32, np.float64)
-CHECKED = settings(max_examples=60)
+CHECKED = examples(60)
 NOISY = {"noise_rate_hz": 20.0, "noise_intensity": 150.0}
 OPTIONS = [
     {"cache": cache, "residual_decay_hz": decay, "reset": reset, "timestamp_rule": stamp}
@@ -80,14 +81,8 @@ def assert_forms_agree(frames, **options) -> EventStream:
     return expected
 
 
-@settings(max_examples=150)
-@given(
-    clips(),
-    switches,
-    noises,
-    st.sampled_from([0.01, 0.2, 2.0]),
-    seeds,
-)
+@examples(150)
+@given(clips(), switches, noises, st.sampled_from([0.01, 0.2, 2.0]), seeds)
 def test_pixels_equal_the_definition(frames, options, noise, threshold, seed):
     options = {"noise": noise, **NOISY, **options}
     assert_forms_agree(frames, contrast_threshold=threshold, seed=seed, **options)
@@ -106,7 +101,7 @@ def test_pixels_at_the_threshold_itself_fire_in_both_forms(low, high, dtype):
     assert counts == [81, 81, 0]
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(
     st.floats(0, 2.0**29, width=32),
     st.sampled_from([1e-4, 0.2, 10.0]),

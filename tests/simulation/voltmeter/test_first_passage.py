@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.examples import examples
 from tests.simulation.references import voltmeter
 from tests.simulation.references.sorting import sort_events
 from tests.simulation.references.voltmeter import MOST_DISPLACEMENT
@@ -50,7 +51,7 @@ def constants(*, gain=0.0, drift=0.0, sigma=0.0) -> Constants:
     return Constants(gain, 20.0, 0.0, drift / 1000, 0.0, sigma / np.sqrt(1000))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.sampled_from([0.0, 5.0]), drifts, sigmas, residuals, lights, st.integers(0, 10))
 def test_backends_agree_and_passages_are_sound(gain, drift, sigma, residual, light, seed):
     chosen = constants(gain=gain, drift=drift, sigma=sigma)

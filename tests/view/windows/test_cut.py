@@ -10,11 +10,7 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.view.windows import (
-    cut_counts,
-    cut_windows,
-    still_window_us,
-)
+from texvent.view.windows import cut_counts, cut_windows, still_window_us
 
 SIZE = SensorSize(4, 4)
 

@@ -6,13 +6,7 @@ import pytest
 from texvent.sensor import SensorSize
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, render_video
-from texvent_lab.bench.oracle.scenes import (
-    PROMPTS,
-    SCENES,
-    ValueNoise,
-    build_scene,
-    camera_level,
-)
+from texvent_lab.bench.oracle.scenes import PROMPTS, SCENES, ValueNoise, build_scene, camera_level
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 ONE = SensorSize(1, 1)

@@ -6,11 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from texvent_scenes.models.activities import (
-    ACTIVITIES,
-    ON_GROUND,
-    TRAVELLING,
-)
+from texvent_scenes.models.activities import ACTIVITIES, ON_GROUND, TRAVELLING
 from texvent_scenes.models.people import person
 from texvent_scenes.models.people.outfit import ADULT, CLOTHES, HOLDS, PROPS, put_on
 from texvent_scenes.models.people.posture import find_posture

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball_mesh, hit_mesh_reference
 
 from texvent.errors import InputError
@@ -53,7 +54,7 @@ def rays(seed, count):
 
 
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 60))
-@settings(max_examples=40)
+@examples(40)
 def test_the_tree_finds_what_all_triangles_say(seed, count):
     mesh = soup(seed, count)
     origins, directions = rays(seed, 60)
