@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from texvent.brightness import luma_bt601
 from texvent.errors import InputError, shown
 from texvent.options.arrays import as_array, usable_pixels, whole_us
-from texvent.runtime.displays.notebooks import NotebookValue
+from texvent.runtime.notebooks import NotebookValue
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 

@@ -24,7 +24,7 @@ from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_op
 from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 

@@ -21,7 +21,7 @@ from texvent.pipeline import Simulation
 from texvent.prompt_report import PromptReport
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings, unmeasured_sensor
 
 SIGNALLED = 128

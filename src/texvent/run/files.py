@@ -17,8 +17,8 @@ from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
 from texvent.run.truth import TruthFolder
-from texvent.runtime.work.background_writer import BackgroundWriter
 from texvent.runtime.work.interrupts import StopRequest, stop_on_interrupt
+from texvent.runtime.work.worker_threads import BackgroundWriter
 from texvent.truth.layout import truth_folder
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 

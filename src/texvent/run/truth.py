@@ -12,7 +12,7 @@ from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.runtime.progress import Progress
-from texvent.runtime.work.background_writer import BackgroundWriter
+from texvent.runtime.work.worker_threads import BackgroundWriter
 from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:

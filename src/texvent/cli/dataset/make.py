@@ -21,8 +21,8 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
-from texvent.runtime.device_names import AUTO, check_device_name
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.devices import AUTO, check_device_name
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 from texvent.runtime.work.engines import Engine, Outcome, local_engine

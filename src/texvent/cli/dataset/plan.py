@@ -23,7 +23,7 @@ from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, class_lines, summary_lines
 from texvent.errors import few, shown
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
 DEFAULT_TRIAL = 8

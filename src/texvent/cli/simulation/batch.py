@@ -26,7 +26,7 @@ from texvent.generation.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.work.engines import local_engine
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator

@@ -30,7 +30,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import load
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.cameras import PRESETS

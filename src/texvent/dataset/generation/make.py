@@ -23,8 +23,8 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, few, shown, warn
 from texvent.io.atomic import sweep
-from texvent.runtime.device_names import AUTO
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
+from texvent.runtime.devices import AUTO
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.runtime.work.engines import local_engine
 
 MOST_NAMED = 5

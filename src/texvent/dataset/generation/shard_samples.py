@@ -36,7 +36,7 @@ from texvent.generation.videos.stored_video import EXTENSION, reopen, write_stre
 from texvent.pipeline import Simulation, fit_to_sensor, simulate_together, with_scene
 from texvent.prompt_report import REPORT_KEY
 from texvent.run.prepare import make_video, prepare_video
-from texvent.runtime.device_names import AUTO
+from texvent.runtime.devices import AUTO
 from texvent.runtime.files.file_names import inside
 from texvent.runtime.identity import digest
 from texvent.settings.resolution import Settings
