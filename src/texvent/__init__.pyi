@@ -28,7 +28,7 @@ from texvent.events import EventStream as EventStream
 from texvent.frames import Frame as Frame
 from texvent.frames import FrameStream as FrameStream
 from texvent.frames import Video as Video
-from texvent.run.truth import TruthFolder as TruthFolder
+from texvent.run.files import TruthFolder as TruthFolder
 from texvent.sensor import SENSORS as SENSORS
 from texvent.sensor import Sensor as Sensor
 from texvent.sensor import SensorSize as SensorSize

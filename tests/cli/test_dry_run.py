@@ -10,7 +10,7 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.dry_run import MOST_PAIRS, estimate_run
+from texvent.cli.run import MOST_PAIRS, estimate_run
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve

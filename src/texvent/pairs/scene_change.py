@@ -120,7 +120,7 @@ SEARCH_CELLS = 8
 LEAST_SIDE_PX = LEAST_CELL_PX * BLOCK_CELLS
 """Frames with a side below this have no structure to judge and never count as a scene change."""
 CELL_SUMS = "_cell_sums"
-"""Attribute of frames whose cells were added up on a device (`pair_measures`)."""
+"""Attribute of frames whose cells were added up on a device (`on_device.measure_pair`)."""
 LOG_BALANCE = 30.0
 """Balance of the logarithm of thumbnails, independent of the simulator's own."""
 

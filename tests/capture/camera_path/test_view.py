@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.capture.camera_path.motion import CameraPose2D
-from texvent.capture.camera_path.view import View, fitted_view
+from texvent.capture.camera_path.photo_frames import View, fitted_view
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
 

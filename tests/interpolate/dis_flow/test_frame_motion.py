@@ -9,13 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.interpolate.dis_flow.estimator import DisFlow
+from texvent.interpolate.dis_flow.estimator import DisFlow, make_level
 from texvent.interpolate.dis_flow.frame_motion import (
     fit_motion,
     leads_outside,
     patch_vectors,
 )
-from texvent.interpolate.dis_flow.pyramid import make_level
 
 WIDTH, HEIGHT = 192, 144
 

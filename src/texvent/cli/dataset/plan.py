@@ -11,10 +11,10 @@ from typing import ClassVar
 
 from rich.table import Table
 
-from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.cli.run import size_text
 from texvent.config import check_range
 from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe

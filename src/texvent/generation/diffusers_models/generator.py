@@ -49,7 +49,7 @@ from texvent.generation.video_models.model_files import (
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import FinishedVideo, MadeVideo
 from texvent.generation.videos.video_cache import VideoCache, content_key
-from texvent.networks.weight_files import describe_file
+from texvent.networks import describe_file
 from texvent.options.values import plain
 from texvent.runtime.devices import Tensor
 from texvent.runtime.progress import NoProgress, Progress

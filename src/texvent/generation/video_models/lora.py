@@ -13,7 +13,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, shown
 from texvent.generation.video_models.model_files import loading
-from texvent.networks.weight_files import SAFETENSORS
+from texvent.networks import SAFETENSORS
 
 EXTRA = "generate"
 
