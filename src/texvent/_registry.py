@@ -187,7 +187,7 @@ GENERATORS = Registry(
     {
         "opensora": "texvent.generation.opensora:OpenSoraGenerator",
     },
-    table="texvent.generation.video_models.known_models",
+    table="texvent.generation.video_models.named_models",
 )
 SCENES = Registry("scene package", {})
 INTERPOLATORS = Registry(

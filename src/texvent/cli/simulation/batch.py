@@ -20,7 +20,7 @@ from texvent.dataset.generation.event_files import WARNINGS, BatchPlan, EventFil
 from texvent.dataset.specification.entries import Sample, are_videos, read_samples
 from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
 from texvent.errors import ConfigError, OutputError, TexventError
-from texvent.generation.video_models.known_models import warn_low_fps
+from texvent.generation.video_models.named_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run

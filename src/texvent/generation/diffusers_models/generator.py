@@ -38,7 +38,8 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     resolve_device,
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
-from texvent.generation.video_models.controls import check_class, check_control, find_control_part
+from texvent.generation.video_models.controls import check_class, find_control_part
+from texvent.generation.video_models.known_models import check_control
 from texvent.generation.video_models.lora import check_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
