@@ -33,7 +33,7 @@ from texvent.sensor import SENSORS as SENSORS
 from texvent.sensor import Sensor as Sensor
 from texvent.sensor import SensorSize as SensorSize
 from texvent.simulation.build import check_simulator as check_simulator
-from texvent.truth.clip import load_truth as load_truth
+from texvent.truth.folder_truth import load_truth as load_truth
 from texvent.truth.recorder import save_truth as save_truth
 from texvent_scenes import rig as rig
 from texvent_scenes.scene_input import read as read

@@ -31,9 +31,9 @@ from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.layouts.rvt import RVT
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import ConfigError, OutputError, one_line, shown
-from texvent.io.atomic import is_hidden_part
 from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.runtime.files.file_names import inside
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.truth.boxes import BOX_RECORD
 
 LAYOUTS: Mapping[str, Layout] = {

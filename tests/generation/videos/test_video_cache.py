@@ -19,7 +19,7 @@ from texvent.generation.videos.stored_video import (
     write_video,
 )
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
-from texvent.io.atomic import is_hidden_part
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.runtime.work import side_work
 from texvent.runtime.work.interrupts import clean_up
 from texvent.transfer import Transfer

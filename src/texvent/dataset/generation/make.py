@@ -21,8 +21,8 @@ from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, few, shown, warn
-from texvent.io.atomic import sweep
 from texvent.runtime.devices import AUTO
+from texvent.runtime.files.hidden_parts import sweep
 from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.runtime.work.engines import Work, local_engine
 

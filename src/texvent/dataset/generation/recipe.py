@@ -37,11 +37,12 @@ from texvent.errors import (
     warnings_to,
 )
 from texvent.generation.protocol import renders_instants
-from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.io.atomic import atomic_file
 from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note
 from texvent.run.prepare import check_run
 from texvent.runtime.devices import AUTO, check_device_name
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve

@@ -54,7 +54,8 @@ from texvent.io.input_checks import (
 )
 from texvent.io.metadata import metadata_from_json, metadata_to_json, read_sidecar
 from texvent.io.reading import ReadOptions, TimeUnit, choose
-from texvent.io.tables import TABLE_OPTIONS, find_tables, time_offset
+from texvent.io.table_search import find_tables
+from texvent.io.tables import TABLE_OPTIONS, time_offset
 from texvent.runtime.memory import check_claim
 from texvent.sensor import SensorSize
 
