@@ -30,7 +30,7 @@ MOST_REACH = 3.0
 
 
 @dataclass(frozen=True)
-class View:
+class SensorView:
     """A sensor over an image; both have their centres in common when the camera has not moved."""
 
     image: SensorSize
@@ -86,7 +86,9 @@ class View:
         return np.broadcast_to(moved, (*self.sensor.shape, 2)).copy()
 
 
-def fitted_view(start: View, places: Sequence[CameraPose2D], *, is_pixelwise: bool) -> View:
+def fitted_view(
+    start: SensorView, places: Sequence[CameraPose2D], *, is_pixelwise: bool
+) -> SensorView:
     """The view whose scale keeps the sensor in the image on all its path, if it can.
 
     Returns:
@@ -153,7 +155,7 @@ class PhotoFrames(FrameSource):
         image = SensorSize(levels.shape[1], levels.shape[0])
         times = np.linspace(0, frame_time_us(intervals, fps, 0), INSTANTS)
         places = [path(float(t_us)) for t_us in times]
-        view = fitted_view(View(image, sensor or image), places, is_pixelwise=sensor is None)
+        view = fitted_view(SensorView(image, sensor or image), places, is_pixelwise=sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
         self._image, self.view, block = _averaged(levels, view, wanted)
         scale = round(block * self.view.scale, 6)
@@ -195,8 +197,8 @@ class PhotoFrames(FrameSource):
 
 
 def _averaged(
-    levels: NDArray[np.float32], view: View, block: int
-) -> tuple[NDArray[np.float32], View, int]:
+    levels: NDArray[np.float32], view: SensorView, block: int
+) -> tuple[NDArray[np.float32], SensorView, int]:
     """The image averaged in whole blocks, the same view of it, and the side of the blocks."""
     width, height = view.image.width // block, view.image.height // block
     if block == 1 or not (width and height):

@@ -15,7 +15,7 @@ from texvent._registry import DEFAULT_GENERATOR, GENERATORS, suggest
 from texvent._version import full_version
 from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shard_files import EXTENSION, read_json
-from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
+from texvent.dataset.specification.clips import Clips, ClipSettings, NumberedClip
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.prompts import find_untrue
 from texvent.dataset.specification.reading import specification_from
@@ -238,7 +238,7 @@ class Recipe:
             for number in range(-(-count // self.specification.samples_per_shard)):
                 yield Shard(variant, split, number)
 
-    def clips_of(self, shard: Shard) -> Iterator[Clip]:
+    def clips_of(self, shard: Shard) -> Iterator[NumberedClip]:
         """The clips of a shard, in order."""
         size = self.specification.samples_per_shard
         end = min((shard.number + 1) * size, self.clips.counts[shard.split])
