@@ -28,7 +28,7 @@ from texvent.view.drawing.canvas import (
 )
 from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.palettes import get_palette
-from texvent.view.video.encoder import VideoEncoder
+from texvent.view.video_encoder import VideoEncoder
 
 NOTEBOOK = Path(__file__).parents[1] / "notebooks/first-events.ipynb"
 WIDTH, HEIGHT, STRIP, RATE = 960, 360, 56, 24

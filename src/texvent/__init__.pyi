@@ -28,12 +28,12 @@ from texvent.events import EventStream as EventStream
 from texvent.frames import Frame as Frame
 from texvent.frames import FrameStream as FrameStream
 from texvent.frames import Video as Video
-from texvent.run.truth import TruthFolder as TruthFolder
+from texvent.run.files import TruthFolder as TruthFolder
 from texvent.sensor import SENSORS as SENSORS
 from texvent.sensor import Sensor as Sensor
 from texvent.sensor import SensorSize as SensorSize
 from texvent.simulation.build import check_simulator as check_simulator
-from texvent.truth.clip import load_truth as load_truth
+from texvent.truth.folder_truth import load_truth as load_truth
 from texvent.truth.recorder import save_truth as save_truth
 from texvent_scenes import rig as rig
 from texvent_scenes.scene_input import read as read

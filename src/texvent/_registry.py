@@ -187,7 +187,7 @@ GENERATORS = Registry(
     {
         "opensora": "texvent.generation.opensora:OpenSoraGenerator",
     },
-    table="texvent.generation.video_models.known_models",
+    table="texvent.generation.video_models.named_models",
 )
 SCENES = Registry("scene package", {})
 INTERPOLATORS = Registry(
@@ -226,7 +226,7 @@ CODECS = Registry(
         "prophesee-hdf5": "texvent.io.prophesee.prophesee_ecf:EcfHdf5Codec",
         "csv": "texvent.io.text.codecs:CsvCodec",
         "e2vid": "texvent.io.text.codecs:E2vidZipCodec",
-        "n-imagenet": "texvent.io.arrays.n_imagenet:NImageNetCodec",
+        "n-imagenet": "texvent.io.arrays.npz:NImageNetCodec",
         "dsec": "texvent.io.hdf5.dsec:DsecCodec",
         "event-utils": "texvent.io.hdf5.event_utils:EventUtilsCodec",
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",

@@ -21,7 +21,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
 from texvent.options.values import types_of
-from texvent.runtime.device_names import check_device_name
+from texvent.runtime.devices import check_device_name
 
 IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | float | None, ...]]]
 """Option → another one, of this or another config, and those of its values (of paths: endings) with

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 from numpy.typing import NDArray
 
 from texvent._registry import load_object
-from texvent.runtime.displays.notebooks import NotebookValue
+from texvent.runtime.notebooks import NotebookValue
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike

@@ -11,8 +11,8 @@ from typing import Any, Protocol, runtime_checkable
 from texvent.event_methods import EventMethods, call_method, time_edit, with_edit
 from texvent.events import EventStream
 from texvent.options.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.progress import Progress
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import SensorSize, as_size
 

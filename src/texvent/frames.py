@@ -25,10 +25,10 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import luma_bt601
+from texvent.brightness import check_intensity, luma_bt601
 from texvent.errors import InputError, shown
 from texvent.options.arrays import as_array, usable_pixels, whole_us
-from texvent.runtime.displays.notebooks import NotebookValue
+from texvent.runtime.notebooks import NotebookValue
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 
@@ -37,14 +37,6 @@ PREVIEW_MARK = "preview of events, drawn by texvent"
 """Comment in video files that show events, so that they are not taken for sources."""
 LATEST_US = 2**53
 """Frame times lie within ± this many µs, 285 years: float64 holds them exactly."""
-HIGHEST_INTENSITY = 1e9
-"""Highest intensity of a frame, on the 0..255 scale: four million times white. Up to here every
-model's float32 and float64 arithmetic is finite."""
-SYMMETRIC = (
-    "they are probably -1..1, while texvent's intensities are 0..255. Give (frames + 1) / 2 and "
-    "white_level=1"
-)
-"""Said of pixels around 0, such as those of diffusion models."""
 UINT16_PER_LEVEL = 257.0
 """65535 / 255: a uint16 pixel is full scale, so this brings it to the 0..255 scale."""
 
@@ -382,39 +374,3 @@ class StreamChecker:
         self._size, self._last_us = frame.size, frame.t_us
         self._index += 1
         return frame
-
-
-def check_intensity(pixels: PixelArray, where: str) -> None:
-    """Refuse intensities outside 0..`HIGHEST_INTENSITY`, and NaN.
-
-    Raises:
-        InputError: there is one; the message counts them.
-    """
-    if not is_intensity(pixels):
-        raise bad_intensity(pixels, where)
-
-
-def is_intensity(pixels: PixelArray) -> bool:
-    """Whether all pixels lie in 0..`HIGHEST_INTENSITY`; integer pixels always do."""
-    return pixels.dtype.kind != "f" or bool(pixels.min() >= 0 and pixels.max() <= HIGHEST_INTENSITY)
-
-
-def bad_intensity(pixels: PixelArray, where: str) -> InputError:
-    """The error for a frame of which a pixel is not in 0..`HIGHEST_INTENSITY`."""
-    bad = pixels[~((pixels >= 0) & (pixels <= HIGHEST_INTENSITY))]
-    return InputError(
-        f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative, or above "
-        f"{HIGHEST_INTENSITY:g} (first: {bad[0]:g}); intensities must be 0..{HIGHEST_INTENSITY:g}, "
-        f"where 255 is white; {_remedy(pixels)}"
-    )
-
-
-def _remedy(pixels: PixelArray) -> str:
-    lowest, highest = float(pixels.min()), float(pixels.max())
-    if not (np.isfinite(lowest) and np.isfinite(highest)):
-        return "fill what is not known, such as np.nan_to_num(frames, posinf=255)"
-    if highest > HIGHEST_INTENSITY:
-        return "give white_level, or divide by what is white"
-    if lowest < -0.5 * highest:
-        return SYMMETRIC if lowest >= -255 and highest <= 255 else "add what makes black 0"
-    return "cut what filters leave below 0: np.clip(frames, 0, None)"

@@ -16,8 +16,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS
+from texvent.capture.linear_light import adapt_transfer
 from texvent.capture.prepare import PreparedFrames
-from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
 from texvent.errors import warn
 from texvent.event_packets import EventPackets

@@ -27,9 +27,9 @@ from texvent.data.pull import (
 )
 from texvent.errors import ConfigError, FileFormatError, shown
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
-from texvent.io.atomic import hidden_folder
 from texvent.metrics.lpips import FILE_NAME, read_lpips_weights, write_lpips_weights
 from texvent.runtime.files.cache_folder import cache_folder, make_folder
+from texvent.runtime.files.hidden_parts import hidden_folder
 
 
 @dataclass(frozen=True)

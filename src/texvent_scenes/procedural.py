@@ -32,7 +32,7 @@ from texvent.frames import (
 from texvent.generation.subjects import Subject, describe_subject
 from texvent.options.values import plain
 from texvent.prompt_report import REPORT_KEY
-from texvent.runtime.work.prefetch import prefetch
+from texvent.runtime.work.worker_threads import prefetch
 from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent_scenes.description import report_of

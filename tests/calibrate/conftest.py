@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.recording import Recording
+from texvent.calibrate.recording import FrameRecording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.frames import Video
@@ -35,13 +35,13 @@ def moving_blobs(count: int = 90, shape=(24, 32), fps: int = 60) -> Video:
     return Video(np.stack(frames), [round(i * 1e6 / fps) for i in range(count)])
 
 
-def record(frames: Video, config: PhysicalConfig, seed: int = 77) -> Recording:
+def record(frames: Video, config: PhysicalConfig, seed: int = 77) -> FrameRecording:
     """Frames with the events that a sensor makes of them."""
     sensor = PhysicalSimulator(config, seed=seed)
     events = EventStream.concat([sensor.step(frame) for frame in frames])
-    return Recording(frames, events, InterpolateConfig(interpolate="none"))
+    return FrameRecording(frames, events, InterpolateConfig(interpolate="none"))
 
 
 @pytest.fixture(scope="session")
-def recording() -> Recording:
+def recording() -> FrameRecording:
     return record(moving_blobs(), TRUTH)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from tests.io.ros.test_bags import types_of, write_bag
 
+from texvent.capture.bag_frames import BAYER, COMPRESSED, ENCODINGS, IMAGE
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, TexventError
-from texvent.io.ros.image_messages import BAYER, COMPRESSED, ENCODINGS, IMAGE
 
 PICTURES = np.random.default_rng(0).integers(0, 2**16, (3, 4, 6, 3), np.uint16)
 """[N, H, W, 3] RGB."""

@@ -9,7 +9,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.frames import Video
-from texvent.view.video.writer import write_images
+from texvent.view.video_writer import write_images
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.transfer_adaptation import gamma_coded
+from texvent.capture.linear_light import gamma_coded
 from texvent.frames import Frame, MotionVectors, Video, transfer_of
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair

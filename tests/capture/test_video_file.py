@@ -13,9 +13,8 @@ import pytest
 from PIL import Image
 
 import texvent
-from texvent.capture import video_file
-from texvent.capture.decoding import pixels as decoded
-from texvent.capture.decoding.pixels import PixelReader
+from texvent.capture import decoding, video_file
+from texvent.capture.decoding import PixelReader
 from texvent.capture.given_times import FrameTimes
 from texvent.capture.live import LiveFrames
 from texvent.capture.open import open_frames
@@ -334,7 +333,7 @@ def test_a_lack_of_threads_or_memory_is_not_called_damage(clips, monkeypatch, nu
     def refuse(*_, **__):
         raise av.error.classes.get(number, av.error.FFmpegError)(number, "refused")
 
-    monkeypatch.setattr(decoded, "VideoReformatter", lambda: SimpleNamespace(reformat=refuse))
+    monkeypatch.setattr(decoding, "VideoReformatter", lambda: SimpleNamespace(reformat=refuse))
     with pytest.raises(OSError, match="higher limit of processes or memory"):
         list(frames_of(path))
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.dry_run import MOST_PAIRS, MOST_SECONDS, estimate_run
+from texvent.cli.run import MOST_PAIRS, MOST_SECONDS, estimate_run
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
@@ -37,7 +37,7 @@ def test_no_further_pair_is_begun_after_ten_seconds(seconds):
     """The first pair, which may compile, does not count for the time of the whole."""
     ends = [0.0, *accumulate(seconds)]
     video = Video(FRAMES, [20_000 * i for i in range(len(FRAMES))])
-    with mock.patch("texvent.cli.dry_run.time.perf_counter", side_effect=ends):
+    with mock.patch("texvent.cli.run.time.perf_counter", side_effect=ends):
         said = estimate_run(video_to_events(video, resolve("simulate", OPTIONS)))
     tried = next(n for n, end in enumerate(ends) if n == MOST_PAIRS or end > MOST_SECONDS)
     usual = seconds[min(1, tried - 1) : tried]

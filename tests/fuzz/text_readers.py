@@ -18,7 +18,7 @@ from texvent.dataset.specification.list_files import read_list
 from texvent.io.calibration import read_calibration
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
 from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
-from texvent.options.parts import make_part
+from texvent.options.values import make_part
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.labels import read_labels

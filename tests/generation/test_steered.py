@@ -20,8 +20,8 @@ from texvent.frames import Video, frame_time_us
 from texvent.generation.control_video import KINDS, draw_control, id_colours, times_of
 from texvent.generation.steered_video import SteeredVideo
 from texvent.generation.video_models import model_files
-from texvent.generation.video_models.controls import PIPELINES, check_control
-from texvent.generation.video_models.known_models import MODELS
+from texvent.generation.video_models.controls import PIPELINES
+from texvent.generation.video_models.known_models import MODELS, check_control
 from texvent.interpolate.motion.layers import gamma_coded, linear
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize

@@ -12,14 +12,15 @@ from subprocess import PIPE, Popen
 
 import pytest
 
-from texvent.io import atomic
-from texvent.io.atomic import atomic_file, hidden_file, hidden_folder, remove_own_parts
+from texvent.io.atomic import atomic_file
+from texvent.runtime.files import hidden_parts
+from texvent.runtime.files.hidden_parts import hidden_file, hidden_folder, remove_own_parts
 
 HOLD = """
 import sys
 from pathlib import Path
 from texvent.io.atomic import atomic_file, atomic_folder
-from texvent.io.atomic import hidden_file, hidden_folder, remove_own_parts
+from texvent.runtime.files.hidden_parts import hidden_file, hidden_folder, remove_own_parts
 
 target = Path(sys.argv[1])
 if target.suffix:
@@ -36,7 +37,7 @@ with context as part:
 DIE_BETWEEN_RENAMES = """
 import os, sys
 from pathlib import Path
-from texvent.io import atomic
+from texvent.io.atomic import atomic_folder
 
 rename = os.replace
 
@@ -46,14 +47,14 @@ def die(source, target):
     rename(source, target)
 
 os.replace = die
-with atomic.atomic_folder(Path(sys.argv[1]), overwrite=True, is_own=lambda path: True) as part:
+with atomic_folder(Path(sys.argv[1]), overwrite=True, is_own=lambda path: True) as part:
     (part / "events").write_text("new")
 """
 
 
 @pytest.fixture(autouse=True)
 def _forget_swept_folders(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(atomic, "_swept", set())
+    monkeypatch.setattr(hidden_parts, "_swept", set())
 
 
 @pytest.fixture(params=["out.h5", "folder"])
@@ -91,8 +92,8 @@ def test_the_own_open_parts_and_files_of_others_stay(tmp_path: Path) -> None:
     for other in others:
         other.write_text("mine")
     with atomic_file(tmp_path / "a.bin", overwrite=False) as part:
-        atomic._swept.clear()
-        atomic.sweep(tmp_path)
+        hidden_parts._swept.clear()
+        hidden_parts.sweep(tmp_path)
         assert part.exists()
         part.write_bytes(b"a")
     assert all(other.read_text() == "mine" for other in others)
@@ -114,7 +115,7 @@ def test_a_link_with_the_name_of_a_part_is_not_followed(tmp_path: Path) -> None:
     precious.mkdir()
     (precious / "file").write_text("kept")
     (tmp_path / ".texvent-0.part").symlink_to(precious)
-    atomic.sweep(tmp_path)
+    hidden_parts.sweep(tmp_path)
     assert (precious / "file").read_text() == "kept"
 
 
@@ -125,7 +126,7 @@ def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) 
     command = [sys.executable, "-c", DIE_BETWEEN_RENAMES, str(target)]
     assert subprocess.run(command, check=False).returncode == 9
     assert not target.exists()
-    atomic.sweep(tmp_path)
+    hidden_parts.sweep(tmp_path)
     assert (target / "events").read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["recording"]
 
@@ -133,9 +134,9 @@ def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) 
 SWEEP_ALL = """
 import sys
 from pathlib import Path
-from texvent.io import atomic
-atomic._is_dead = lambda part: True  # as in another PID namespace
-atomic.sweep(Path(sys.argv[1]))
+from texvent.runtime.files import hidden_parts
+hidden_parts._is_dead = lambda part: True  # as in another PID namespace
+hidden_parts.sweep(Path(sys.argv[1]))
 """
 
 
@@ -162,5 +163,5 @@ def test_parts_of_other_users_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     os.utime(part, (1, 1))
     user = os.geteuid()
     monkeypatch.setattr(os, "geteuid", lambda: user + 1)
-    atomic.sweep(tmp_path)
+    hidden_parts.sweep(tmp_path)
     assert list(tmp_path.iterdir()) == [part]

@@ -15,7 +15,7 @@ from tests.io.ros.test_bags import EVENTS, array_message, types_of, write_bag
 
 from texvent.cli.app import main
 from texvent.io.files import codec_that_reads, save
-from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
+from texvent.io.prophesee.evt import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
 from texvent.io.ros.messages import EVENT_ARRAY
 
 

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.docs
 PROLOGUE = """
 import time
 import texvent
-from texvent.runtime.displays.progress_option import open_progress
+from texvent.runtime.progress_option import open_progress
 
 began = time.monotonic()
 

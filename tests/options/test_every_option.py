@@ -15,7 +15,7 @@ from texvent._registry import FILTERS
 from texvent.cli.app import own_commands
 from texvent.cli.dataset.dataset import STEPS
 from texvent.errors import TexventError
-from texvent.options.parts import make_part
+from texvent.options.values import make_part
 
 TRIES = read_tries()
 RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()

@@ -4,7 +4,7 @@ import pytest
 
 from texvent._registry import Registry
 from texvent.errors import TexventError
-from texvent.options.parts import make_part
+from texvent.options.values import make_part
 
 
 class NoDataclass:

@@ -12,14 +12,14 @@ import pytest
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
-from texvent.io import atomic
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.runtime import memory
+from texvent.runtime.files import hidden_parts
 
 
 @pytest.fixture
 def no_posix(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(atomic, "CAN_SWEEP", False)
+    monkeypatch.setattr(hidden_parts, "CAN_SWEEP", False)
     for name in ("O_DIRECTORY", "O_NOFOLLOW", "pread", "sysconf"):
         monkeypatch.delattr(os, name)
     for name in ("fcntl", "grp", "pwd", "resource", "termios", "tty", "pty"):

@@ -21,7 +21,7 @@ from tests.cli.running import run
 from tests.examples import one_of
 
 from texvent.dataset.generation.recipe import _recipe_in
-from texvent.io import atomic
+from texvent.runtime.files import hidden_parts
 
 STEPS = ("replace", "rename", "unlink", "remove", "rmdir", "mkdir", "fsync")
 """Functions of `os` that change a folder, or make a change durable."""
@@ -120,7 +120,7 @@ def restore(state: Path) -> None:
     for one in Path().iterdir():
         shutil.rmtree(one) if one.is_dir() else one.unlink()
     shutil.copytree(state, Path(), dirs_exist_ok=True)
-    atomic._swept.clear()
+    hidden_parts._swept.clear()
     _recipe_in.cache_clear()
 
 
@@ -136,14 +136,14 @@ def kills(kept: Path) -> Iterator[None]:
 
     def keep() -> None:
         paths = sorted(one for one in here.rglob("*") if one.is_file())
-        shown = {str(one): one.read_bytes() for one in paths if atomic.PREFIX not in str(one)}
+        shown = {str(one): one.read_bytes() for one in paths if hidden_parts.PREFIX not in str(one)}
         parts = len(paths) - len(shown)
         before, place = found.get(repr(shown), (-1, kept / f"{len(found):03d}"))
         if parts <= before:
             return
         shutil.rmtree(place, ignore_errors=True)
         shutil.copytree(here, place)
-        for one in sorted(place.rglob(f"{atomic.PREFIX}*"), reverse=True):
+        for one in sorted(place.rglob(f"{hidden_parts.PREFIX}*"), reverse=True):
             one.rename(one.with_name(one.name.replace(f"-{os.getpid()}-", f"-{NOBODY}-")))
         found[repr(shown)] = parts, place
 

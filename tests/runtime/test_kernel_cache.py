@@ -14,7 +14,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from texvent.runtime import kernel_cache
+from texvent.runtime import jit
 
 SOURCE = Path(__file__).parents[2] / "src"
 KERNELS = """
@@ -50,7 +50,7 @@ def run(module, **environment):
             patch.setenv(name, value)
         patch.setattr(tempfile, "tempdir", None)
         patch.setattr(numba.config, "CACHE_DIR", environment.get("NUMBA_CACHE_DIR", ""))
-        patch.setattr(kernel_cache, "_NOTICES", itertools.count())
+        patch.setattr(jit, "_NOTICES", itertools.count())
         found = runpy.run_path(str(module / "kernels.py"), run_name="kernels")
     return *found["FOUND"], "".join(str(one.message) for one in said)
 

@@ -6,10 +6,10 @@ import sys
 import numba
 import pytest
 
-from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.displays.progress_option import open_progress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.jit import jit
 from texvent.runtime.progress import NoProgress, _tell_terminal
+from texvent.runtime.progress_option import open_progress
 
 
 def test_a_function_is_called_at_every_step_and_line():
@@ -50,9 +50,7 @@ def test_a_bar_shows_in_a_terminal_unless_told_otherwise(monkeypatch, option, st
 def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(
-        "texvent.runtime.displays.console_progress.time.monotonic", lambda: clock[0]
-    )
+    monkeypatch.setattr("texvent.runtime.console_progress.time.monotonic", lambda: clock[0])
     monkeypatch.setenv("TERM", "xterm")
     clock = [0.0]
     with ConsoleProgress() as progress:

@@ -13,8 +13,7 @@ from texvent._registry import FILTERS
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.options.parts import read_part
-from texvent.options.values import option_names
+from texvent.options.values import option_names, read_part
 from texvent.sensor import SensorSize
 from texvent.transform.filters.noise_filters import (
     MaskFilter,

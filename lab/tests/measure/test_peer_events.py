@@ -8,7 +8,7 @@ import pytest
 
 from texvent.frames import Frame
 from texvent.io.files import open_events
-from texvent.view.video.writer import write_clips
+from texvent.view.video_writer import write_clips
 from texvent_lab.measure import peer_events
 
 TIMES_US = (1_000_000, 1_010_000, 1_040_000)

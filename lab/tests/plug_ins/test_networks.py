@@ -15,7 +15,7 @@ from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.frames import Frame, Video
 from texvent.io.files import open_events
-from texvent.networks.weight_files import BATCH_COUNTER, shapes_of
+from texvent.networks import BATCH_COUNTER, shapes_of
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulation.packets import FrameInterval

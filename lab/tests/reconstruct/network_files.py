@@ -5,7 +5,7 @@ from types import ModuleType
 
 import numpy as np
 
-from texvent.networks.weight_files import shapes_of
+from texvent.networks import shapes_of
 from texvent_lab.registries import RECONSTRUCTORS
 
 WIDTH, BINS, SIDE = 4, 5, 3

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent.networks.weight_files import read_mapping
+from texvent.networks import read_mapping
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING, network_settings, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 

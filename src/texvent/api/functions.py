@@ -22,9 +22,9 @@ from texvent.io.files import load
 from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
 from texvent.pipeline import Simulation
+from texvent.run.files import TruthFolder, run_with_truth
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
-from texvent.run.truth import TruthFolder, run_with_truth
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 

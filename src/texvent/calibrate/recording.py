@@ -42,7 +42,7 @@ class TimeSpan(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class FrameRecording:
     """Frames and events of one sensor on one clock.
 
     Raises:
@@ -125,7 +125,7 @@ def simulate_span(
     """Simulated events of a span.
 
     Args:
-        frames: of `Recording.dense_frames`.
+        frames: of `FrameRecording.dense_frames`.
         span: which events are wanted.
         config: the model.
         offset_us: what is added to the times of the frames.

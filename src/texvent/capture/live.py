@@ -11,7 +11,7 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
+from texvent.capture.decoding import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import InputError, is_address, warn, without_password

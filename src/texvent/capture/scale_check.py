@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from texvent.brightness import SYMMETRIC
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import ChangedFrames
 from texvent.capture.given_times import warn_of_unit
@@ -22,7 +23,6 @@ from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
 from texvent.frames import (
     MICROSECONDS,
-    SYMMETRIC,
     Frame,
     FrameStream,
     NotebookFrames,

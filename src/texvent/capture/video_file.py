@@ -15,13 +15,15 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decoding.packet_times import (
+from texvent.capture.decoding import (
     PacketTimes,
+    PixelReader,
+    coding_facts,
     count_undelayed,
     needs_packet_times,
     read_packet_times,
+    warn_of_pixels,
 )
-from texvent.capture.decoding.pixels import PixelReader, coding_facts, warn_of_pixels
 from texvent.capture.frame_source import FrameSource
 from texvent.capture.given_times import FrameTimes
 from texvent.errors import FileFormatError, few, warn

@@ -24,19 +24,16 @@ from texvent.dataset.layouts.checks import (
     folder_name,
 )
 from texvent.dataset.layouts.coco import COCO
-from texvent.dataset.layouts.dsec_det import DSEC_DET
-from texvent.dataset.layouts.event_files import HDF5, N_CALTECH101, N_IMAGENET
-from texvent.dataset.layouts.frames import clip_frames
+from texvent.dataset.layouts.driving import DSEC_DET, GEN1, MEGAPIXEL
+from texvent.dataset.layouts.event_files import DVS_GESTURE, HDF5, N_CALTECH101, N_IMAGENET, N_MNIST
+from texvent.dataset.layouts.frames import TIMELENS, clip_frames
 from texvent.dataset.layouts.layout import Layout, LayoutSample
-from texvent.dataset.layouts.prophesee import GEN1, MEGAPIXEL
 from texvent.dataset.layouts.rvt import RVT
-from texvent.dataset.layouts.spiking import DVS_GESTURE, N_MNIST
-from texvent.dataset.layouts.timelens import TIMELENS
 from texvent.dataset.stored.folder import StoredDataset, StoredShard
 from texvent.errors import ConfigError, OutputError, one_line, shown
-from texvent.io.atomic import is_hidden_part
 from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.runtime.files.file_names import inside
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.truth.boxes import BOX_RECORD
 
 LAYOUTS: Mapping[str, Layout] = {

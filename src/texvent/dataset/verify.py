@@ -24,7 +24,7 @@ from texvent.dataset.statistics import in_several_splits
 from texvent.dataset.stored.folder import SHARD_FILE, StoredDataset, StoredShard
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, one_line, shown
-from texvent.io.atomic import is_hidden_part
+from texvent.runtime.files.hidden_parts import is_hidden_part
 
 
 @dataclass

@@ -18,7 +18,7 @@ from texvent.frames import (
     PixelArray,
 )
 from texvent.interpolate.protocol import Interpolator
-from texvent.pairs.pair_measures import PairMeasures, measure_pair
+from texvent.pairs.on_device import PairMeasures, measure_pair
 from texvent.runtime.devices import Device, explain_device_memory
 
 if TYPE_CHECKING:

@@ -12,17 +12,14 @@ from texvent.frames import Frame, FrameStream, MovingStream, StreamChecker
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
-from texvent.pairs.frame_pair import (
-    FramePair,
-    hold_earlier,
-)
+from texvent.pairs.frame_pair import FramePair, hold_earlier
 from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.on_device import pixels_on
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.time_jump import watch_steps
 from texvent.runtime.devices import Device, explain_device_memory
 from texvent.runtime.memory import release_freed_memory
-from texvent.runtime.work.prefetch import prefetch
+from texvent.runtime.work.worker_threads import prefetch
 
 FRAMES_AHEAD = 2
 PAIRS_AHEAD = 1

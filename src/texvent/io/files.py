@@ -17,7 +17,7 @@ from texvent.io.compressed import beginning_of_text
 from texvent.io.input_checks import NotReadError, existing_file, refuse_other_kind
 from texvent.io.reading import read_options
 from texvent.runtime.files.file_names import usable_path
-from texvent.runtime.work.background_writer import BackgroundWriter
+from texvent.runtime.work.worker_threads import BackgroundWriter
 from texvent.sensor import SensorSize, SizeLike
 
 FIRST_LINES = 8

@@ -17,8 +17,7 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.metrics.image_measures import decibels, mean_squared_error, structural_similarity
 from texvent.metrics.lpips import Lpips, find_lpips_weights, lpips_distance, read_lpips_weights
-from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.windows import count_windows, occupied_windows
+from texvent.metrics.protocol import UNDEFINED, Metric, count_windows, occupied_windows
 from texvent.represent.event_frame import event_frame
 
 Float64Array = NDArray[np.float64]

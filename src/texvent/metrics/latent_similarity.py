@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
+from texvent.metrics.protocol import UNDEFINED, Metric, flat_index, occupied_windows, rate_of_window
 from texvent.represent.array_ops import columns_of
 from texvent.represent.histogram import BINS, CUTOFF, stacked_histogram, time_bins
 

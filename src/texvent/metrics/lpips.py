@@ -21,7 +21,7 @@ from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_file
 from texvent.metrics.protocol import UNDEFINED
-from texvent.networks.weight_files import DAMAGE, Shape, Tensor
+from texvent.networks import DAMAGE, Shape, Tensor
 from texvent.runtime.files.cache_folder import cache_folder
 
 Float32Array = NDArray[np.float32]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import FileFormatError, shown
-from texvent.networks.weight_files import STATE, Tensor, load_strictly, named_tensors, read_mapping
+from texvent.networks import STATE, Tensor, load_strictly, named_tensors, read_mapping
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""

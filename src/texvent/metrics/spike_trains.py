@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.windows import flat_index
+from texvent.metrics.protocol import UNDEFINED, Metric, flat_index
 
 
 @dataclass(frozen=True, eq=False)

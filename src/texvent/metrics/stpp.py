@@ -8,8 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import Metric, check_pair
-from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
+from texvent.metrics.protocol import (
+    Metric,
+    check_pair,
+    flat_index,
+    occupied_windows,
+    rate_of_window,
+)
 
 TIME_CELLS = (1, 2, 4, 8, 16)
 """τ: cells per window in time, each twice the one before it."""

@@ -19,8 +19,8 @@ from texvent.options.keywords import ReadingOptions
 from texvent.options.values import with_options
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.progress import Progress
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.sensor import SensorSize
 from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer

@@ -23,9 +23,30 @@ from texvent.errors import (
     InputError,
     MissingDependencyError,
     one_line,
+    shown,
     warn,
 )
-from texvent.runtime.device_names import AUTO, CPU, check_device_name
+
+AUTO, CPU = "auto", "cpu"
+_NAME = re.compile("auto|cpu|cuda(:(0|[1-9][0-9]?))?")
+
+
+def check_device_name(value: Any, option: str = "device") -> str:
+    """The name of a device.
+
+    Args:
+        value: a name, or a torch.device.
+        option: of what, for the message.
+
+    Raises:
+        ConfigError: it is none.
+    """
+    if _NAME.fullmatch(str(value)):
+        return str(value)
+    raise ConfigError(
+        f"{option} is {shown(value)}; it must be auto, cpu, cuda or a numbered GPU such as cuda:1"
+    )
+
 
 EXTRA = "gpu"
 VARIABLE = "TEXVENT_DEVICE"

@@ -18,9 +18,8 @@ from texvent.dataset.torch_samples import EventBatch
 from texvent.errors import ConfigError, InputError, TexventError, few, one_line, shown, warn
 from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
-from texvent.runtime.device_names import check_device_name
-from texvent.runtime.devices import explain_device_memory, find_gpu, triton_fault
-from texvent.runtime.work.prefetch import prefetch
+from texvent.runtime.devices import check_device_name, explain_device_memory, find_gpu, triton_fault
+from texvent.runtime.work.worker_threads import prefetch
 from texvent.sensor import SizeLike, as_size
 from texvent.simulation.clips.pixels import ClipOutputs, check_clips
 from texvent.training.clip_store import ClipStore

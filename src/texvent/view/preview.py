@@ -18,7 +18,7 @@ from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import title_of
 from texvent.view.page.writer import PageWriter
 from texvent.view.stills import BusiestWindow
-from texvent.view.video.writer import VideoWriter
+from texvent.view.video_writer import VideoWriter
 from texvent.view.windows import EventWindow, WindowCollector
 
 PREVIEW_KINDS = ("mp4", "gif", "png", "html")

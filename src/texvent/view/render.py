@@ -19,15 +19,14 @@ from texvent.io.atomic import atomic_file, check_output
 from texvent.represent.contrast_maximisation import find_flow, flow_warp_loss, warp_events
 from texvent.represent.event_frame import count_events
 from texvent.runtime.progress import NO_PROGRESS, Progress
-from texvent.view.drawing.event_image import draw_events
-from texvent.view.drawing.motion import draw_flow
+from texvent.view.drawing.event_image import draw_events, draw_flow
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.drawing.panels import Overlay, title_of
 from texvent.view.page.writer import PageWriter
 from texvent.view.sample import SAMPLE_EVENTS
 from texvent.view.stills import BusiestWindow, find_busiest
-from texvent.view.video.encoder import VIDEO_EXTENSIONS
-from texvent.view.video.writer import VideoWriter
+from texvent.view.video_encoder import VIDEO_EXTENSIONS
+from texvent.view.video_writer import VideoWriter
 from texvent.view.windows import (
     EventWindow,
     SourceOverlay,

@@ -30,9 +30,10 @@ from texvent.errors import InputError, TexventError, shown
 from texvent.generation.subjects import scenes
 from texvent.generation.video_models.known_models import MODELS
 from texvent.generation.video_models.model_files import HUB
-from texvent.io.atomic import atomic_file, temporary_folder
+from texvent.io.atomic import atomic_file
 from texvent.options.values import option_names
 from texvent.runtime.files.file_names import VIDEO_EXTENSIONS, file_stem, usable_path
+from texvent.runtime.files.hidden_parts import temporary_folder
 from texvent.sensor import SENSORS
 from texvent.settings.resolution import read_basis
 from texvent.web.server import FILE_BYTES, HTML, NOTHING_POLICY, Answer, Gets, PageServer, page_text

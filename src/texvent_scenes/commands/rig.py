@@ -14,7 +14,7 @@ from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.errors import ConfigError
 from texvent.options.values import option_names, plain
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings
 from texvent_scenes.rig.config import RigConfig, check_generator
 

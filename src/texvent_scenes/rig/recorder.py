@@ -11,8 +11,8 @@ from texvent.config import warn_of_idle
 from texvent.generation.subjects import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.options.values import option_names, with_options
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
 from texvent.runtime.progress import Progress
+from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent_scenes.rig.config import RigConfig
 from texvent_scenes.rig.layouts import bag, dsec, hdf5

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.capture.camera_path.motion import CameraPose2D
-from texvent.capture.camera_path.view import View, fitted_view
+from texvent.capture.camera_path.photo_frames import SensorView, fitted_view
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
 
@@ -15,7 +15,7 @@ IMAGE = np.random.default_rng(0).integers(0, 256, (14, 18)).astype(np.float32)
 
 def view_of(width=18, height=14, scale=1.0, image=IMAGE, **options):
     size = SensorSize(image.shape[1], image.shape[0])
-    return View(size, SensorSize(width, height), scale, **options)
+    return SensorView(size, SensorSize(width, height), scale, **options)
 
 
 def mirrored(image, margin=40):
@@ -70,18 +70,18 @@ def test_fractional_shifts_and_scales_are_means_over_the_area(scale, place):
 def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
     image, sensor = SensorSize(400, 300), SensorSize(40, 30)
     places = [CameraPose2D(-5.0), CameraPose2D(5.0, 2.0)]
-    view = fitted_view(View(image, sensor), places, is_pixelwise=False)
+    view = fitted_view(SensorView(image, sensor), places, is_pixelwise=False)
     assert view.scale == pytest.approx(400 / 50)
     assert view.reach(places) == pytest.approx(1.0)
-    still = fitted_view(View(image, sensor), [CameraPose2D()], is_pixelwise=False)
+    still = fitted_view(SensorView(image, sensor), [CameraPose2D()], is_pixelwise=False)
     assert still.scale == 10.0
 
 
 def test_an_image_is_not_enlarged_for_its_path():
     image, places = SensorSize(44, 34), [CameraPose2D(-5.0), CameraPose2D(5.0)]
-    view = fitted_view(View(image, SensorSize(40, 30)), places, is_pixelwise=False)
+    view = fitted_view(SensorView(image, SensorSize(40, 30)), places, is_pixelwise=False)
     assert view.scale == 1.0
-    small = fitted_view(View(image, SensorSize(88, 68)), places, is_pixelwise=False)
+    small = fitted_view(SensorView(image, SensorSize(88, 68)), places, is_pixelwise=False)
     assert small.scale == 0.5
 
 

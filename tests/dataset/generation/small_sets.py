@@ -11,9 +11,8 @@ import numpy as np
 
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import specification_from
-from texvent.runtime.work.engines import Engine, SerialEngine
+from texvent.runtime.work.engines import Engine, SerialEngine, Work
 
 
 def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:

@@ -16,8 +16,8 @@ import texvent
 from texvent.dataset.generation.make import ShardTask, find_work, remove_dead_parts
 from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
-from texvent.dataset.generation.work import Work
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
+from texvent.runtime.work.engines import Work
 
 pytestmark = pytest.mark.dataset
 pytest.importorskip("ray")

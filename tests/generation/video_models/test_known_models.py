@@ -7,17 +7,17 @@ import pytest
 
 from texvent._registry import GENERATORS
 from texvent.errors import ConfigError, TexventWarning
-from texvent.generation.video_models import known_models
+from texvent.generation.video_models import known_models, named_models
 from texvent.settings.resolution import resolve
 
 
 def test_few_frames_per_second_are_warned_about_and_24_are_not():
     with pytest.warns(TexventWarning, match="cogvideox-5b makes 8 frames per second"):
-        known_models.warn_low_fps("cogvideox-5b")
+        named_models.warn_low_fps("cogvideox-5b")
     with pytest.warns(TexventWarning, match="makes 16 frames per second"):
-        known_models.warn_low_fps("./models/Wan2.1-T2V-1.3B-Diffusers")
+        named_models.warn_low_fps("./models/Wan2.1-T2V-1.3B-Diffusers")
     for name in ("wan2.2-5b", "procedural", "opensora", "./my-model"):
-        known_models.warn_low_fps(name)
+        named_models.warn_low_fps(name)
 
 
 def test_a_row_gives_its_own_defaults_to_the_options():

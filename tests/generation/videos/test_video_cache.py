@@ -15,7 +15,7 @@ from texvent.errors import FileFormatError, InputError, TexventWarning, warnings
 from texvent.frames import Video, frame_time_us, transfer_of
 from texvent.generation.videos.stored_video import reopen, to_16_bits, write_stream, write_video
 from texvent.generation.videos.video_cache import VideoCache, content_key, kept_folder
-from texvent.io.atomic import is_hidden_part
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.runtime.work import side_work
 from texvent.runtime.work.interrupts import clean_up
 from texvent.transfer import Transfer

@@ -1,6 +1,6 @@
 """The compiled kernels, under the names of the functions in `reference`."""
 
-from texvent.interpolate.dis_flow.pyramid import double, halve, make_level
+from texvent.interpolate.dis_flow.estimator import double, halve, make_level
 from texvent.interpolate.dis_flow.refine import change_along, refine, unconfirmed
 from texvent.interpolate.dis_flow.search import join, search, try_vectors
 

@@ -10,9 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
 
-from texvent.interpolate.dis_flow.estimator import DisFlow
+from texvent.interpolate.dis_flow.estimator import DisFlow, make_level
 from texvent.interpolate.dis_flow.frame_motion import fit_motion, leads_outside, patch_vectors
-from texvent.interpolate.dis_flow.pyramid import make_level
 
 WIDTH, HEIGHT = 192, 144
 

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from texvent.runtime.work.background_writer import DEPTH, BackgroundWriter
+from texvent.runtime.work.worker_threads import DEPTH, BackgroundWriter
 
 
 class Sink:

@@ -87,7 +87,7 @@ PROGRAM = """
 import os, sys, time
 from pathlib import Path
 from texvent.runtime.work.engines import interruptible, start_pool, stop_pools
-from texvent.io.atomic import hidden_file
+from texvent.runtime.files.hidden_parts import hidden_file
 
 def work(folder):
     with interruptible(), hidden_file(folder, ".part"):

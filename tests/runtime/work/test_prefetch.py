@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from texvent.runtime.work.prefetch import prefetch
+from texvent.runtime.work.worker_threads import prefetch
 
 
 def own_threads():
@@ -94,7 +94,7 @@ def test_an_error_of_the_reader_ends_the_work():
 def test_a_process_that_forgets_a_reader_still_ends():
     script = (
         "import itertools, time\n"
-        "from texvent.runtime.work.prefetch import prefetch\n"
+        "from texvent.runtime.work.worker_threads import prefetch\n"
         "ahead = prefetch((time.sleep(0.01) for _ in itertools.count()), depth=2)\n"
         "next(ahead)\n"
         "print('done')\n"

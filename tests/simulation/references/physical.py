@@ -19,7 +19,7 @@ from texvent.simulation.physical.circuit import (
     Float64Array,
     Luma,
     NoiseEvents,
-    Optics,
+    PhotoreceptorConstants,
     PhotoreceptorInput,
     brightness_and_cutoff,
 )
@@ -109,7 +109,7 @@ class _Circuit(NamedTuple):
 def _advance(
     circuit: _Circuit,
     noise: tuple[Float64Array, NDArray[np.uint8]],
-    optics: Optics,
+    optics: PhotoreceptorConstants,
     duration: float,
     refractory_us: int,
 ) -> tuple[float, float, float, list[tuple[int, int, int]]]:
@@ -172,7 +172,7 @@ def _enter_segment(
     start: tuple[float, float, float, float],
     light: tuple[float, float],
     times: tuple[float, float],
-    optics: Optics,
+    optics: PhotoreceptorConstants,
 ) -> tuple[float, float, tuple[float, float, float, float, float]]:
     """The output on a segment, `base + slope · now − transient`; docs/design.md has the solution.
 

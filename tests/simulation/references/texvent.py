@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import balanced_log
+from texvent.brightness import balanced_log, check_intensity
 from texvent.events import NOISE, EventStream
-from texvent.frames import Frame, check_intensity
+from texvent.frames import Frame
 from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.random.draws import Purpose, draw_uniforms
 from texvent.simulation.streaming import make_packet

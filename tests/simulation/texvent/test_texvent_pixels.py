@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 from tests.examples import examples
 from tests.simulation.references import definitions, in_both_forms
 
+from texvent.brightness import HIGHEST_INTENSITY
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.frames import HIGHEST_INTENSITY, Frame
+from texvent.frames import Frame
 from texvent.simulation.texvent.simulator import TexventConfig, TexventSimulator
 
 TYPES = (np.uint8, np.uint16, np.float32, np.float64)

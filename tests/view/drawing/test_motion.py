@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.view.drawing.motion import UNKNOWN, draw_flow
+from texvent.view.drawing.event_image import UNKNOWN, draw_flow
 
 WHITE = (255, 255, 255)
 SHAPE = (61, 80)

@@ -18,7 +18,7 @@ from texvent.dataset.specification.clips import clip_key, video_seed
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
-from texvent.io.arrays.n_imagenet import load_stream
+from texvent.io.arrays.npz import load_stream
 from texvent.represent.event_frame import count_events
 from texvent_lab.nt_imagenet.files import Captioned
 from texvent_lab.nt_imagenet.selection import STREAM_EXTENSION, validation_folder

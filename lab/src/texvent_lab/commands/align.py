@@ -12,7 +12,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent_lab.alignment.align import align, alignment_table
 from texvent_lab.alignment.clip_model import ClipModel
 from texvent_lab.alignment.recordings import (

@@ -19,7 +19,7 @@ from texvent.metrics.compare import load_metric, plain_values, score_text
 from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import load_eqs
 from texvent.metrics.protocol import Metric
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent_lab.alignment.pairs import OTHER, score_pairs
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples, list_streams
 from texvent_lab.bench.document import markdown_table

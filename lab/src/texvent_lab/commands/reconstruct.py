@@ -19,8 +19,8 @@ from texvent.events import EventStream
 from texvent.extending import full_version
 from texvent.frames import MICROSECONDS
 from texvent.represent.slices import slice_by_count, slice_regularly
-from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.view.video.writer import check_image_output, open_image_sink
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.view.video_writer import check_image_output, open_image_sink
 from texvent_lab.reconstruct.reconstructor import (
     ReconstructConfig,
     Reconstructor,

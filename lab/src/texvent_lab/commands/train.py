@@ -11,7 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.extending import require
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent.runtime.files.cache_folder import cache_folder
 
 EXTRA = "torch"

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from texvent.extending import require
-from texvent.networks.weight_files import (
+from texvent.networks import (
     BATCH_COUNTER,
     Shape,
     Tensor,

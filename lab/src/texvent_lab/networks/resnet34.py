@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 

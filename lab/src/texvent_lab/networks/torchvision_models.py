@@ -11,7 +11,7 @@ from typing import Any
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import require, suggest
-from texvent.networks.weight_files import Tensor, load_strictly, state_tensors
+from texvent.networks import Tensor, load_strictly, state_tensors
 from texvent_lab.networks.layers import Network
 
 EXTRA = "detect"

@@ -19,7 +19,7 @@ import numpy as np
 from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
 from texvent.frames import MICROSECONDS
-from texvent.io.arrays.n_imagenet import load_stream
+from texvent.io.arrays.npz import load_stream
 
 CLASSES, PER_CLASS = 100, 50
 FEWEST_EVENTS, MOST_EVENTS = 3_000, 170_000

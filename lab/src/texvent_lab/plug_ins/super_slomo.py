@@ -14,7 +14,7 @@ from texvent.config import InterpolateConfig
 from texvent.extending import require
 from texvent.frames import Frame, FrameStream
 from texvent.interpolate.rife.interpolator import RifeInterpolator, image_tensors, pad_to_multiple
-from texvent.networks.weight_files import (
+from texvent.networks import (
     Tensor,
     describe_file,
     load_strictly,

@@ -19,7 +19,7 @@ from texvent.errors import FileFormatError
 from texvent.events import EventStream
 from texvent.extending import require
 from texvent.frames import Frame
-from texvent.networks.weight_files import describe_file, read_mapping
+from texvent.networks import describe_file, read_mapping
 from texvent.pairs.frame_pair import FramePair
 from texvent.runtime.memory import explain_memory
 from texvent.simulation.packets import FrameInterval, UnsortedEvents, check_event_number

@@ -10,7 +10,7 @@ from functools import partial
 from typing import Any
 
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from texvent.errors import FileFormatError
 from texvent.extending import require
-from texvent.networks.weight_files import (
+from texvent.networks import (
     StandIn,
     load_strictly,
     read_mapping,

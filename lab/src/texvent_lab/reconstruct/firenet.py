@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from texvent.extending import require
-from texvent.networks.weight_files import Shape, Tensor
+from texvent.networks import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import ConvGru, ConvLayer, ResidualBlock
 from texvent_lab.reconstruct.recurrent_network import EVREAL, PublishedNetwork, RecurrentNetwork

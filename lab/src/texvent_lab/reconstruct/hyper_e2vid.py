@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.reconstruct.recurrent_network import EVREAL, PublishedNetwork
 from texvent_lab.reconstruct.recurrent_unet import E2vidPlus, UNetVariant

@@ -14,7 +14,7 @@ from typing import Any
 
 from texvent.errors import MissingDependencyError
 from texvent.extending import install_command
-from texvent.networks.weight_files import Shape, Tensor
+from texvent.networks import Shape, Tensor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 
 INSTALL = install_command("--no-deps", "event-pienet==1.1.3")

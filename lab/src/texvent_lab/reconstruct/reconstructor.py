@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor, describe_file
+from texvent.networks import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.runtime.devices import say_no_gpu
 from texvent.runtime.memory import explain_memory

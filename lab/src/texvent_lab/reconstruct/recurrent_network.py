@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.networks.weight_files import Shape, Tensor, shapes_of
+from texvent.networks import Shape, Tensor, shapes_of
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 

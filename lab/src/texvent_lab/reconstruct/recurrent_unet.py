@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from texvent.extending import require
-from texvent.networks.weight_files import Shape, Tensor
+from texvent.networks import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import (
     ConvLayer,

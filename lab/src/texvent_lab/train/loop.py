@@ -20,7 +20,7 @@ import numpy as np
 from texvent.errors import ConfigError, FileFormatError, OutputError, TexventError, one_line
 from texvent.extending import full_version, require
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import DAMAGE, NOTES, TRAINING, Tensor
+from texvent.networks import DAMAGE, NOTES, TRAINING, Tensor
 from texvent.run.ledger import describe_differences
 from texvent.runtime.progress import Progress
 from texvent_lab.train.schedule import EXTRA, Hardware, Schedule

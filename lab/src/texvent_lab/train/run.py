@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from texvent.errors import ConfigError, InputError, shown
 from texvent.extending import full_version, require
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import describe_file, read_mapping
+from texvent.networks import describe_file, read_mapping
 from texvent.options.values import plain, with_options
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.settings.config_files import read_document

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent.dataset.torch_samples import collate
 from texvent.errors import TexventError
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.train.schedule import EXTRA, epoch_order
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
+from texvent.brightness import check_intensity
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
 from texvent.capture.image_folder import coding_facts, count_images, read_image
@@ -26,7 +27,7 @@ from texvent.capture.linear_light import (
 from texvent.capture.scale_check import check_image_scale
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
-from texvent.frames import MICROSECONDS, Frame, check_intensity
+from texvent.frames import MICROSECONDS, Frame
 from texvent.options.arrays import is_array_like
 from texvent.runtime.files.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize

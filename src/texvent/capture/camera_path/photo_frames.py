@@ -1,21 +1,124 @@
-"""View of a moving camera on a still image: frames, and any instant between them."""
+"""Frames of a moving camera on a still image, and any instant between them.
+
+A view is the scale of the sensor over the image, and the image as the moved sensor sees it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
-from texvent.capture.camera_path.view import View, fitted_view
 from texvent.capture.frame_source import FrameSource
+from texvent.errors import InputError
 from texvent.frames import Frame, MotionVectors, frame_time_us, transfer_of
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
+
+Float32Array = NDArray[np.float32]
+Float64Array = NDArray[np.float64]
+STEPS = 30
+"""Halvings of the interval in which the scale is looked for."""
+MOST_REACH = 3.0
+"""The mirrored image reaches from -3 to 3 if the image reaches from -1 to 1."""
+
+
+@dataclass(frozen=True)
+class SensorView:
+    """A sensor over an image; both have their centres in common when the camera has not moved."""
+
+    image: SensorSize
+    """Size of the image, px."""
+    sensor: SensorSize
+    """Size of the sensor, px."""
+    scale: float = 1.0
+    """Px of the image per px of the sensor, when the camera has not moved."""
+
+    def matrix(self, place: CameraPose2D) -> Float64Array:
+        """Affine map [3, 3] of sensor px to image px, homogeneous; pixel i covers i to i + 1."""
+        centre_x, centre_y = self.sensor.width / 2, self.sensor.height / 2
+        image_x, image_y = self.image.width / 2, self.image.height / 2
+        x = self.scale * place.x + image_x - self.scale * centre_x
+        y = self.scale * place.y + image_y - self.scale * centre_y
+        return np.array([[self.scale, 0.0, x], [0.0, self.scale, y], [0.0, 0.0, 1.0]])
+
+    def reach(self, places: Sequence[CameraPose2D]) -> float:
+        """Distance of the sensor's farthest corner from the image's centre: 1 is its border."""
+        width, height = self.sensor
+        corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1]], float)
+        points = np.stack([self.matrix(one) for one in places]) @ corners.T
+        x = np.abs(points[:, 0] * 2 / self.image.width - 1).max()
+        y = np.abs(points[:, 1] * 2 / self.image.height - 1).max()
+        return float(max(x, y))
+
+    def render(self, levels: Float32Array, place: CameraPose2D) -> Float32Array:
+        """The image as the camera sees it: means over the area of each sensor pixel.
+
+        Args:
+            levels: [H, W] of the image, which is mirrored at its border.
+            place: the camera.
+
+        Returns:
+            [h, w] of the sensor.
+        """
+        fineness = max(1, round(self.scale))
+        size = self.sensor.width * fineness, self.sensor.height * fineness
+        # OpenCV counts from the centres of pixels, this map from their corners.
+        to_sensor = np.array([[1, 0, 0.5], [0, 1, 0.5], [0, 0, fineness]]) / fineness
+        to_image = self.matrix(place) @ to_sensor
+        to_image[:2] -= 0.5 * to_image[2]
+        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+        border = cv2.BORDER_REFLECT
+        fine = cv2.warpPerspective(levels, to_image, size, flags=flags, borderMode=border)
+        if fineness > 1:
+            fine = cv2.resize(fine, tuple(self.sensor), interpolation=cv2.INTER_AREA)
+        return np.asarray(fine, np.float32)
+
+    def vectors(self, now: CameraPose2D, other: CameraPose2D) -> Float32Array:
+        """[h, w, 2] from each pixel's centre to its place in the other view, px."""
+        moved = np.array([now.x - other.x, now.y - other.y], np.float32)
+        return np.broadcast_to(moved, (*self.sensor.shape, 2)).copy()
+
+
+def fitted_view(
+    start: SensorView, places: Sequence[CameraPose2D], *, is_pixelwise: bool
+) -> SensorView:
+    """The view whose scale keeps the sensor in the image on all its path, if it can.
+
+    Returns:
+        The image covers the sensor at all these instants; but if it had to be enlarged for that,
+        it covers it at rest only, enlarged no more than needed, and is mirrored at its borders.
+
+    Raises:
+        InputError: the path leads away by more than the image's size.
+    """
+    view = start
+    if not is_pixelwise:
+        image, sensor = start.image, start.sensor
+        most = min(image.width / sensor.width, image.height / sensor.height)
+        low, high = 0.0, most
+        if replace(start, scale=most).reach(places) <= 1:
+            low = most
+        for _ in range(STEPS if low < most else 0):
+            middle = (low + high) / 2
+            is_inside = replace(start, scale=middle).reach(places) <= 1
+            low, high = (middle, high) if is_inside else (low, middle)
+        view = replace(start, scale=max(low, min(1.0, most)))
+    reach = view.reach(places)
+    if reach > MOST_REACH:
+        raise InputError(
+            f"the camera path leads {reach / 2:.1f} times its size away from the image "
+            f"({view.image}), which is mirrored beyond its border only once; give a shorter path, "
+            "a larger image or a smaller sensor"
+        )
+    return view
+
 
 INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
@@ -52,7 +155,7 @@ class PhotoFrames(FrameSource):
         image = SensorSize(levels.shape[1], levels.shape[0])
         times = np.linspace(0, frame_time_us(intervals, fps, 0), INSTANTS)
         places = [path(float(t_us)) for t_us in times]
-        view = fitted_view(View(image, sensor or image), places, is_pixelwise=sensor is None)
+        view = fitted_view(SensorView(image, sensor or image), places, is_pixelwise=sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
         self._image, self.view, block = _averaged(levels, view, wanted)
         scale = round(block * self.view.scale, 6)
@@ -94,8 +197,8 @@ class PhotoFrames(FrameSource):
 
 
 def _averaged(
-    levels: NDArray[np.float32], view: View, block: int
-) -> tuple[NDArray[np.float32], View, int]:
+    levels: NDArray[np.float32], view: SensorView, block: int
+) -> tuple[NDArray[np.float32], SensorView, int]:
     """The image averaged in whole blocks, the same view of it, and the side of the blocks."""
     width, height = view.image.width // block, view.image.height // block
     if block == 1 or not (width and height):

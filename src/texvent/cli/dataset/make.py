@@ -16,16 +16,15 @@ from texvent.config import check_range
 from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shard_files import FAILED, MADE
-from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
-from texvent.runtime.device_names import AUTO, check_device_name
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.devices import AUTO, check_device_name
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
-from texvent.runtime.work.engines import Engine, Outcome, local_engine
+from texvent.runtime.work.engines import Engine, Outcome, Work, local_engine
 
 DESCRIPTION = """Make a data set from a specification (TOML or YAML). What is complete is kept: the
 same command resumes where it was stopped or killed, on any machine that sees the folder.

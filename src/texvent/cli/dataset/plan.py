@@ -11,10 +11,10 @@ from typing import ClassVar
 
 from rich.table import Table
 
-from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.cli.run import size_text
 from texvent.config import check_range
 from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
@@ -23,7 +23,7 @@ from texvent.dataset.specification.prompts import tally_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, class_lines, summary_lines
 from texvent.errors import few, shown
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
 DEFAULT_TRIAL = 8

@@ -30,7 +30,7 @@ from texvent.metrics.compare import (
 from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
 metric says what it does not see. docs/metrics.md gives definitions and the self-test."""

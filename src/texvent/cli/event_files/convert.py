@@ -24,7 +24,7 @@ from texvent.io.calibration import read_calibration
 from texvent.io.files import codec_that_reads, open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
-from texvent.options.parts import make_part
+from texvent.options.values import make_part
 from texvent.runtime.files.file_names import usable_path
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
@@ -142,7 +142,7 @@ def run(arguments: Sequence[str]) -> int:
     for path, blocks in side.items():
         _write_table(path, blocks, overwrite=options.overwrite)
     if frames is not None and options.frames is not None:
-        from texvent.view.video.writer import write_images
+        from texvent.view.video_writer import write_images
 
         write_images(frames, options.frames, overwrite=options.overwrite)
     _warn_of_left_out(options)

@@ -18,7 +18,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.frames import FrameStream
 from texvent.run.regeneration import render_again
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.page.writer import temporary_page
 from texvent.view.render import RenderConfig, render_events

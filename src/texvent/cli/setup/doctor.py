@@ -21,7 +21,7 @@ from texvent._registry import REGISTRIES
 from texvent._require import install_command
 from texvent._version import full_version
 from texvent.cli.options import parse_configs
-from texvent.runtime.kernel_cache import kernel_folder
+from texvent.runtime.jit import kernel_folder
 from texvent.runtime.memory import machine_bytes
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something

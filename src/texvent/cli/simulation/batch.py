@@ -11,23 +11,21 @@ from typing import ClassVar
 
 from texvent._registry import DEFAULT_GENERATOR
 from texvent.cli.command import resolve_command
-from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, say_warning, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.run import print_settings
+from texvent.cli.run import estimate_run, print_settings
 from texvent.config import check_range
 from texvent.dataset.generation.event_files import WARNINGS, BatchPlan, EventFiles
-from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import Sample, are_videos, read_samples
 from texvent.dataset.specification.prompts import refuse_prompts, tally_prompts
 from texvent.errors import ConfigError, OutputError, TexventError
-from texvent.generation.video_models.known_models import warn_low_fps
+from texvent.generation.video_models.named_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run
-from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.work.engines import local_engine
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.work.engines import Work, local_engine
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 from texvent.view.drawing.palettes import get_palette

@@ -13,7 +13,7 @@ from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
-from texvent.calibrate.recording import Recording
+from texvent.calibrate.recording import FrameRecording
 from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -30,7 +30,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import load
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.cameras import PRESETS
@@ -156,7 +156,7 @@ def run(arguments: Sequence[str]) -> int:
     progress = ConsoleProgress(is_quiet=options.quiet)
     if options.frames is not None:
         frames = open_frames(options.frames, CaptureConfig(**vars(reading)))
-        recording = Recording(frames, events, interpolate)
+        recording = FrameRecording(frames, events, interpolate)
         config, lines = _fit(recording, start, options, progress)
     else:
         config, lines = _measure(events, start, options)
@@ -172,7 +172,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _fit(
-    recording: Recording,
+    recording: FrameRecording,
     start: PhysicalConfig,
     options: CalibrateOptions,
     progress: ConsoleProgress,

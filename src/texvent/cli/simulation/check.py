@@ -15,7 +15,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import ReadingConfig
 from texvent.frames import MICROSECONDS
 from texvent.run.check import VideoCheckResult, check_frames, open_source
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 
 FOUND = 1
 """Exit code with --strict of a video in which something was found."""

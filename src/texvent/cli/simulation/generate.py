@@ -17,10 +17,10 @@ from texvent.config import IdleOptions
 from texvent.errors import ConfigError, InputError, warn
 from texvent.frames import frame_time_us
 from texvent.generation.subjects import SceneValue, Subject, check_takes, scenes
-from texvent.generation.video_models.known_models import warn_low_fps
+from texvent.generation.video_models.named_models import warn_low_fps
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 

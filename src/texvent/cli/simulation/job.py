@@ -10,7 +10,7 @@ import threading
 import time
 
 from texvent.cli.app import main
-from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.web.job_page import STEP_MARK
 
 PAUSE_S = 0.2

@@ -16,7 +16,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
-from texvent.io.atomic import temporary_folder
+from texvent.runtime.files.hidden_parts import temporary_folder
 from texvent.web.job_page import JobServer
 from texvent.web.server import PageServer
 

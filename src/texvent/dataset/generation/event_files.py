@@ -15,7 +15,6 @@ from typing import Any
 
 from texvent._version import full_version
 from texvent.capture.image_folder import find_timestamps
-from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.entries import ID_DIGITS, Sample
 from texvent.errors import ConfigError, OutputError, warnings_to
 from texvent.frames import Frame
@@ -25,6 +24,7 @@ from texvent.run.files import RunFiles, write_run
 from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.runtime.identity import digest
+from texvent.runtime.work.engines import Work
 from texvent.settings.provenance import describe_state, files_read, is_replaced
 from texvent.settings.resolution import Settings
 

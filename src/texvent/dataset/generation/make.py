@@ -17,15 +17,14 @@ from texvent.dataset.generation.recipe import (
     load_recipe_once,
 )
 from texvent.dataset.generation.shard_files import FAILED, ShardRecord
-from texvent.dataset.generation.work import Work
 from texvent.dataset.specification.prompts import refuse_prompts
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, InputError, OutputError, TexventError, few, shown, warn
-from texvent.io.atomic import sweep
-from texvent.runtime.device_names import AUTO
-from texvent.runtime.displays.progress_option import ProgressOption, open_progress
-from texvent.runtime.work.engines import local_engine
+from texvent.runtime.devices import AUTO
+from texvent.runtime.files.hidden_parts import sweep
+from texvent.runtime.progress_option import ProgressOption, open_progress
+from texvent.runtime.work.engines import Work, local_engine
 
 MOST_NAMED = 5
 """Classes that the error names."""

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.specification.clips import Clip, with_seed
+from texvent.dataset.specification.clips import NumberedClip, with_seed
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 def prepare_clip(
-    recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFrames | None = None
+    recipe: Recipe, clip: NumberedClip, settings: Settings, frames: KeptFrames | None = None
 ) -> Simulation:
     """A clip made ready; its video has the clip's seed, its simulation that of the settings.
 

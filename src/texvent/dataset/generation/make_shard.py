@@ -30,7 +30,7 @@ from texvent.errors import TexventError, warnings_to
 from texvent.generation.kept_frames import KeptFrames
 from texvent.generation.subjects import scenes
 from texvent.io.atomic import atomic_file
-from texvent.runtime.device_names import AUTO
+from texvent.runtime.devices import AUTO
 from texvent.runtime.files.file_names import inside
 from texvent.runtime.work.engines import ENDING_ALL
 from texvent.runtime.work.side_work import finishing_side_work

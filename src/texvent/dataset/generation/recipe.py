@@ -15,7 +15,7 @@ from texvent._registry import DEFAULT_GENERATOR, GENERATORS, suggest
 from texvent._version import full_version
 from texvent.config import InterpolateConfig
 from texvent.dataset.generation.shard_files import EXTENSION, read_json
-from texvent.dataset.specification.clips import Clip, Clips, ClipSettings
+from texvent.dataset.specification.clips import Clips, ClipSettings, NumberedClip
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.prompts import find_untrue
 from texvent.dataset.specification.reading import specification_from
@@ -37,11 +37,12 @@ from texvent.errors import (
     warnings_to,
 )
 from texvent.generation.protocol import renders_instants
-from texvent.io.atomic import atomic_file, is_hidden_part
+from texvent.io.atomic import atomic_file
 from texvent.options.values import option_names
 from texvent.run.ledger import describe_differences, write_note
 from texvent.run.prepare import check_run
-from texvent.runtime.device_names import AUTO, check_device_name
+from texvent.runtime.devices import AUTO, check_device_name
+from texvent.runtime.files.hidden_parts import is_hidden_part
 from texvent.settings.config_files import Command
 from texvent.settings.provenance import files_read
 from texvent.settings.resolution import SENSOR_FILES, Settings, resolve
@@ -237,7 +238,7 @@ class Recipe:
             for number in range(-(-count // self.specification.samples_per_shard)):
                 yield Shard(variant, split, number)
 
-    def clips_of(self, shard: Shard) -> Iterator[Clip]:
+    def clips_of(self, shard: Shard) -> Iterator[NumberedClip]:
         """The clips of a shard, in order."""
         size = self.specification.samples_per_shard
         end = min((shard.number + 1) * size, self.clips.counts[shard.split])

@@ -27,7 +27,7 @@ from texvent.dataset.generation.shard_files import (
     read_members,
     read_record,
 )
-from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
+from texvent.dataset.specification.clips import NumberedClip, simulation_seed, with_seed
 from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.frames import FrameStream
@@ -36,7 +36,7 @@ from texvent.generation.videos.stored_video import EXTENSION, reopen, write_stre
 from texvent.pipeline import Simulation, fit_to_sensor, simulate_together, with_scene
 from texvent.prompt_report import REPORT_KEY
 from texvent.run.prepare import make_video, prepare_video
-from texvent.runtime.device_names import AUTO
+from texvent.runtime.devices import AUTO
 from texvent.runtime.files.file_names import inside
 from texvent.runtime.identity import digest
 from texvent.settings.resolution import Settings
@@ -68,7 +68,7 @@ class _Plan(NamedTuple):
     """One sample to make."""
 
     key: str
-    clip: Clip
+    clip: NumberedClip
     settings: Settings
 
 
@@ -134,7 +134,7 @@ class ShardSamples:
                 key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
                 yield _Plan(key, clip, with_seed(settings, simulation_seed(clip, number)))
 
-    def _make_video(self, clip: Clip) -> tuple[Members, dict[str, Any]]:
+    def _make_video(self, clip: NumberedClip) -> tuple[Members, dict[str, Any]]:
         settings = self._recipe.settings[VIDEOS].of(clip)
         settings = replace(settings, run=replace(settings.run, sensor=None))  # its generator's size
         path = self._scratch / f"{clip.key}{EXTENSION}"
@@ -238,7 +238,7 @@ class ShardSamples:
         return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
 
 
-def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
+def _record(key: str, clip: NumberedClip, seed: int) -> SampleRecord:
     item = clip.item
     return SampleRecord(
         key=key,
@@ -262,7 +262,7 @@ class StoredVideos:
             raise InputError(f"{self._path} is not made yet; make the shards of videos first")
         self._samples = {sample.key: sample for sample in record.samples}
 
-    def open(self, clip: Clip, name: str = "video") -> FrameStream:
+    def open(self, clip: NumberedClip, name: str = "video") -> FrameStream:
         """The video of a clip, until another is opened under the same name.
 
         Raises:

@@ -1,4 +1,14 @@
-"""Frames of a sample: read or made again, and written as a folder of images."""
+"""Frames of a sample, read or made again and written as a folder of images; the layout timelens.
+
+TimeLens reads frames, and the events between each two:
+
+    SPLIT/KEY/images/000000.png    frames
+    SPLIT/KEY/images/timestamp.txt one time per frame, µs
+    SPLIT/KEY/events/000001.npz    events between frame 0 and frame 1: x, y, t (µs), p (0 or 1)
+
+Source: S. Tulyakov et al., "TimeLens: event-based video frame interpolation", CVPR 2021, and its
+code: `python -m timelens.run_timelens checkpoint.bin KEY/events KEY/images OUT 0 7`.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +16,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +26,39 @@ from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.shard_files import SampleRecord
 from texvent.dataset.generation.shard_samples import StoredVideos
+from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.stored.folder import StoredShard
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError
 from texvent.frames import FrameStream
+from texvent.io.atomic import atomic_folder
 from texvent.pipeline import fit_to_sensor
 from texvent.settings.provenance import is_replaced
+
+
+def _write(sample: LayoutSample, path: Path) -> bool:
+    if sample.read_frames is None:
+        raise InputError(f"sample {sample.key} has no frames")
+    events = sample.read_events()
+    with atomic_folder(path, overwrite=False, is_own=lambda _: False) as part:
+        with sample.read_frames() as frames:
+            times = write_frames(frames, part / "images")
+        np.savetxt(part / "images" / "timestamp.txt", times, fmt="%d")
+        (part / "events").mkdir()
+        for index, (start, stop) in enumerate(pairwise(times), start=1):
+            between = events.cut(int(start), int(stop))
+            columns = {name: getattr(between, name) for name in "xytp"}
+            np.savez_compressed(part / "events" / f"{index:06d}.npz", **columns)
+    return True
+
+
+TIMELENS = Layout(
+    place="{split}/{key}",
+    write=_write,
+    lost="captions",
+    takes_frames=True,
+    has_frames=True,
+)
 
 
 def write_frames(frames: FrameStream, folder: Path) -> NDArray[np.int64]:

@@ -27,7 +27,7 @@ MOST_SHARDS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Clip:
+class NumberedClip:
     """One video of a data set, of which every variant makes samples."""
 
     key: str
@@ -90,12 +90,12 @@ class Clips:
         counts = ((split, has) for split, has in self.class_counts.items() if self._shares[split])
         return {split: lacks for split, has in counts if (lacks := sorted(shared - has.keys()))}
 
-    def clip(self, split: str, number: int) -> Clip:
+    def clip(self, split: str, number: int) -> NumberedClip:
         """The clip at a place, 0 ≤ number < counts[split]."""
         repeat, place = divmod(number, len(self._items[split]))
         item = self._items[split][place]
         seed = video_seed(self._seed, item.key, item.seed, repeat)
-        return Clip(clip_key(item.key, seed), item, split, number, seed)
+        return NumberedClip(clip_key(item.key, seed), item, split, number, seed)
 
 
 def video_seed(root: int, item_key: str, item_seed: int | None, repeat: int) -> int:
@@ -164,7 +164,7 @@ class ClipSettings:
         """Settings that together hold every end and every choice of each range."""
         return tuple(resolve(self.command, one) for one in extreme_options(self.options))
 
-    def of(self, clip: Clip) -> Settings:
+    def of(self, clip: NumberedClip) -> Settings:
         """Settings of a clip; the seed is that of its video.
 
         What is drawn depends on the clip alone, so that all variants of a clip share it.
@@ -181,6 +181,6 @@ def with_seed(settings: Settings, seed: int) -> Settings:
     return replace(settings, run=replace(settings.run, seed=seed))
 
 
-def simulation_seed(clip: Clip, number: int) -> int:
+def simulation_seed(clip: NumberedClip, number: int) -> int:
     """Seed of the simulation `number` of a clip; the first is the clip's own."""
     return clip.seed if number == 0 else derived_seed(clip.seed, "simulation", number)

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.dataset.sample_table import Arrays, SampleTable, Targets, Window
-from texvent.dataset.stored.folder import StoredDataset
-from texvent.dataset.stored.index import MEMBERS, Choice, Index, choose, read_index
+from texvent.dataset.stored.folder import MEMBERS, Choice, Index, StoredDataset, choose, read_index
 from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import EventStream

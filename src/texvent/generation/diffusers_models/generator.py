@@ -39,12 +39,8 @@ from texvent.generation.diffusers_models.pipeline_loading import (
     resolve_device,
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
-from texvent.generation.video_models.controls import (
-    check_class,
-    check_control,
-    check_shape,
-    find_control_part,
-)
+from texvent.generation.video_models.controls import check_class, find_control_part
+from texvent.generation.video_models.known_models import check_control, check_shape
 from texvent.generation.video_models.lora import check_loras, find_row_loras, parse_lora
 from texvent.generation.video_models.model_files import (
     find_downloaded,
@@ -55,7 +51,7 @@ from texvent.generation.video_models.model_files import (
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import FinishedVideo, MadeVideo
 from texvent.generation.videos.video_cache import VideoCache, content_key
-from texvent.networks.weight_files import describe_file
+from texvent.networks import describe_file
 from texvent.options.values import plain
 from texvent.runtime.devices import Tensor
 from texvent.runtime.progress import NoProgress, Progress

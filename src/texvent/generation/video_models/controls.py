@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from texvent.errors import ConfigError, FileFormatError, InputError, shown
+from texvent.errors import FileFormatError, InputError
 from texvent.generation.video_models.model_files import (
     CONFIG,
     CONTROL_PART,
@@ -85,86 +85,6 @@ def with_controls(model: VideoModel) -> VideoModel:
     except (InputError, FileFormatError):
         return model  # said when the files are needed
     return replace(model, pipeline=name) if name in PIPELINES else model
-
-
-def check_control(model: VideoModel, config: DiffusersConfig) -> None:
-    """Refuse a control, length or size that the model does not take; nothing is loaded for that.
-
-    Raises:
-        ConfigError: with what it takes.
-    """
-    pipeline = model.steering
-    if pipeline is None:
-        given = [name for name in ("control", *OF_CONTROL) if getattr(config, name) is not None]
-        if given:
-            from texvent.generation.video_models.known_models import MODELS
-
-            able = ", ".join(name for name, row in MODELS.items() if row.steering is not None)
-            raise ConfigError(
-                f"{given[0]} is set, but {model.name} follows no scene; models that do: {able}"
-            )
-        return
-    if config.control not in pipeline.controls:
-        raise ConfigError(
-            f"control is {shown(config.control)}; {model.name} takes {', '.join(pipeline.controls)}"
-        )
-    if pipeline.needs_lora and not config.lora:
-        raise ConfigError(
-            f"{model.name} follows a scene by a LoRA, and none is given; fetch it (hf download "
-            f"{model.control_lora or 'REPOSITORY'}) and give lora=FILE"
-        )
-    _check_shape(model, config, pipeline)
-
-
-def check_shape(model: VideoModel, config: DiffusersConfig) -> None:
-    """Refuse a length or size that a row says its model does not make; nothing is loaded for that.
-
-    Raises:
-        ConfigError: with what it makes.
-    """
-    frames = config.frames
-    if model.frame_range is not None and frames is not None:
-        fewest, most = model.frame_range
-        if not fewest <= frames <= most:
-            raise ConfigError(f"frames is {frames}; {model.name} makes {fewest} to {most} frames")
-    for name in ("width", "height"):
-        value = getattr(config, name)
-        if model.multiple is not None and value is not None and value % model.multiple:
-            raise ConfigError(
-                f"{name} is {value}; {model.name} takes multiples of {model.multiple}"
-            )
-
-
-OF_CONTROL = ("look", "scene_seed", "assets", "least_agreement")
-"""Options that belong to a control."""
-
-
-def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPipeline) -> None:
-    for name in ("frames", "width", "height"):
-        if getattr(config, name) is None:
-            raise ConfigError(f"{name} is not known of {model.name}; give {name}, such as 49")
-    for name in ("width", "height"):
-        value = getattr(config, name)
-        if value % pipeline.side:
-            near = max(pipeline.side, round(value / pipeline.side) * pipeline.side)
-            raise ConfigError(
-                f"{name} is {value}; {model.name} takes multiples of {pipeline.side}, such as "
-                f"{near}"
-            )
-    frames = config.frames or 0
-    longest = model.longest
-    if longest is not None and frames > longest:
-        seconds = f", {float(longest / model.fps):.3g} s at {model.fps} fps" if model.fps else ""
-        raise ConfigError(
-            f"frames is {frames}; {model.name} follows a scene over at most {longest} frames"
-            f"{seconds}"
-        )
-    if (frames - 1) % pipeline.step:
-        near = (frames - 1) // pipeline.step * pipeline.step + 1
-        raise ConfigError(
-            f"frames is {frames}; {model.name} takes multiples of {pipeline.step} and one more, "
-            f"such as {max(near, pipeline.step + 1)}"
-        )
 
 
 def check_class(model: VideoModel, folder: Path) -> None:

@@ -1,32 +1,23 @@
-"""Learned text-to-video models: the table `known_models.toml`, and the names that lead to a model.
+"""Learned text-to-video models: the table `known_models.toml`, and what its rows take of a control.
 
-One adapter (`diffusers_models/generator.py`) runs all of them. Every value of a row is a default
-that an option overrides. No row was run with its published weights, which cannot be had where
-texvent's tests run; its pipeline class runs there with tiny random weights of the same layout.
+Every value of a row is a default that an option overrides. No row was run with its published
+weights, which cannot be had where texvent's tests run; its pipeline class runs there with tiny
+random weights of the same layout.
 """
 
 from __future__ import annotations
 
-import dataclasses
-import functools
-import os
-import re
 import tomllib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from fractions import Fraction
 from importlib.resources import files
-from pathlib import Path
-from typing import TYPE_CHECKING
 
-from texvent.errors import ConfigError, shown, warn
-from texvent.generation.video_models.config import LEAST_FPS, DiffusersConfig, VideoModel
-from texvent.generation.video_models.controls import with_controls
-from texvent.generation.video_models.model_files import HUB, INDEX, REPOSITORY
+from texvent.errors import ConfigError, shown
+from texvent.generation.video_models.config import DiffusersConfig, VideoModel
+from texvent.generation.video_models.controls import ControlPipeline
 
-if TYPE_CHECKING:
-    from texvent.generation.diffusers_models.generator import DiffusersGenerator
-    from texvent.sensor import SensorSize
+OF_CONTROL = ("look", "scene_seed", "assets", "least_agreement")
+"""Options that belong to a control."""
 
 
 def _read_table() -> dict[str, VideoModel]:
@@ -48,112 +39,75 @@ MODELS: Mapping[str, VideoModel] = _read_table()
 """Name → row, what people run most first."""
 
 
-@dataclass(frozen=True)
-class ModelGenerator:
-    """A row as a part that the pipeline builds: the value of `GENERATORS.load("wan-1.3b")`."""
-
-    model: VideoModel
-    default_sensor: str | None = None
-    """None: events have the size of the generated video."""
-    makes_whole_videos: bool = True
-
-    @property
-    def takes_scenes(self) -> bool:
-        """Whether its videos follow scenes."""
-        return self.model.steering is not None
-
-    has_ground_truth = takes_scenes
-
-    @property
-    def default_interpolate(self) -> str:
-        """Interpolator that suits its videos."""
-        return "motion" if self.takes_scenes else "flow"
-
-    @property
-    def config_type(self) -> Callable[[], DiffusersConfig]:
-        """Factory of the options with this model's defaults."""
-        names = ("fps", "frames", "width", "height", "steps", "guidance", "negative_prompt")
-        defaults = {name: getattr(self.model, name) for name in names}
-        if self.model.steering is not None:
-            defaults["control"] = self.model.steering.controls[0]
-        return functools.partial(DiffusersConfig, **defaults)
-
-    def __call__(
-        self, config: DiffusersConfig, *, seed: int, size: SensorSize | None
-    ) -> DiffusersGenerator:
-        """The generator; `size` is left to the pipeline, which fits the finished frames."""
-        del size  # the model has sizes of its own, which have nothing to do with a sensor
-        from texvent.generation.diffusers_models.generator import DiffusersGenerator
-        from texvent.generation.diffusers_models.steered import SteeredGenerator
-
-        if self.takes_scenes:
-            return SteeredGenerator(config, model=self.model, seed=seed)
-        return DiffusersGenerator(config, model=self.model, seed=seed)
-
-
-def names() -> tuple[str, ...]:
-    """Names of the rows."""
-    return tuple(MODELS)
-
-
-def find(name: str) -> ModelGenerator | None:
-    """The generator of that name, or None.
-
-    Args:
-        name: a row, `hub:org/name[@revision]`, or the path of a folder with a saved pipeline. A
-            folder or repository named like a row takes the row's defaults.
+def check_control(model: VideoModel, config: DiffusersConfig) -> None:
+    """Refuse a control, length or size that the model does not take; nothing is loaded for that.
 
     Raises:
-        ConfigError: `hub:` is followed by no repository name.
+        ConfigError: with what it takes.
     """
-    if name in MODELS:
-        return ModelGenerator(MODELS[name])
-    if name.startswith(HUB):
-        repo, _, revision = name.removeprefix(HUB).partition("@")
-        if not re.fullmatch(REPOSITORY, repo):
+    pipeline = model.steering
+    if pipeline is None:
+        given = [name for name in ("control", *OF_CONTROL) if getattr(config, name) is not None]
+        if given:
+            able = ", ".join(name for name, row in MODELS.items() if row.steering is not None)
             raise ConfigError(
-                f"generator {shown(name)} names no repository; write hub:organisation/name"
+                f"{given[0]} is set, but {model.name} follows no scene; models that do: {able}"
             )
-        known = _row_like(repo.rpartition("/")[2])
-        revision_or_row = revision or known.revision
-        return ModelGenerator(
-            dataclasses.replace(known, name=name, repo=repo, revision=revision_or_row)
+        return
+    if config.control not in pipeline.controls:
+        raise ConfigError(
+            f"control is {shown(config.control)}; {model.name} takes {', '.join(pipeline.controls)}"
         )
-    path = Path(name).expanduser()
-    if (
-        name.startswith(("./", "../", "~"))
-        or path.is_absolute()
-        or (os.sep in name and path.is_dir())
-        or os.path.isfile(path / INDEX)
-    ):
-        known = _row_like(path.name)
-        model = dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
-        return ModelGenerator(with_controls(model))
-    return None
+    if pipeline.needs_lora and not config.lora:
+        raise ConfigError(
+            f"{model.name} follows a scene by a LoRA, and none is given; fetch it (hf download "
+            f"{model.control_lora or 'REPOSITORY'}) and give lora=FILE"
+        )
+    _check_shape(model, config, pipeline)
 
 
-def warn_low_fps(name: str) -> None:
-    """Warn of a model that makes few frames per second; other generators pass.
+def check_shape(model: VideoModel, config: DiffusersConfig) -> None:
+    """Refuse a length or size that a row says its model does not make; nothing is loaded for that.
 
-    Args:
-        name: value of `--generator`.
-
-    Warns:
-        TexventWarning: it makes fewer than `LEAST_FPS`.
+    Raises:
+        ConfigError: with what it makes.
     """
-    part = find(name)
-    if part is not None and part.model.is_low_fps:
-        warn(
-            f"{part.model.name} makes {part.model.fps} frames per second, so much moves between "
-            f"two of them; models of {LEAST_FPS} and more suit events better: texvent generators"
+    frames = config.frames
+    if model.frame_range is not None and frames is not None:
+        fewest, most = model.frame_range
+        if not fewest <= frames <= most:
+            raise ConfigError(f"frames is {frames}; {model.name} makes {fewest} to {most} frames")
+    for name in ("width", "height"):
+        value = getattr(config, name)
+        if model.multiple is not None and value is not None and value % model.multiple:
+            raise ConfigError(
+                f"{name} is {value}; {model.name} takes multiples of {model.multiple}"
+            )
+
+
+def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPipeline) -> None:
+    for name in ("frames", "width", "height"):
+        if getattr(config, name) is None:
+            raise ConfigError(f"{name} is not known of {model.name}; give {name}, such as 49")
+    for name in ("width", "height"):
+        value = getattr(config, name)
+        if value % pipeline.side:
+            near = max(pipeline.side, round(value / pipeline.side) * pipeline.side)
+            raise ConfigError(
+                f"{name} is {value}; {model.name} takes multiples of {pipeline.side}, such as "
+                f"{near}"
+            )
+    frames = config.frames or 0
+    longest = model.longest
+    if longest is not None and frames > longest:
+        seconds = f", {float(longest / model.fps):.3g} s at {model.fps} fps" if model.fps else ""
+        raise ConfigError(
+            f"frames is {frames}; {model.name} follows a scene over at most {longest} frames"
+            f"{seconds}"
         )
-
-
-def _row_like(last_name: str) -> VideoModel:
-    """The row of that name, or whose repository ends in it, or one that leaves everything open."""
-    if last_name in MODELS:
-        return MODELS[last_name]
-    for row in MODELS.values():
-        if row.repo.rpartition("/")[2] == last_name:
-            return row
-    return VideoModel(name=last_name)
+    if (frames - 1) % pipeline.step:
+        near = (frames - 1) // pipeline.step * pipeline.step + 1
+        raise ConfigError(
+            f"frames is {frames}; {model.name} takes multiples of {pipeline.step} and one more, "
+            f"such as {max(near, pipeline.step + 1)}"
+        )

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError, TexventError, one_line, shown
 from texvent.generation.video_models.model_files import loading
-from texvent.networks.weight_files import SAFETENSORS
+from texvent.networks import SAFETENSORS
 
 if TYPE_CHECKING:
     from texvent.generation.video_models.config import VideoModel

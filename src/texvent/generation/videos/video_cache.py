@@ -20,9 +20,10 @@ from typing import Any
 from texvent.errors import OutputError, TexventError, one_line, warn
 from texvent.frames import PixelArray
 from texvent.generation.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
-from texvent.io.atomic import atomic_file, temporary_folder
+from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
 from texvent.runtime.files.cache_folder import CACHE_VARIABLE, cache_folder
+from texvent.runtime.files.hidden_parts import temporary_folder
 from texvent.runtime.work.side_work import begin_side_work, finish_side_work
 
 LAYOUT = 1

@@ -24,7 +24,7 @@ from texvent.interpolate.dis_flow.definitions import (
     step_of,
 )
 from texvent.interpolate.dis_flow.refine import unconfirmed
-from texvent.pairs.shift_correlation import correlate_shifts, detail
+from texvent.pairs.scene_change import correlate_shifts, detail
 
 MOST_CELLS = 90
 """Longer side of a thumbnail, at most."""

@@ -19,7 +19,7 @@ from texvent.interpolate.rife.weights import (
     import_torch,
     read_rife_weights,
 )
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent.pairs.instants import matching_levels, position
 from texvent.pairs.on_device import levels_on, luma_on
 from texvent.runtime.devices import Device, explain_device_memory, to_device
@@ -176,7 +176,7 @@ def _load(
     network = read_rife_weights(path).to(device)
     if device.type != "cuda":
         return network, network
-    from texvent.interpolate.rife.recorded import RecordedNetwork  # needs torch
+    from texvent.interpolate.rife.network import RecordedNetwork  # needs torch
 
     return network, RecordedNetwork(network)
 

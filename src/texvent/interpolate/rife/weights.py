@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import (
+from texvent.networks import (
     describe_file,
     load_strictly,
     named_tensors,

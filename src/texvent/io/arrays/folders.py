@@ -34,7 +34,7 @@ from texvent.io.block_codec import BlockReader, FileContents, already_open, cont
 from texvent.io.block_writer import Columns
 from texvent.io.metadata import metadata_from_json, parse_sidecar
 from texvent.io.reading import ReadOptions
-from texvent.io.tables import find_tables
+from texvent.io.table_search import find_tables
 
 EVREAL = ("events_xy", "events_ts", "events_p")
 """Names of its arrays."""

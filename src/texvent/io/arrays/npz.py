@@ -8,6 +8,12 @@ memory (13 bytes per event). Use HDF5 for long recordings.
 
 Read too: every archive in which `texvent.io.tables` finds a recording; BS-ERGB's, whose coordinates
 are 1/32 of a pixel, and single arrays (.npy), which are read block by block.
+
+N-ImageNet's npz is one array `event_data` with fields x u2, y u2, t i8 (µs), p bool; older files
+call them x_pos, y_pos, timestamp and polarity. Further arrays are width, height and texvent, which
+its loader does not look for; files of the data set itself have none: it is 640x480, to be given.
+
+Source: Kim et al., N-ImageNet: Towards Robust, Fine-Grained Object Recognition, ICCV 2021.
 """
 
 from __future__ import annotations
@@ -25,8 +31,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown, warn
-from texvent.events import COLUMN_TYPES
+from texvent.errors import FileFormatError, InputError, shown, warn
+from texvent.events import COLUMN_TYPES, EventStream
 from texvent.io.arrays.npy_file import StoredArray, read_header
 from texvent.io.block_codec import (
     BlockCodec,
@@ -37,6 +43,7 @@ from texvent.io.block_codec import (
     contents_of_rows,
 )
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.files import load
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,
@@ -47,7 +54,8 @@ from texvent.io.input_checks import (
 )
 from texvent.io.metadata import metadata_from_json, metadata_to_json, read_sidecar
 from texvent.io.reading import ReadOptions, TimeUnit, choose
-from texvent.io.tables import TABLE_OPTIONS, find_tables, time_offset
+from texvent.io.table_search import find_tables
+from texvent.io.tables import TABLE_OPTIONS, time_offset
 from texvent.runtime.memory import check_claim
 from texvent.sensor import SensorSize
 
@@ -274,3 +282,48 @@ class NpyCodec(BlockReader):
         rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
         size, metadata = read_sidecar(path)
         return contents_of_rows(size, metadata, already_open(rows))
+
+
+SENSOR = SensorSize(640, 480)
+"""Size of the recordings of the data set."""
+EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
+
+
+class NImageNetCodec(NpzCodec):
+    """npz of one structured array."""
+
+    name: ClassVar[str] = "n-imagenet"
+    limits: ClassVar[FormatLimits] = FormatLimits("N-ImageNet npz", 1 << 16, 1 << 63)
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is an archive with an array event_data."""
+        return N_IMAGENET in array_names(path)
+
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
+        """Collect the events; the archive is written at the end."""
+        blocks = [np.empty(0, dtype=EVENT)]
+
+        def write(columns: Columns) -> None:
+            block = np.empty(len(columns["t"]), dtype=EVENT)
+            for name in "xytp":
+                block[name] = columns[name]
+            blocks.append(block)
+
+        yield write
+        arrays: dict[str, Any] = {
+            N_IMAGENET: np.concatenate(blocks),
+            "width": np.int64(target.size.width),
+            "height": np.int64(target.size.height),
+            "texvent": np.array(metadata_to_json(target.metadata)),
+        }
+        with part.open("wb") as file:
+            np.savez(file, **arrays)
+
+
+def load_stream(path: Path) -> EventStream:
+    """Events of a file of any format; one that stores no sensor size is N-ImageNet's own."""
+    try:
+        return load(path)
+    except InputError:
+        return load(path, size=SENSOR)

@@ -47,6 +47,13 @@ from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import BlockWriter, Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.hdf5.attributes import (
+    read_metadata,
+    stored_size,
+    whole_attribute,
+    write_metadata,
+    write_scalars,
+)
 from texvent.io.hdf5.storage import (
     DeferredErrorFile,
     Hdf5Writer,
@@ -57,9 +64,9 @@ from texvent.io.hdf5.storage import (
     open_hdf5,
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
-from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.reading import ReadOptions, choose, texts_of, unit_in_words
-from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables, time_offset
+from texvent.io.table_search import find_tables
+from texvent.io.tables import TABLE_OPTIONS, EventTable, time_offset
 
 CHUNK_EVENTS = 65_536
 INDEX_CHUNK = 4096
@@ -69,10 +76,6 @@ MAX_START_US = 1 << 36
 """19 h: a later start is stored in t_offset."""
 MAX_SPAN_US = 1 << 37
 """38 h: ms_to_idx would pass 1 GB beyond this."""
-MAX_ATTRIBUTE_BYTES = 32_768
-"""Longer metadata goes to a dataset: many readers stop at 64 kB per attribute."""
-MAX_PLAIN_ATTRIBUTES = 64
-MAX_PLAIN_BYTES = 2048
 GZIP: Mapping[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 COLUMN_FORMATS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}
 MOST_ARRAYS = 10_000
@@ -85,7 +88,6 @@ ORIGIN = re.compile(r"(upper|top|lower|bottom)[ _-]*(left|right)?")
 """Attribute `origin`: the corner of the sensor from which x and y count."""
 BESIDE = re.compile("(^|[/_])(images?|frames?|triggers?|imu)([/_]|$)")
 """Names of data sets of other sensors, or of what happened beside the events."""
-RESERVED = ("width", "height", "timestamp_scale_ms", "texvent", "origin", "y_up")
 
 
 @dataclass(frozen=True)
@@ -126,7 +128,7 @@ class Hdf5Columns:
         file.attrs["width"], file.attrs["height"] = target.size
         file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
         write_metadata(file, target.metadata)
-        _write_scalars(file, target.metadata)
+        write_scalars(file, target.metadata)
 
     def store(self, columns: Columns) -> None:
         """Write events behind those stored so far."""
@@ -346,84 +348,11 @@ def _time_offset(group: Any, path: Path) -> NDArray[Any]:
         return time_offset(path, np.asarray(group.attrs[OFFSET]))
     check_claims(group[OFFSET], path)
     offset = time_offset(path, group[OFFSET])
-    if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset[0]:
+    if OFFSET in group.attrs and whole_attribute(group, OFFSET) != offset[0]:
         raise FileFormatError(
             f"{path} is damaged: {OFFSET} is {offset[0]}, written as {shown(group.attrs[OFFSET])}"
         )
     return offset
-
-
-def stored_size(node: Any, path: Path) -> tuple[int, int] | None:
-    """Width and height, pixels, that the root or a group states.
-
-    As attributes width and height; `sensor_resolution`, height before width, of event_utils; or
-    the data set `calib/resolution`, width before height, of M3ED.
-    """
-    if "width" in node.attrs and "height" in node.attrs:
-        width, height = (_whole_attribute(node, name) for name in ("width", "height"))
-        return width, height
-    sides = node.attrs.get("sensor_resolution")
-    if sides is not None and np.size(sides) == 2:
-        height, width = (int(side) for side in np.ravel(sides))
-        return width, height
-    sides = node.get("calib/resolution") if hasattr(node, "get") else None
-    if isinstance(sides, h5py.Dataset) and sides.size == 2:
-        check_claims(sides, path)
-        width, height = (int(side) for side in np.ravel(sides[()]))
-        return width, height
-    return None
-
-
-def _whole_attribute(node: Any, name: str) -> int:
-    """A whole number; ValueError, which is reported as damage, for anything else."""
-    value = np.asarray(node.attrs[name])
-    if value.size != 1 or value.dtype.kind not in "iu":
-        raise ValueError(f"{name} is {shown(value)}")
-    return int(value.reshape(-1)[0])
-
-
-def write_metadata(node: Any, metadata: Mapping[str, Any]) -> None:
-    """All metadata as JSON, in an attribute of the root or a group, or beside it if too long.
-
-    It has a fixed length, so it is in the checksummed header. HDF5 keeps text of variable length
-    in a heap without checksums, where one flipped bit can hang it.
-    """
-    fixed = np.bytes_(metadata_to_json(metadata).encode("ascii"))
-    if len(fixed) <= MAX_ATTRIBUTE_BYTES:
-        node.attrs["texvent"] = fixed
-    else:
-        node.create_dataset("texvent", data=fixed)
-
-
-def _write_scalars(file: Any, metadata: Mapping[str, Any]) -> None:
-    """Top-level scalars by name, for other programs; texvent never reads them back."""
-    scalars = [
-        (name, value)
-        for name, value in metadata.items()
-        if name not in RESERVED and _is_plain_attribute(name) and _is_plain_attribute(value)
-    ]
-    for name, value in scalars[:MAX_PLAIN_ATTRIBUTES]:
-        file.attrs[name] = value
-
-
-def _is_plain_attribute(value: Any) -> bool:
-    if isinstance(value, str):
-        # HDF5 text cannot hold NUL or unpaired surrogates; the JSON form can.
-        encoded = value.encode("utf-8", errors="replace")
-        sound = encoded.decode("utf-8") == value and "\0" not in value
-        return sound and 0 < len(encoded) <= MAX_PLAIN_BYTES
-    if isinstance(value, int):
-        return -(2**63) <= value < 2**63
-    return isinstance(value, float)
-
-
-def read_metadata(node: Any, path: Path) -> dict[str, Any] | None:
-    """Metadata that `write_metadata` stored, or None."""
-    text = node.attrs.get("texvent")
-    if text is None and isinstance(node.get("texvent"), h5py.Dataset):
-        check_claims(node["texvent"], path)
-        text = node["texvent"][()]
-    return None if text is None else metadata_from_json(path, text)
 
 
 class DsecCodec(Hdf5Codec):

@@ -27,14 +27,8 @@ from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file
 from texvent.io.block_writer import Columns, FileTarget
 from texvent.io.files import save
-from texvent.io.hdf5.dsec import (
-    CHUNK_EVENTS,
-    GZIP,
-    Hdf5Codec,
-    OffsetLimits,
-    StoredColumns,
-    write_metadata,
-)
+from texvent.io.hdf5.attributes import write_metadata
+from texvent.io.hdf5.dsec import CHUNK_EVENTS, GZIP, Hdf5Codec, OffsetLimits, StoredColumns
 from texvent.io.hdf5.storage import append_chunks
 from texvent.io.reading import LARGEST_FLOAT, MICROSECONDS
 

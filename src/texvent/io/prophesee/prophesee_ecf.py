@@ -41,7 +41,8 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockReader, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import Columns
-from texvent.io.hdf5.dsec import data_sets_beside, read_metadata, stored_size
+from texvent.io.hdf5.attributes import read_metadata, stored_size
+from texvent.io.hdf5.dsec import data_sets_beside
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.reading import ReadOptions
 

@@ -22,11 +22,11 @@ import yaml
 from texvent._require import require
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.aedat.aedat4_container import unpack_bz2, unpack_lz4, unpack_zstd
-from texvent.io.atomic import temporary_folder
 from texvent.io.compressed import load_zstd
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES
 from texvent.io.ros.bag_kind import FACTS_KEY, FOLDER_FACTS, MCAP_MAGIC, SQLITE_MAGIC
+from texvent.runtime.files.hidden_parts import temporary_folder
 from texvent.runtime.memory import check_proportion, most_unpacked
 
 PIECE_BYTES = 2**20

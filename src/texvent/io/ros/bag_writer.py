@@ -25,7 +25,6 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.events import EventStream
-from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import split_by_time
 from texvent.io.block_writer import Columns
 from texvent.io.prophesee.evt import Evt3Encoder
@@ -42,6 +41,7 @@ from texvent.io.ros.messages import (
     pack_event_array,
     pack_event_packet,
 )
+from texvent.runtime.files.hidden_parts import hidden_folder
 from texvent.sensor import SensorSize
 
 ROSBAG1, ROSBAG2 = "rosbags.rosbag1", "rosbags.rosbag2"

@@ -27,7 +27,8 @@ from texvent.io.reading import (
     stated_or_given,
     unit_in_name,
 )
-from texvent.io.tables import are_whole, certain_order, find_columns, spelled, whole_numbers
+from texvent.io.table_search import certain_order
+from texvent.io.tables import are_whole, find_columns, spelled, whole_numbers
 from texvent.sensor import SensorSize
 
 STOP_US = 1 << 63

@@ -5,7 +5,7 @@ from __future__ import annotations
 import triton
 import triton.language as tl
 
-from texvent.frames import HIGHEST_INTENSITY
+from texvent.brightness import HIGHEST_INTENSITY
 from texvent.simulation.gpu import kernel_types
 from texvent.simulation.random import draws
 

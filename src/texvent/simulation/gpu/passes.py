@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
+from texvent.brightness import HIGHEST_INTENSITY
 from texvent.errors import InputError
-from texvent.frames import HIGHEST_INTENSITY
 from texvent.simulation.gpu.intervals import Float64Array, Span
 from texvent.simulation.gpu.kernel_types import (
     PIXELS_PER_MARK,

@@ -9,8 +9,15 @@ from typing import Any, NamedTuple
 
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, InputError
-from texvent.runtime.device_names import AUTO, CPU
-from texvent.runtime.devices import Device, describe_device, find_gpu, total_bytes, triton_fault
+from texvent.runtime.devices import (
+    AUTO,
+    CPU,
+    Device,
+    describe_device,
+    find_gpu,
+    total_bytes,
+    triton_fault,
+)
 from texvent.sensor import SensorSize
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.physical.config import PhysicalConfig

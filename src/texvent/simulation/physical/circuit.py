@@ -36,7 +36,7 @@ BLOCK = 256
 """Pixels that a fast kernel looks at together, and skips together if nothing happens to them."""
 
 
-class Optics(NamedTuple):
+class PhotoreceptorConstants(NamedTuple):
     """Constants that turn luma into brightness and bandwidth."""
 
     gamma: float
@@ -61,7 +61,7 @@ class PhotoreceptorInput(NamedTuple):
     """[n] cutoff frequency at the start, 1/µs; likewise."""
     now: Luma
     """[n] luma at the end, of the same type."""
-    optics: Optics
+    optics: PhotoreceptorConstants
     table: tuple[Float64Array, Float64Array] | None
     """`brightness_and_cutoff` of all levels of 8-bit luma, which saves logarithms; else None."""
     shape: tuple[int, int]
@@ -96,7 +96,9 @@ class NoiseEvents(NamedTuple):
     """[m] 1 = ON, 0 = OFF."""
 
 
-def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:
+def brightness_and_cutoff(
+    luma: Float64Array, optics: PhotoreceptorConstants
+) -> tuple[Float64Array, Float64Array]:
     """Brightness and cutoff frequency of the photoreceptor.
 
     Args:
@@ -170,7 +172,7 @@ class InputFrames:
         most_current = math.inf
         if cutoff_hz > 0 and cutoff_limit_hz > 0:
             most_current = cutoff_limit_hz / cutoff_hz * (balance + WHITE)
-        self._optics = Optics(gamma, balance, cutoff_per_level, most_current)
+        self._optics = PhotoreceptorConstants(gamma, balance, cutoff_per_level, most_current)
         self._table = brightness_and_cutoff(np.arange(256.0), self._optics)
         self._seen: Luma = luma.reshape(-1).copy()
         self.brightness, self._cutoff = brightness_and_cutoff(

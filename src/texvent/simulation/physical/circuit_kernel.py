@@ -25,7 +25,7 @@ from texvent.simulation.physical.circuit import (
     Float64Array,
     Luma,
     NoiseEvents,
-    Optics,
+    PhotoreceptorConstants,
     PhotoreceptorInput,
 )
 from texvent.simulation.physical.lane_steps import EventRules, advance_lanes
@@ -106,7 +106,7 @@ def advance_pixels(
 @jit(error_model="numpy")
 def _advance_blocks(
     start: tuple[Luma, Float64Array, Float64Array],
-    stop: tuple[Luma, Float64Array | None, Optics],
+    stop: tuple[Luma, Float64Array | None, PhotoreceptorConstants],
     mismatch: PixelMismatch,
     state: CircuitState,
     noise: tuple[NDArray[np.int64], NDArray[np.int64]],
@@ -169,7 +169,7 @@ def _advance_blocks(
 def _convert(
     luma: Luma,
     table: Float64Array | None,
-    optics: Optics,
+    optics: PhotoreceptorConstants,
     brightness: Float64Array,
     cutoff: Float64Array,
 ) -> None:

@@ -11,7 +11,7 @@ from texvent.events import NOISE
 from texvent.runtime.jit import jit
 from texvent.simulation.kernels.active_pixels import make_room
 from texvent.simulation.kernels.compiled_elementary import decay_and_gain, exponential
-from texvent.simulation.physical.circuit import CircuitState, Optics
+from texvent.simulation.physical.circuit import CircuitState, PhotoreceptorConstants
 from texvent.simulation.physical.crossing_time import (
     CHANGE,
     CUTOFF,
@@ -98,7 +98,7 @@ def advance_lanes(
     work: LaneMemory,
     size: int,
     state: CircuitState,
-    optics: Optics,
+    optics: PhotoreceptorConstants,
     noise_times: Int64Array,
     rules: EventRules,
     events: Uint64Array,
@@ -156,7 +156,7 @@ def _cut_into_segments(lanes: Float64Array, size: int, duration: float, is_limit
 
 @jit(error_model="numpy")
 def _enter_segment(
-    lanes: Float64Array, size: int, segment: float, duration: float, optics: Optics
+    lanes: Float64Array, size: int, segment: float, duration: float, optics: PhotoreceptorConstants
 ) -> None:
     """The photoreceptors on the next segment; see `reference._CircuitPixels.enter_segment`."""
     per_level, most = optics.cutoff_per_level, optics.most_current

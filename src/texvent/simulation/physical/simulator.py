@@ -21,7 +21,7 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from texvent.networks.weight_files import describe_file
+from texvent.networks import describe_file
 from texvent.simulation.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulation.physical.cameras import CAMERAS, PRESETS
 from texvent.simulation.physical.circuit import WHITE

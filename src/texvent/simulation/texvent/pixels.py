@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import Float64Array, balanced_log
+from texvent.brightness import Float64Array, bad_intensity, balanced_log, check_intensity
 from texvent.events import NOISE, EventStream
-from texvent.frames import Frame, bad_intensity, check_intensity
+from texvent.frames import Frame
 from texvent.runtime.kernel_arrays import read_only
 from texvent.simulation.packets import FrameInterval
 from texvent.simulation.texvent.brightness_cache import CacheSchedule

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import Float64Array
-from texvent.frames import HIGHEST_INTENSITY, is_intensity
+from texvent.brightness import HIGHEST_INTENSITY, Float64Array, is_intensity
 from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import read_only, take_scratch
 from texvent.simulation.kernels.active_pixels import (

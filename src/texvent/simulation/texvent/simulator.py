@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from texvent.brightness import check_intensity
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.frames import Frame, StreamChecker, check_intensity
+from texvent.frames import Frame, StreamChecker
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulation.packets import FrameInterval, UnsortedEvents
 from texvent.simulation.random.draws import frame_key

@@ -12,7 +12,7 @@ from texvent._registry import FILTERS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.options.parts import make_part
+from texvent.options.values import make_part
 from texvent.transform.packets import Recording, map_in_order, note_edit
 
 NEVER = -(2**62)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.detection.config import EXTRA
 from texvent_lab.bench.detection.labels import COUNTED, IGNORED

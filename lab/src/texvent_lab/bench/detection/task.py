@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.extending import require
-from texvent.networks.weight_files import STATE, Tensor
+from texvent.networks import STATE, Tensor
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.detection.clips import (
     WINDOW_US,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.bench.digits.data import CLASSES
 from texvent_lab.train.schedule import EXTRA, Schedule, epoch_order
 

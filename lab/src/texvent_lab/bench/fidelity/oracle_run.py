@@ -13,7 +13,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
-from texvent.view.video.writer import write_clips
+from texvent.view.video_writer import write_clips
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.event_files import FileEntry

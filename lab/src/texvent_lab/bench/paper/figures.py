@@ -16,8 +16,7 @@ from texvent.frames import Frame
 from texvent.represent.contrast_maximisation import find_flow, warp_events
 from texvent.represent.event_frame import count_events
 from texvent.view.drawing.canvas import Image, blank, draw_text, fit_text, png_bytes, tile
-from texvent.view.drawing.event_image import draw_events, frame_image
-from texvent.view.drawing.motion import draw_flow
+from texvent.view.drawing.event_image import draw_events, draw_flow, frame_image
 from texvent.view.drawing.palettes import get_palette
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.jobs import Progress

@@ -11,7 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.data.catalogue import DATA_SETS
-from texvent.view.video.writer import write_clips
+from texvent.view.video_writer import write_clips
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
 from texvent_lab.bench.fidelity.event_files import FileEntry, named_folders
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables

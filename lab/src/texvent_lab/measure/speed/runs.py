@@ -20,7 +20,7 @@ from texvent.api.event_camera import EventCamera
 from texvent.capture.open import open_frames
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
-from texvent.runtime.work.background_writer import BackgroundWriter
+from texvent.runtime.work.worker_threads import BackgroundWriter
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent_lab.measure.speed.scenes import (

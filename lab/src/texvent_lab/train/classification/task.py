@@ -13,7 +13,7 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
+from texvent.networks import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
 from texvent.settings.provenance import fingerprint

@@ -10,7 +10,7 @@ import numpy as np
 from texvent.extending import require
 from texvent.metrics.image_measures import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
 from texvent.metrics.lpips import LEAST_SIDE, Lpips, LpipsWeights
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent_lab.train.reconstruction.config import ReconstructionLoss
 from texvent_lab.train.schedule import EXTRA
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from texvent.dataset.generation.make_sample import prepare_clip
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.specification.clips import Clip, simulation_seed, with_seed
+from texvent.dataset.specification.clips import NumberedClip, simulation_seed, with_seed
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
@@ -87,10 +87,10 @@ class SimulatedClips:
         parts = [full_version(), options, item, state, clip.seed, seed_number, *facts]
         return digest([json.dumps(parts, sort_keys=True)])
 
-    def _settings(self, clip: Clip) -> Settings:
+    def _settings(self, clip: NumberedClip) -> Settings:
         return self.recipe.settings[self.variant.name].of(clip)
 
-    def _clip(self, number: int) -> tuple[Clip, int]:
+    def _clip(self, number: int) -> tuple[NumberedClip, int]:
         if not 0 <= number < len(self):
             raise IndexError(f"sample {number} does not exist; there are {len(self)}")
         place, seed_number = divmod(number, self.variant.seeds)

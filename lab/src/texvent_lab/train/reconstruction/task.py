@@ -17,7 +17,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.extending import require
 from texvent.metrics.image_measures import Float64Array
 from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
-from texvent.networks.weight_files import STATE, Tensor
+from texvent.networks import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.networks.layers import make_seeded
 from texvent_lab.reconstruct.image_measures import load_measures

@@ -51,7 +51,7 @@ class NoiseProcess(NamedTuple):
     """Whether the rate depends on intensity."""
 
 
-class Arrivals(NamedTuple):
+class PackedArrivals(NamedTuple):
     """Noise of one call, by pixel, then by time, of all clips together."""
 
     words: Tensor
@@ -80,8 +80,8 @@ def draw_arrivals(
         intervals: `kernel_types.Intervals`.
         rules: `light.PhysicalRules`.
         process: `cumulative_hz` and `stream` of a `NoiseProcess`.
-        noise: words, see `Arrivals`, in any order; [1] int32, how many there are; for how many
-            there is room; `axis_us`.
+        noise: words, see `PackedArrivals`, in any order; [1] int32, how many there are; for how
+            many there is room; `axis_us`.
         IS_THINNED: whether the rate depends on intensity.
         ROWS: rows of a program.
     """
@@ -138,7 +138,7 @@ def _first_above(row: tl.tensor, value: tl.tensor, where: tl.tensor, width: tl.i
 
 def draw_noise(
     call: Call, rules: PhysicalRules, processes: Sequence[NoiseProcess], axis_us: int
-) -> Arrivals | None:
+) -> PackedArrivals | None:
     """The noise of a call; None where there are no processes. Nothing waits for the device.
 
     Args:
@@ -166,4 +166,4 @@ def draw_noise(
     opened_us = call.intervals.start_us[every] + call.intervals.origin_us[every]
     pixel = torch.arange(frames.area, dtype=torch.int64, device=device)
     sought = (pixel * axis_us + opened_us[:, None]) * 2
-    return Arrivals(words, torch.searchsorted(words, sought), axis_us)
+    return PackedArrivals(words, torch.searchsorted(words, sought), axis_us)

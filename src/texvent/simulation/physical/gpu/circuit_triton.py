@@ -25,7 +25,7 @@ from texvent.simulation.gpu.elementary_triton import decay_and_gain, exponential
 from texvent.simulation.gpu.kernel_types import Tensor
 from texvent.simulation.physical import lane_steps, lanes
 from texvent.simulation.physical.gpu import light
-from texvent.simulation.physical.gpu.arrivals import FILLER, Arrivals
+from texvent.simulation.physical.gpu.arrivals import FILLER, PackedArrivals
 from texvent.simulation.physical.gpu.crossing_triton import NEGLIGIBLE, find_crossings
 from texvent.simulation.physical.gpu.light import brightness_of
 
@@ -52,7 +52,7 @@ class CircuitState(NamedTuple):
     """The same; before the first interval, how far below the brightness it begins."""
     since_us: Tensor
     """The same; int64."""
-    noise: Arrivals | None
+    noise: PackedArrivals | None
     """Noise of a call."""
 
 

@@ -10,7 +10,7 @@ import pytest
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.view.video.writer import VideoWriter
+from texvent.view.video_writer import VideoWriter
 from texvent.view.windows import WindowCollector
 
 SIZE = SensorSize(32, 24)

@@ -1,4 +1,16 @@
-"""Layout dsec-det: sequences of DSEC-Detection.
+"""Layouts of recordings from cars, with boxes: gen1, 1mpx, dsec-det.
+
+Gen1 and 1mpx, of Prophesee:
+
+    train|val|test/KEY_td.dat      events
+    train|val|test/KEY_bbox.npy    boxes: records t (µs), x, y, w, h (px), class_id,
+                                   class_confidence, track_id
+
+Both differ in their classes and in the sensor that readers expect. Small boxes stay: Prophesee's
+evaluation leaves them out itself, with all boxes of a recording's first .5 s. A sample without
+boxes has a file without records.
+
+DSEC-Detection:
 
     train|test/KEY/events/left/events.h5             events/x, y u2, t u4, p u1; ms_to_idx; t_offset
     train|test/KEY/images/timestamps.txt             µs, of the images
@@ -13,27 +25,61 @@ or of the labelled instants where frames cannot be made again. `ms_to_idx` spans
 m is the first event at or after m ms from `t_offset`, which is the first image or event. A sequence
 without boxes has a file without records.
 
-Source: D. Gehrig, D. Scaramuzza, "Low-latency automotive vision with event cameras", Nature 2024,
-and its description of files; M. Gehrig et al., "DSEC: a stereo event camera dataset for driving
-scenarios", RA-L 2021.
+Sources: Prophesee's automotive dataset toolbox; P. de Tournemire et al., "A large scale event-based
+detection dataset for automotive", 2020; E. Perot et al., "Learning to detect objects with a 1
+megapixel event camera", NeurIPS 2020; D. Gehrig, D. Scaramuzza, "Low-latency
+automotive vision with event cameras", Nature 2024, and its description of files; M. Gehrig et al.,
+"DSEC: a stereo event camera dataset for driving scenarios", RA-L 2021.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from texvent.dataset.layouts.boxes import boxes_at, records_of
+from texvent.dataset.layouts.boxes import LABEL_RECORD, boxes_at, records_of
 from texvent.dataset.layouts.frames import write_frames
 from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, atomic_folder
+from texvent.io.files import save
 from texvent.runtime.files.file_names import inside
+
+EVENTS_END, BOXES_END = "_td.dat", "_bbox.npy"
+LARGE = "pedestrian,two wheeler,car,truck,bus,traffic sign,traffic light"
+
+
+def _boxes_beside(path: Path) -> Path:
+    return path.with_name(path.name.removesuffix(EVENTS_END) + BOXES_END)
+
+
+def _write_prophesee(sample: LayoutSample, path: Path) -> bool:
+    """Write the boxes, then the events, whose file says that both are there."""
+    with atomic_file(_boxes_beside(path), overwrite=True) as part, part.open("wb") as file:
+        np.save(file, records_of(sample.boxes, LABEL_RECORD))
+    events = replace(sample.read_events(), label=None, metadata={})
+    save(path, events, format="dat")
+    return True
+
+
+GEN1 = Layout(
+    place="{split}/{key}" + EVENTS_END,
+    write=_write_prophesee,
+    beside=_boxes_beside,
+    splits=USUAL_SPLITS,
+    size=(304, 240),
+    lost="captions",
+    has_boxes=True,
+    classes="car,pedestrian",
+)
+MEGAPIXEL = replace(GEN1, size=(1280, 720), classes=LARGE)
+
 
 TRACK_RECORD = np.dtype(
     [
@@ -47,7 +93,7 @@ MILLISECOND_US = 1000
 LONGEST_US = 1 << 32
 
 
-def _write(sample: LayoutSample, path: Path) -> bool:
+def _write_dsec_det(sample: LayoutSample, path: Path) -> bool:
     with atomic_folder(path, overwrite=False, is_own=lambda _: False) as part:
         times = sample.instants_us
         if sample.read_frames is not None:
@@ -98,7 +144,7 @@ def _write_splits(folder: Path, samples: Iterable[LayoutSample], classes: tuple[
 
 DSEC_DET = Layout(
     place="{folder}/{key}",
-    write=_write,
+    write=_write_dsec_det,
     finish=_write_splits,
     splits=USUAL_SPLITS,
     folders={"val": "train"},

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import TypeAlias
 
-from texvent.runtime.displays.notebooks import NotebookProgress, is_notebook
+from texvent.runtime.notebooks import NotebookProgress, is_notebook
 from texvent.runtime.progress import NoProgress, Progress
 
 ProgressCallback: TypeAlias = Callable[[int, int | None, str], object]
@@ -50,7 +50,7 @@ def _open_bar(*, is_forced: bool) -> AbstractContextManager[Progress]:
     """The bar of a notebook, or else of a terminal."""
     if is_notebook():
         return NotebookProgress(is_forced=is_forced)
-    from texvent.runtime.displays.console_progress import (
+    from texvent.runtime.console_progress import (
         ConsoleProgress,  # rich takes 50 ms to import
     )
 

@@ -10,7 +10,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
 from texvent.sensor import SensorSize
-from texvent.view.video.writer import check_image_output, open_image_sink
+from texvent.view.video_writer import check_image_output, open_image_sink
 
 SIZE = SensorSize(15, 11)
 

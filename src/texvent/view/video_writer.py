@@ -21,7 +21,7 @@ from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.event_image import count_ceiling, frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import TARGET_WIDTH, PanelLayout
-from texvent.view.video.encoder import VIDEO_EXTENSIONS, VideoEncoder
+from texvent.view.video_encoder import VIDEO_EXTENSIONS, VideoEncoder
 from texvent.view.windows import EventWindow, compose_window
 
 TIMES, FACTS = "timestamps.txt", "texvent.json"

@@ -1,1 +1,0 @@
-"""Decoding of video: pixels of libav's frames, and times of its packets."""

@@ -1,1 +1,0 @@
-"""Displays: progress in terminals and notebooks, values in notebooks."""

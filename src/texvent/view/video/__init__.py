@@ -1,1 +1,0 @@
-"""Videos of events and frames: encoding and layout over time."""
