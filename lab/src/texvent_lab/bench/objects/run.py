@@ -93,7 +93,7 @@ class ObjectsPlan:
                 if arm not in names:
                     raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, sorted(names))}")
             labels = set(read_items(self.specifications[test]).labels)
-            if other := labels ^ set(classes):
+            if other := labels - set(classes):
                 raise ConfigError(
                     f"{test}.toml has other classes than the recordings: {', '.join(sorted(other))}"
                     f"; label clips {', '.join(classes)}"
