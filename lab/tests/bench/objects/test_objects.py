@@ -127,4 +127,3 @@ def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
     table.write_text(table.read_text().replace('"orange"', '"car"'))
     with pytest.raises(ConfigError, match=r"other classes than the recordings: car; label clips"):
         run(words)
-

@@ -205,9 +205,16 @@ def run_objects(
     _do(render, run, clips, lambda one: run.frames_path(*one), jobs, progress)
     sets = [(test, arm) for test in tests for arm in arms[test]]
     _do(simulate, run, sets, lambda one: run.windows_path(*one), jobs, progress)
-    networks = [
-        (one,) for test in tests for arm in (*arms[test], None) for one in run.trainings(test, arm)
-    ]
+    # Seed by seed: a run that is stopped has whole rounds.
+    networks = sorted(
+        (
+            (one,)
+            for test in tests
+            for arm in (*arms[test], None)
+            for one in run.trainings(test, arm)
+        ),
+        key=lambda key: key[0].seed,
+    )
     _do(train, run, networks, lambda one: run.prediction_path(*one), jobs, progress)
     progress("scores")
     return ObjectsReport(
