@@ -23,8 +23,8 @@ from .stand_in import POSES, write_frames, write_specifications, write_turntable
 
 
 def test_a_window_keeps_the_last_polarity_of_each_pixel():
-    x, y, t = [1, 1, 2, 2, 3], [0, 0, 0, 0, 0], [0, 99_999, 10, 20, 100_000]
-    events = EventStream(x, y, t, [0, 1, 1, 0, 1], SensorSize(5, 2))
+    x, y, t = [1, 2, 2, 1, 3], [0, 0, 0, 0, 0], [0, 10, 20, 99_999, 100_000]
+    events = EventStream(x, y, t, [0, 1, 0, 1, 1], SensorSize(5, 2))
     assert last_polarity(events, 0).tolist() == [[0, 1, -1, 0, 0], [0, 0, 0, 0, 0]]
 
 

@@ -56,8 +56,13 @@ CAMERAS: Mapping[str, CameraProfile] = {
                 "1,176 frames of 100 ms in room light, of eduardoborgesgouveia/"
                 "widow_x_neuromorphic_rotulation",
             ),
-            Constant("noise_scale", 1.0, "measured here", "the curve is this camera's own"),
-            Constant("noise_on_fraction", 0.4, "measured here", "the same frames"),
+            Constant("noise_scale", 1.0, "measured here", "the rate is this camera's own"),
+            Constant(
+                "noise_on_fraction",
+                0.4,
+                "measured here",
+                "resting pixels of the same frames, where the bare table is",
+            ),
         ),
     ),
     "evk4": CameraProfile(

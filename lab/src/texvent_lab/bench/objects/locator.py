@@ -17,13 +17,12 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.objects.recorded import SIDE, Frames, in_cells
-from texvent_lab.networks.layers import make_seeded
+from texvent_lab.networks.layers import Network, make_seeded
 from texvent_lab.train.loop import descend
 from texvent_lab.train.schedule import EXTRA, Schedule, epoch_order
 
 _torch: Any = require("torch", extra=EXTRA)
 _nn: Any = require("torch.nn", extra=EXTRA)
-_Module: Any = _nn.Module
 CELL = 8
 """Pixels along each side of a cell of the heat map."""
 PEAKS = 10
@@ -40,7 +39,7 @@ def _block(before: int, after: int, stride: int = 1) -> Any:
     return _nn.Sequential(convolution, _nn.BatchNorm2d(after), _nn.ReLU())
 
 
-class Locator(_Module):
+class Locator(Network):
     """Cells [n, 2, H, W] → heat maps' logits, then width, height, x and y of each cell."""
 
     def __init__(self, classes: int) -> None:

@@ -145,7 +145,12 @@ def _score_boxes(
         for name, is_visible_only in (("AP50 visible", True), ("AP50", False)):
             truth = as_truth(recorded, is_visible_only=is_visible_only)
             count = SAMPLES if is_visible_only else 0
-            options = {"classes": classes, "iou": (0.5,), "block": block, "samples": count}
+            options: dict[str, Any] = {
+                "classes": classes,
+                "iou": (0.5,),
+                "block": block,
+                "samples": count,
+            }
             ap = bootstrap(boxes, truth, **options)
             scores.setdefault(name, []).append(ap[ALL].value)
             if is_visible_only:

@@ -91,7 +91,9 @@ class ObjectsPlan:
             names = {variant.name for variant in self.specifications[test].variants}
             for arm in self.arms:
                 if arm not in names:
-                    raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, sorted(names))}")
+                    raise ConfigError(
+                        f"unknown arm {shown(arm)}; {suggest(arm, tuple(sorted(names)))}"
+                    )
             labels = set(read_items(self.specifications[test]).labels)
             if other := labels - set(classes):
                 raise ConfigError(
@@ -278,6 +280,7 @@ def train(run: Run, one: Training) -> str:
     else:
         learned = read_windows(run.windows_path(one.test, one.arm))
     plan, started = run.plan, time.perf_counter()
+    found: NDArray[Any]
     options: dict[str, Any] = {"steps": plan.steps, "schedule": plan.schedule, "seed": one.seed}
     if one.test == "table":
         from texvent_lab.bench.objects.locator import locate, train_locator  # imports torch

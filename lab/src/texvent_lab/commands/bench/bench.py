@@ -21,7 +21,7 @@ BENCHMARKS: Mapping[str, str] = {
     "digits": "do networks trained on simulated events read recorded ones?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
     "objects": "do detectors trained on simulated events find recorded objects?",
-    "page": "a result of fidelity, real, digits or selftest as a page",
+    "page": "a result of fidelity, real, digits, objects or selftest as a page",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",
     "real": "which simulator is closest to a real sensor, in events or images?",
     "selftest": "20 perturbations of a recording: which does a metric see?",

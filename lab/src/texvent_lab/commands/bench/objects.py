@@ -14,13 +14,10 @@ from texvent.runtime.files.cache_folder import cache_folder
 from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
-A detector learns seven objects on a robot's table, a classifier six on a turntable, from each
-simulator's events of the same clips; both are tested on recordings of a DVS128. docs/objects.md
-explains the tables. Needs texvent-lab[detection].
+Networks learn objects on a table and a turntable from each simulator's events of the same clips, and
+are tested on recordings; see docs/objects.md. Needs texvent-lab[detection].
 
-  texvent bench objects configs/objects --frames widowx.zip --turntables DVS128 -o o.json
-
-Frames, windows and predictions are kept in --work, so a run that was stopped goes on."""
+  texvent bench objects configs/objects --frames a.zip --turntables DVS128"""
 
 
 @dataclass(frozen=True, kw_only=True)
