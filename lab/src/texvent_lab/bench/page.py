@@ -76,7 +76,10 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
         title = "Trained on simulated events, tested on recorded ones"
         return title, "digits.md", digits_chart(found), digits.digits_table(found)
     if document.get("schema") == objects.SCHEMA:
-        title, tables = "Objects", objects.objects_tables(objects.read_report(document))
+        title, tables = (
+            "Simulated objects, recorded tests",
+            objects.objects_tables(objects.read_report(document)),
+        )
         return title, "objects.md", b"", tables
     if document.get("schema") == PAPER_SCHEMA:
         return "The paper's tables", "benchmark.md", b"", paper_tables(document)

@@ -82,6 +82,7 @@ def test_what_is_no_recording_is_refused_in_one_line(tmp_path):
 
 @pytest.mark.torch
 def test_a_locator_finds_what_it_was_trained_on():
+    pytest.importorskip("torch")
     from texvent_lab.bench.detection.precision import ALL, average_precision
     from texvent_lab.bench.objects.locator import locate, train_locator
     from texvent_lab.bench.objects.results import as_truth
@@ -103,6 +104,7 @@ def test_a_locator_finds_what_it_was_trained_on():
 
 @pytest.mark.torch
 def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
+    pytest.importorskip("torch")
     write_specifications(tmp_path / "configs")
     write_frames(tmp_path / "frames")
     write_turntables(tmp_path / "turntables")
