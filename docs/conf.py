@@ -126,6 +126,7 @@ CHILDREN = {
     "benchmark": ["results/fidelity", "results/paper"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all"],
+    "objects": ["results/objects"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],

@@ -20,6 +20,7 @@ BENCHMARKS = {
     "real-davis346": ("--baseline", "texvent accurate, flow"),
     "digits": (),
     "digits-all": (),
+    "objects": (),
     "selftest": (),
 }
 """Results that `texvent bench page` turns into a page of the same name, and its options."""

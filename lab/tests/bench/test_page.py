@@ -31,6 +31,14 @@ def test_every_stored_result_has_a_page_with_its_chart(name):
     ElementTree.fromstring(files[f"{name}.svg"])
 
 
+def test_the_page_of_objects_has_both_tables():
+    document = read_document(RESULTS / "objects.json.gz")
+    page = page_files(document, "objects.json.gz")["objects.md"].decode()
+    for test in ("table", "turntable"):
+        assert f"## {test.capitalize()}" in page
+        assert all(f"| {one['arm']} |" in page for one in document[test])
+
+
 def test_the_papers_page_has_every_table_and_the_time_of_each_that_was_measured():
     document = read_document(RESULTS / "paper.json.gz")
     page = page_files(document, "paper.json.gz")["paper.md"].decode()

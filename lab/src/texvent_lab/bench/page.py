@@ -15,6 +15,7 @@ from texvent_lab.bench.document import (
 )
 from texvent_lab.bench.fidelity.results import FidelityReport, read_report
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
+from texvent_lab.bench.objects import results as objects
 from texvent_lab.bench.paper.published_tables import SCHEMA as PAPER_SCHEMA
 from texvent_lab.bench.paper.published_tables import TABLES, Measured, compare_with_paper
 from texvent_lab.bench.selftest import SCHEMA as SELFTEST_SCHEMA
@@ -43,7 +44,7 @@ def page_files(
     """The page of a result and its chart, with file names after the result's.
 
     Args:
-        document: result of `bench fidelity`, `real`, `digits`, `selftest` or `paper`.
+        document: result of `bench fidelity`, `real`, `digits`, `objects`, `selftest` or `paper`.
         file_name: of the result.
         baseline: of fidelity and real, entry that the others are compared with, pair by pair.
 
@@ -74,6 +75,12 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
         found = digits.read_report(document)
         title = "Trained on simulated events, tested on recorded ones"
         return title, "digits.md", digits_chart(found), digits.digits_table(found)
+    if document.get("schema") == objects.SCHEMA:
+        title, tables = (
+            "Simulated objects, recorded tests",
+            objects.objects_tables(objects.read_report(document)),
+        )
+        return title, "objects.md", b"", tables
     if document.get("schema") == PAPER_SCHEMA:
         return "The paper's tables", "benchmark.md", b"", paper_tables(document)
     report = read_report(document)

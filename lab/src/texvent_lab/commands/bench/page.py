@@ -24,8 +24,8 @@ class PageOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     result: Path = REQUIRED
-    """JSON file that --out of `texvent bench fidelity`, `real`, `digits`, `selftest` or `paper`
-    wrote, as it is or compressed (.json.gz)."""
+    """JSON file that --out of `texvent bench fidelity`, `real`, `digits`, `objects`, `selftest` or
+    `paper` wrote, as it is or compressed (.json.gz)."""
     baseline: str = BASELINE
     """Row that the others are compared with, pair by pair; of fidelity and real."""
     out: Path | None = None
@@ -40,8 +40,8 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": PageOptions()},
         prog="texvent bench page",
-        description="A result of bench fidelity, real, digits, selftest or paper as a Markdown "
-        "page with its tables and chart, named after the result.",
+        description="A result of bench fidelity, real, digits, objects, selftest or paper as a "
+        "Markdown page with its tables and chart, named after the result.",
     )
     folder = options.out or options.result.parent
     page = folder / f"{page_name(options.result.name)}.md"

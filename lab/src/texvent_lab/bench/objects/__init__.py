@@ -1,0 +1,1 @@
+"""Networks trained on simulated events of household objects, tested on recorded ones."""

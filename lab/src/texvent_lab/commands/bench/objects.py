@@ -1,0 +1,79 @@
+"""`texvent bench objects`: networks trained on simulated objects, tested on recorded ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.notices import write_out
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.runtime.files.cache_folder import cache_folder
+from texvent_lab.commands.bench.bench import ResultOptions
+
+DESCRIPTION = """\
+Networks learn objects on a table and a turntable from each simulator's events of the same clips,
+and are tested on recordings; see docs/objects.md. Needs texvent-lab[detection].
+
+  texvent bench objects configs/objects --frames a.zip --turntables DVS128"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectsOptions:
+    """Clips, recordings and networks."""
+
+    positional: ClassVar[tuple[str, ...]] = ("configs",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("frames", "turntables", "arms", "clips", "work", "jobs", "out", "overwrite"),
+    )
+
+    configs: Path = REQUIRED
+    """Folder of table.toml and turntable.toml, whose variants are the arms."""
+    frames: Path = REQUIRED
+    """Labelled frames of the robot's arm: the folder Integral, or a zip of it."""
+    turntables: Path = REQUIRED
+    """Folder of the recordings DataSet2_*.aedat."""
+    arms: str | None = None
+    """Names of variants, separated by commas; default: all."""
+    clips: int | None = None
+    """Clips of each test; default: as the specifications say."""
+    steps: int = 600
+    """Batches of every training."""
+    seeds: int = 3
+    """Networks per arm and test."""
+    spread: float = 0.0
+    """Standard deviation of the logarithm of the contrast threshold between clips."""
+    work: Path | None = None
+    """Folder that keeps the results of steps; default: texvent's cache."""
+    jobs: int = 1
+    """Processes to use."""
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    options, output = parse_configs(
+        arguments,
+        {"options": ObjectsOptions(), "output": ResultOptions()},
+        prog="texvent bench objects",
+        description=DESCRIPTION,
+    )
+    output.check()
+    from texvent_lab.bench.objects.results import objects_tables
+    from texvent_lab.bench.objects.run import ObjectsPlan, run_objects
+
+    plan = ObjectsPlan(
+        configs=options.configs,
+        frames=options.frames,
+        turntables=options.turntables,
+        work=options.work or cache_folder("objects"),
+        arms=tuple(options.arms.split(",")) if options.arms else (),
+        clips=options.clips,
+        steps=options.steps,
+        seeds=options.seeds,
+        spread=options.spread,
+    )
+    report = run_objects(plan, jobs=options.jobs, progress=output.progress)
+    output.write(report.document)
+    write_out(objects_tables(report))
