@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks import Tensor
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.objects.recorded import SIDE, Frames, in_cells
 from texvent_lab.networks.layers import Network, make_seeded
