@@ -32,7 +32,7 @@ from texvent_lab.train.schedule import EXTRA
 KIND = "surface"
 TAU_MS = REPRESENTATIONS[KIND].options["tau_us"] / 1000
 PAIRS, RECORDED, NETWORKS, STEPS = 100, 500, 4, 384
-ARMS = ("high contrast", "as measured", "as measured, physical")
+ARMS = ("texvent accurate", "display of gamma 1", "as measured", "latency of 40 Hz")
 DELAYS_MS = (-30, -15, 15, 30)
 SPREADS_MS = (5, 10, 20)
 Surfaces = NDArray[np.float64]

@@ -98,18 +98,22 @@ _NOISY = {**_ACCURATE, "noise": "random", "noise_rate_hz": 0.25, "noise_on_fract
 _QUIET = {**_ACCURATE, "noise": "none"}
 _FRAME_TIMES = {"timestamp_rule": "end"}
 _CIRCUIT = {
-    **{"simulator": "physical", "gamma": 1.0, "cutoff_hz": 40.0, "initial_phase": "random"},
+    **{"simulator": "physical", "gamma": 1.0, "balance": 1.0, "cutoff_hz": 40.0},
+    **{"initial_phase": "random"},
     **{"noise_curve": "0:0.25 255:0.25", "noise_scale": 1.0, "noise_on_fraction": 0.05},
 }
 ABLATION: tuple[DigitsArm, ...] = (
     DigitsArm("as measured", _NOISY, ("exact",), MEASURED),
-    DigitsArm("as measured, physical", _CIRCUIT, ("exact",), MEASURED),
-    DigitsArm("wide motion", _NOISY, ("exact",), replace(WIDE, black=MEASURED.black)),
+    DigitsArm("latency of 40 Hz", _CIRCUIT, ("exact",), replace(MEASURED, lead_ms=4.0)),
+    DigitsArm("wide motion", _NOISY, ("exact",), replace(WIDE, black=MEASURED.black, gamma=2.2)),
     DigitsArm("high contrast", _NOISY, ("exact",), replace(MEASURED, black=WIDE.black)),
+    DigitsArm("display of gamma 1", _NOISY, ("exact",), replace(MEASURED, gamma=1.0)),
     DigitsArm("no noise", _QUIET, ("exact",), MEASURED),
     DigitsArm("wide thresholds", _NOISY, ("exact",), MEASURED, threshold_range=40.0),
     DigitsArm("frame times", {**_NOISY, **_FRAME_TIMES}, ("frames",), MEASURED),
-    DigitsArm("all five", {**_QUIET, **_FRAME_TIMES}, ("frames",), WIDE, threshold_range=40.0),
+    DigitsArm(
+        "all but latency", {**_QUIET, **_FRAME_TIMES}, ("frames",), WIDE, threshold_range=40.0
+    ),
 )
 """Display, motion and noise as on the pairs for fitting; then one property changed, then all.
 Nearly all noise of N-MNIST's sensor is OFF, .25 events per pixel and second, and its photoreceptors

@@ -209,19 +209,20 @@ def make_set(run: Run, cell: Cell) -> str:
     start_s, plan, arm = time.perf_counter(), run.plan, find_arm(cell.arm)
     mnist = read_mnist(plan.mnist)
 
-    def simulate(numbers: NDArray[np.int64], threshold: float) -> InputSet:
+    def simulate(numbers: NDArray[np.int64], threshold: float, arm: DigitsArm) -> InputSet:
         return simulate_digits(mnist, numbers, arm, cell.way, threshold)
 
+    middle = dataclasses.replace(arm, threshold_range=1.0)
     start = contrast_threshold_of(arm.settings(cell.way).simulate)
     match = find_threshold(
-        lambda threshold: simulate(1 + np.arange(plan.pairs), threshold).median_count,
+        lambda threshold: simulate(1 + np.arange(plan.pairs), threshold, middle).median_count,
         run.target,
         start=start,
     )
     is_matched = abs(match.ratio - 1) <= UNREACHED
     threshold = match.threshold if is_matched else start
     found = dataclasses.replace(
-        simulate(plan.numbers, threshold), threshold=threshold, is_matched=is_matched
+        simulate(plan.numbers, threshold, arm), threshold=threshold, is_matched=is_matched
     )
     found.write(run.set_path(cell))
     seconds = time.perf_counter() - start_s

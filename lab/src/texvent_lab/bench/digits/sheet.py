@@ -45,13 +45,18 @@ class Stimulus:
     """Of the start, ± px along x and y."""
     black: tuple[float, float]
     """Share of white that the display shows as black: lowest and highest."""
+    gamma: float = 1.0
+    """Exponent by which the display turns levels into light."""
+    lead_ms: float = 0.0
+    """How much earlier than `digit_corner` the sensor moves: the latency of its pixels, which that
+    path has in it, where the pixel model has latency of its own."""
 
 
 WIDE = Stimulus(amplitude=0.2, speed=0.1, shift=1.0, black=(0.05, 0.2))
 """More motions than the sensor made, before a display of high contrast."""
-MEASURED = Stimulus(amplitude=0.06, speed=0.01, shift=0.3, black=(0.5, 0.65))
-"""As the 100 pairs for fitting have them: all but one follow one clock, ± 3 ms, and the contrast is
-that of a display in a lit room."""
+MEASURED = Stimulus(amplitude=0.06, speed=0.01, shift=0.3, black=(0.5, 0.65), gamma=2.2)
+"""As the 100 pairs for fitting have them: all but one follow one clock, ± 3 ms; the contrast is
+that of a display in a lit room, its gamma an ordinary one (2.0 to 2.2, left free in the fit)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +73,10 @@ class Digits:
     """[n, 2] px along x and y."""
     black: NDArray[np.float64]
     """[n] level 0..255 of the background."""
+    gamma: float = 1.0
+    """See `Stimulus`."""
+    lead_ms: float = 0.0
+    """See `Stimulus`."""
 
     @classmethod
     def draw(
@@ -94,6 +103,8 @@ class Digits:
             speed=1 + stimulus.speed * signed[:, 1],
             shift=stimulus.shift * signed[:, 2:4],
             black=WHITE * (low + (high - low) * chances[:, 4]),
+            gamma=stimulus.gamma,
+            lead_ms=stimulus.lead_ms,
         )
 
     @classmethod
@@ -106,6 +117,8 @@ class Digits:
             speed=np.ones(count),
             shift=np.zeros((count, 2)),
             black=np.full(count, WHITE * sum(stimulus.black) / 2),
+            gamma=stimulus.gamma,
+            lead_ms=stimulus.lead_ms,
         )
 
 
@@ -170,12 +183,14 @@ class DigitSheet:
     def _padded(self) -> NDArray[np.float32]:
         """[n, 28 + 2 PITCH, 28 + 2 PITCH]: each digit, 0..1, amid more background than it needs."""
         around = (PITCH, PITCH)
-        return np.pad(self.digits.images.astype(np.float32) / WHITE, ((0, 0), around, around))
+        light = (self.digits.images.astype(np.float32) / WHITE) ** np.float32(self.digits.gamma)
+        return np.pad(light, ((0, 0), around, around))
 
     def _render(self, t_us: int) -> NDArray[np.float32]:
         """[H, W] levels; a pixel has the mean over its area of a digit of square pixels."""
         digits = self.digits
-        corner = MARGIN + digits.shift + digit_corner(t_us, digits.speed, digits.amplitude)
+        path = digit_corner(t_us + 1000 * digits.lead_ms, digits.speed, digits.amplitude)
+        corner = MARGIN + digits.shift + path
         first = np.floor(corner).astype(np.int64)
         part = (corner - first).astype(np.float32)
         reach = np.arange(PITCH - 1, 2 * PITCH)
