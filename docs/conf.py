@@ -124,7 +124,7 @@ CHILDREN = {
     # Pages of results are made by docs/site/making.py.
     "benchmark": ["results/fidelity", "results/paper"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
-    "digits": ["results/digits", "results/digits-all"],
+    "digits": ["results/digits", "results/digits-all", "results/digits-ablation"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],
