@@ -123,9 +123,9 @@ CHILDREN = {
         for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
     # Pages of results are made by docs/site/making.py.
-    "benchmark": ["results/fidelity", "results/paper"],
+    "benchmark": ["results/fidelity", "results/fidelity-programs", "results/paper"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
-    "digits": ["results/digits", "results/digits-all"],
+    "digits": ["results/digits", "results/digits-all", "results/digits-ablation"],
     "objects": ["results/objects"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],

@@ -6,9 +6,11 @@ import pytest
 from texvent.capture.camera_path.motion import Pan, Saccades, Shake
 
 MEASURED = """
-5 .2 .4, 25 .3 1.2, 35 .3 2.1, 45 .4 3.3, 55 .9 4.2, 65 1.2 5.4, 75 1.4 6.1, 105 2.0 5.8,
-125 2.8 5.6, 135 3.3 5.0, 145 4.0 4.1, 155 4.3 2.9, 165 4.7 1.8, 175 4.9 1.1, 195 5.2 1.0,
-235 5.0 .8, 245 4.4 .9, 255 3.4 1.0, 265 2.4 1.0, 275 1.9 .3, 285 1.1 .4, 295 .8 .3"""
+0 .44 .47, 20 .37 .90, 30 .30 1.62, 40 .29 2.67, 50 .42 3.89, 60 .83 5.02, 70 1.37 5.66,
+80 1.75 5.86, 90 1.79 5.86, 100 1.86 5.80, 110 2.12 5.68, 120 2.45 5.69, 130 3.02 5.46,
+140 3.72 4.64, 150 4.28 3.43, 160 4.51 2.17, 170 4.70 1.19, 180 4.92 .76, 200 5.27 .75,
+220 5.31 .81, 240 4.95 .60, 250 3.90 .73, 260 2.89 .80, 270 1.93 .70, 280 1.21 .52,
+290 .71 .39, 300 .44 .39, 310 .39 .42"""
 """ms, x and y px of a digit's corner on N-MNIST's sensor, measured on 100 pairs."""
 
 
@@ -19,18 +21,16 @@ def xy(path, t_ms):
 
 def test_the_saccades_move_the_image_as_measured():
     rows = np.array([[float(one) for one in row.split()] for row in MEASURED.split(",")])
-    moved = np.array(
-        [np.mean([-xy(Saccades(), t + dt) for dt in (-4, -2, 0, 2, 4)], axis=0) for t in rows[:, 0]]
-    )
+    moved = np.array([-xy(Saccades(), t) for t in rows[:, 0]])
     errors = moved - moved[0] - (rows[:, 1:] - rows[0, 1:])
-    assert np.sqrt((errors**2).mean()) < 0.2
-    assert np.abs(errors).max() < 0.6
+    assert np.sqrt((errors**2).mean()) < 0.07
+    assert np.abs(errors).max() < 0.2
 
 
 def test_the_saccades_are_about_the_middle_and_scale():
     path = np.array([xy(Saccades(), t) for t in range(316)])
     np.testing.assert_allclose(path.max(axis=0) + path.min(axis=0), 0, atol=0.1)
-    larger = np.array([xy(Saccades(11.0), t) for t in range(316)])
+    larger = np.array([xy(Saccades(10.8), t) for t in range(316)])
     np.testing.assert_allclose(larger, 2 * path)
     assert Saccades().seconds == 0.315
 

@@ -14,7 +14,7 @@ from texvent.sensor import SensorSize
 from texvent_lab.bench.digits.data import read_idx, read_mnist, read_recordings
 from texvent_lab.bench.digits.inputs import polarity_agreement, represent_all
 from texvent_lab.bench.digits.plan import find_arm
-from texvent_lab.bench.digits.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.sheet import MEASURED, WIDE, Digits, DigitSheet
 
 from .synthetic_data import encode, figures, record, tile_events, write_idx, write_mnist
 
@@ -26,8 +26,9 @@ def corner(t_ms, speed=1.0, amplitude=1.0):
 
 
 def test_the_path_rests_at_both_ends_and_scales():
-    assert corner(0) == pytest.approx([0.3, 0.4])
+    assert corner(0) == pytest.approx([0.44, 0.52])
     assert corner(310) == pytest.approx(corner(1000))
+    assert corner(310) == pytest.approx(corner(0), abs=0.15)  # the camera comes back
     start = corner(0)
     assert corner(150, amplitude=1.2) - start == pytest.approx(1.2 * (corner(150) - start))
     assert corner(100, speed=1.1) == pytest.approx(corner(110))
@@ -64,11 +65,20 @@ def test_draws_depend_on_the_seed_and_the_number_of_the_image_alone():
     for name in ("amplitude", "speed", "shift", "black"):
         assert np.array_equal(getattr(whole, name)[2:4], getattr(part, name))
     assert not np.array_equal(whole.speed, Digits.draw(images, numbers, 4).speed)
-    many = Digits.draw(np.zeros((500, 28, 28), np.uint8), np.arange(500), 0)
-    assert 0.8 <= many.amplitude.min() < 0.82 < 1.18 < many.amplitude.max() <= 1.2
-    assert 0.9 <= many.speed.min() < 0.91 < 1.09 < many.speed.max() <= 1.1
-    assert 1 >= np.abs(many.shift).max() > 0.98
-    assert 0.05 * 255 <= many.black.min() < 0.06 * 255 < 0.19 * 255 < many.black.max() <= 51
+
+
+@pytest.mark.parametrize("stimulus", [WIDE, MEASURED])
+def test_draws_fill_the_range_of_their_stimulus(stimulus):
+    many = Digits.draw(np.zeros((500, 28, 28), np.uint8), np.arange(500), 0, stimulus)
+    for found, middle, half in (
+        (many.amplitude, 1, stimulus.amplitude),
+        (many.speed, 1, stimulus.speed),
+        (many.shift, 0, stimulus.shift),
+        (many.black / 255, np.mean(stimulus.black), np.ptp(stimulus.black) / 2),
+    ):
+        part = (found - middle) / half
+        assert -1 <= part.min() < -0.97
+        assert 0.97 < part.max() <= 1
 
 
 @pytest.mark.parametrize("arm", ["esim", "texvent accurate", "frame difference"])

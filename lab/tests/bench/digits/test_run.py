@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent_lab.bench.digits.plan import ARMS, Cell, DigitsPlan, Training
+from texvent_lab.bench.digits.plan import ABLATION, ARMS, Cell, DigitsPlan, Training
 from texvent_lab.bench.digits.results import digits_table, read_report
 from texvent_lab.bench.digits.run import Run, run_digits
 from texvent_lab.bench.digits.training import shift_images
@@ -113,12 +113,22 @@ def run(**changes):
     return Run(plan, mnist="a", recorded="b", target=4000.0, polarity=0.9)
 
 
-@pytest.mark.parametrize("arm", ARMS, ids=lambda arm: arm.name)
+@pytest.mark.parametrize("arm", [*ARMS, *ABLATION], ids=lambda arm: arm.name)
 def test_every_arm_has_settings_and_a_threshold_that_can_be_set(arm):
     for way in arm.ways:
         first, second = arm.settings(way), arm.settings(way, threshold=0.4)
         assert first.simulate != second.simulate
         assert first.interpolate.interpolate in ("exact", "flow", "none")
+
+
+def test_drawn_thresholds_lie_about_the_fitted_one_and_depend_on_the_image():
+    wide = next(arm for arm in ABLATION if arm.threshold_range > 1)
+    drawn = np.array([wide.threshold_of(number, 0.3) for number in range(400)])
+    parts = np.log(drawn / 0.3) / np.log(wide.threshold_range)
+    assert -0.5 <= parts.min() < -0.49
+    assert 0.49 < parts.max() <= 0.5
+    assert wide.threshold_of(7, 0.3) == drawn[7]
+    assert ARMS[0].threshold_of(7, 0.3) == 0.3
 
 
 def test_pairs_and_training_digits_are_disjoint():
@@ -142,4 +152,6 @@ def test_files_depend_on_what_they_hold_and_on_nothing_else():
     assert len({first, *others}) == 1 + len(others)
     cell = Cell("esim", "exact")
     assert run(seeds=9).set_path(cell) == run().set_path(cell)
+    ablated = {run().set_path(Cell(arm.name, arm.ways[0])) for arm in ABLATION}
+    assert len(ablated) == len(ABLATION)
     assert run().set_path(dataclasses.replace(cell, way="flow")) != run().set_path(cell)

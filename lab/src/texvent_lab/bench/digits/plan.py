@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, get_args
 
@@ -17,6 +18,7 @@ from texvent.extending import suggest
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulation.model_options import with_contrast_threshold
 from texvent_lab.bench.digits.inputs import REPRESENTATIONS
+from texvent_lab.bench.digits.sheet import MEASURED, WIDE, Stimulus
 from texvent_lab.train.schedule import Schedule
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]
@@ -40,6 +42,10 @@ class DigitsArm:
     name: str
     options: Mapping[str, Any]
     ways: tuple[Way, ...] = ("exact", "flow")
+    stimulus: Stimulus = WIDE
+    threshold_range: float = 1.0
+    """Highest threshold over the lowest: each part of a set draws its own about the fitted one,
+    evenly on a logarithmic scale. 1 is one threshold for all."""
 
     def settings(self, way: Way, *, threshold: float | None = None) -> Settings:
         """Options of a run.
@@ -54,7 +60,16 @@ class DigitsArm:
         simulate = with_contrast_threshold(settings.simulate, threshold)
         return dataclasses.replace(settings, simulate=simulate)
 
+    def threshold_of(self, number: int, fitted: float) -> float:
+        """Contrast threshold of the part of a set whose first image has this number."""
+        if self.threshold_range == 1.0:
+            return fitted
+        part = np.random.default_rng((THRESHOLD_KEY, number)).random() - 0.5
+        return fitted * math.exp(part * math.log(self.threshold_range))
 
+
+THRESHOLD_KEY = 0x7E57
+"""Keeps the draws of thresholds apart from those of motion."""
 _PAPER = {"simulator": "texvent", "preset": "paper"}
 ARMS: tuple[DigitsArm, ...] = (
     DigitsArm("texvent accurate", {"simulator": "texvent", "preset": "accurate"}),
@@ -78,6 +93,31 @@ ARMS: tuple[DigitsArm, ...] = (
 )
 """E1 .. E12 are the paper's ablations (docs/ablations.md). The frame difference is the simplest
 model: an event where ln(30 + I) of two frames differs by the threshold, at the later frame."""
+_ACCURATE = {"simulator": "texvent", "preset": "accurate"}
+_NOISY = {**_ACCURATE, "noise": "random", "noise_rate_hz": 0.25, "noise_on_fraction": 0.05}
+_QUIET = {**_ACCURATE, "noise": "none"}
+_FRAME_TIMES = {"timestamp_rule": "end"}
+_CIRCUIT = {
+    **{"simulator": "physical", "gamma": 1.0, "balance": 1.0, "cutoff_hz": 40.0},
+    **{"initial_phase": "random"},
+    **{"noise_curve": "0:0.25 255:0.25", "noise_scale": 1.0, "noise_on_fraction": 0.05},
+}
+ABLATION: tuple[DigitsArm, ...] = (
+    DigitsArm("as measured", _NOISY, ("exact",), MEASURED),
+    DigitsArm("latency of 40 Hz", _CIRCUIT, ("exact",), replace(MEASURED, lead_ms=4.0)),
+    DigitsArm("wide motion", _NOISY, ("exact",), replace(WIDE, black=MEASURED.black, gamma=2.2)),
+    DigitsArm("high contrast", _NOISY, ("exact",), replace(MEASURED, black=WIDE.black)),
+    DigitsArm("display of gamma 1", _NOISY, ("exact",), replace(MEASURED, gamma=1.0)),
+    DigitsArm("no noise", _QUIET, ("exact",), MEASURED),
+    DigitsArm("wide thresholds", _NOISY, ("exact",), MEASURED, threshold_range=40.0),
+    DigitsArm("frame times", {**_NOISY, **_FRAME_TIMES}, ("frames",), MEASURED),
+    DigitsArm(
+        "all but latency", {**_QUIET, **_FRAME_TIMES}, ("frames",), WIDE, threshold_range=40.0
+    ),
+)
+"""Display, motion and noise as on the pairs for fitting; then one property changed, then all.
+Nearly all noise of N-MNIST's sensor is OFF, .25 events per pixel and second, and its photoreceptors
+follow brightness as a low-pass of 40 Hz at white does: both measured on the pairs."""
 
 
 def find_arm(name: str) -> DigitsArm:
@@ -86,10 +126,10 @@ def find_arm(name: str) -> DigitsArm:
     Raises:
         ConfigError: none is.
     """
-    names = tuple(arm.name for arm in ARMS)
-    if name not in names:
-        raise ConfigError(f"unknown arm {shown(name)}; {suggest(name, names, longest=400)}")
-    return ARMS[names.index(name)]
+    arms = {arm.name: arm for arm in (*ARMS, *ABLATION)}
+    if name not in arms:
+        raise ConfigError(f"unknown arm {shown(name)}; {suggest(name, tuple(arms), longest=600)}")
+    return arms[name]
 
 
 @dataclass(frozen=True)

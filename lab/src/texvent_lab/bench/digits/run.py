@@ -28,7 +28,6 @@ from texvent.io.atomic import atomic_file
 from texvent.run.prepare import prepare_video
 from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.files.cache_folder import make_folder
-from texvent.settings.resolution import Settings
 from texvent.simulation.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.data import (
     FIRST_TEST,
@@ -45,7 +44,7 @@ from texvent_lab.bench.digits.inputs import (
     represent_all,
     represent_recordings,
 )
-from texvent_lab.bench.digits.plan import Cell, DigitsPlan, Training, find_arm
+from texvent_lab.bench.digits.plan import Cell, DigitsArm, DigitsPlan, Training, Way, find_arm
 from texvent_lab.bench.digits.results import DigitsReport, SetScore, compare_with_best
 from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 from texvent_lab.bench.digits.training import predict, train_network
@@ -53,10 +52,12 @@ from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
 from texvent_lab.train.schedule import EXTRA
 
-PROTOCOL = 3
+PROTOCOL = 4
 """Part of every file's name: raise it when a step computes something else from the same plan."""
 SHEET = 100
 """Digits per sheet."""
+PART = 20
+"""Digits per sheet where thresholds are drawn."""
 LEAST_AGREEMENT = 0.6
 """Share of events with the right sign below which recordings are refused; see
 `polarity_agreement`."""
@@ -123,8 +124,10 @@ class Run:
 
     def set_path(self, cell: Cell) -> Path:
         """The simulated recordings of a set."""
-        plan, settings = self.plan, find_arm(cell.arm).settings(cell.way).as_tables()
-        facts = (settings, plan.pairs, self.target, plan.digits, self.mnist)
+        plan, arm = self.plan, find_arm(cell.arm)
+        settings = arm.settings(cell.way).as_tables()
+        chance = (dataclasses.asdict(arm.stimulus), arm.threshold_range)
+        facts = (settings, *chance, plan.pairs, self.target, plan.digits, self.mnist)
         return self.path("set", ".npz", *facts)
 
     def prediction_path(self, training: Training) -> Path:
@@ -206,19 +209,20 @@ def make_set(run: Run, cell: Cell) -> str:
     start_s, plan, arm = time.perf_counter(), run.plan, find_arm(cell.arm)
     mnist = read_mnist(plan.mnist)
 
-    def simulate(numbers: NDArray[np.int64], threshold: float | None) -> InputSet:
-        return simulate_digits(mnist, numbers, arm.settings(cell.way, threshold=threshold))
+    def simulate(numbers: NDArray[np.int64], threshold: float, arm: DigitsArm) -> InputSet:
+        return simulate_digits(mnist, numbers, arm, cell.way, threshold)
 
+    middle = dataclasses.replace(arm, threshold_range=1.0)
     start = contrast_threshold_of(arm.settings(cell.way).simulate)
     match = find_threshold(
-        lambda threshold: simulate(1 + np.arange(plan.pairs), threshold).median_count,
+        lambda threshold: simulate(1 + np.arange(plan.pairs), threshold, middle).median_count,
         run.target,
         start=start,
     )
     is_matched = abs(match.ratio - 1) <= UNREACHED
     threshold = match.threshold if is_matched else start
     found = dataclasses.replace(
-        simulate(plan.numbers, threshold), threshold=threshold, is_matched=is_matched
+        simulate(plan.numbers, threshold, arm), threshold=threshold, is_matched=is_matched
     )
     found.write(run.set_path(cell))
     seconds = time.perf_counter() - start_s
@@ -228,19 +232,27 @@ def make_set(run: Run, cell: Cell) -> str:
     )
 
 
-def simulate_digits(mnist: Mnist, numbers: NDArray[np.int64], settings: Settings) -> InputSet:
+def simulate_digits(
+    mnist: Mnist, numbers: NDArray[np.int64], arm: DigitsArm, way: Way, threshold: float
+) -> InputSet:
     """Simulated recordings of digits.
 
     Args:
         mnist: all images.
         numbers: of those to record, from 1.
-        settings: of the simulation.
+        arm: the pixel model, and how digits are shown.
+        way: frames of the model.
+        threshold: contrast threshold, log units.
     """
     parts = []
-    for first in range(0, len(numbers), SHEET):
-        chosen = numbers[first : first + SHEET]
-        run = dataclasses.replace(settings.run, seed=int(chosen[0]))
-        sheet = DigitSheet(Digits.draw(mnist.images[chosen - 1], chosen, DRAWING_SEED))
+    size = SHEET if arm.threshold_range == 1.0 else PART
+    for first in range(0, len(numbers), size):
+        chosen = numbers[first : first + size]
+        number = int(chosen[0])
+        settings = arm.settings(way, threshold=arm.threshold_of(number, threshold))
+        run = dataclasses.replace(settings.run, seed=number)
+        digits = Digits.draw(mnist.images[chosen - 1], chosen, DRAWING_SEED, arm.stimulus)
+        sheet = DigitSheet(digits)
         video = prepare_video(sheet, dataclasses.replace(settings, run=run))
         images, counts = represent_all(video.packets.collect())
         parts.append(

@@ -31,10 +31,32 @@ FPS = Fraction(60)
 """Frame rate of the display."""
 FRAMES = math.ceil(DURATION_US * FPS / MICROSECONDS) + 1
 WHITE = 255.0
-AMPLITUDE, SPEED, SHIFT = 0.2, 0.1, 1.0
-"""Movements differ by ± 20 %, their speed by ± 10 %, their start by ± 1 px."""
-BLACK = (0.05, 0.2)
-"""Share of white that the display shows as black."""
+
+
+@dataclass(frozen=True)
+class Stimulus:
+    """Display and motion, and how much they differ between recordings, evenly to both sides."""
+
+    amplitude: float
+    """Of movements, ± share of the measured ones."""
+    speed: float
+    """Of movements, ± share."""
+    shift: float
+    """Of the start, ± px along x and y."""
+    black: tuple[float, float]
+    """Share of white that the display shows as black: lowest and highest."""
+    gamma: float = 1.0
+    """Exponent by which the display turns levels into light."""
+    lead_ms: float = 0.0
+    """How much earlier than `digit_corner` the sensor moves: the latency of its pixels, which that
+    path has in it, where the pixel model has latency of its own."""
+
+
+WIDE = Stimulus(amplitude=0.2, speed=0.1, shift=1.0, black=(0.05, 0.2))
+"""More motions than the sensor made, before a display of high contrast."""
+MEASURED = Stimulus(amplitude=0.06, speed=0.01, shift=0.3, black=(0.5, 0.65), gamma=2.2)
+"""As the 100 pairs for fitting have them: all but one follow one clock, ± 3 ms; the contrast is
+that of a display in a lit room, its gamma an ordinary one (2.0 to 2.2, left free in the fit)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,37 +73,52 @@ class Digits:
     """[n, 2] px along x and y."""
     black: NDArray[np.float64]
     """[n] level 0..255 of the background."""
+    gamma: float = 1.0
+    """See `Stimulus`."""
+    lead_ms: float = 0.0
+    """See `Stimulus`."""
 
     @classmethod
-    def draw(cls, images: NDArray[np.uint8], numbers: NDArray[np.int64], seed: int) -> Digits:
+    def draw(
+        cls,
+        images: NDArray[np.uint8],
+        numbers: NDArray[np.int64],
+        seed: int,
+        stimulus: Stimulus = WIDE,
+    ) -> Digits:
         """Draw motion and contrast; they depend on (seed, number of the image) alone.
 
         Args:
             images: [n, 28, 28].
             numbers: [n] of the images in their file.
             seed: of all.
+            stimulus: the range of motions and contrasts.
         """
         chances = np.stack([np.random.default_rng((seed, int(one))).random(5) for one in numbers])
         signed = 2 * chances - 1
-        low, high = BLACK
+        low, high = stimulus.black
         return cls(
             images=images,
-            amplitude=1 + AMPLITUDE * signed[:, 0],
-            speed=1 + SPEED * signed[:, 1],
-            shift=SHIFT * signed[:, 2:4],
+            amplitude=1 + stimulus.amplitude * signed[:, 0],
+            speed=1 + stimulus.speed * signed[:, 1],
+            shift=stimulus.shift * signed[:, 2:4],
             black=WHITE * (low + (high - low) * chances[:, 4]),
+            gamma=stimulus.gamma,
+            lead_ms=stimulus.lead_ms,
         )
 
     @classmethod
-    def as_measured(cls, images: NDArray[np.uint8]) -> Digits:
-        """With the measured motion and the middle contrast."""
+    def as_measured(cls, images: NDArray[np.uint8], stimulus: Stimulus = WIDE) -> Digits:
+        """With the measured motion and the middle contrast of a stimulus."""
         count = len(images)
         return cls(
             images=images,
             amplitude=np.ones(count),
             speed=np.ones(count),
             shift=np.zeros((count, 2)),
-            black=np.full(count, WHITE * sum(BLACK) / 2),
+            black=np.full(count, WHITE * sum(stimulus.black) / 2),
+            gamma=stimulus.gamma,
+            lead_ms=stimulus.lead_ms,
         )
 
 
@@ -146,12 +183,14 @@ class DigitSheet:
     def _padded(self) -> NDArray[np.float32]:
         """[n, 28 + 2 PITCH, 28 + 2 PITCH]: each digit, 0..1, amid more background than it needs."""
         around = (PITCH, PITCH)
-        return np.pad(self.digits.images.astype(np.float32) / WHITE, ((0, 0), around, around))
+        light = (self.digits.images.astype(np.float32) / WHITE) ** np.float32(self.digits.gamma)
+        return np.pad(light, ((0, 0), around, around))
 
     def _render(self, t_us: int) -> NDArray[np.float32]:
         """[H, W] levels; a pixel has the mean over its area of a digit of square pixels."""
         digits = self.digits
-        corner = MARGIN + digits.shift + digit_corner(t_us, digits.speed, digits.amplitude)
+        path = digit_corner(t_us + 1000 * digits.lead_ms, digits.speed, digits.amplitude)
+        corner = MARGIN + digits.shift + path
         first = np.floor(corner).astype(np.int64)
         part = (corner - first).astype(np.float32)
         reach = np.arange(PITCH - 1, 2 * PITCH)

@@ -10,8 +10,9 @@ from typing import Any, ClassVar, Literal
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.errors import ConfigError
 from texvent.runtime.files.cache_folder import cache_folder
-from texvent_lab.bench.digits.plan import DigitsPlan
+from texvent_lab.bench.digits.plan import ABLATION, DigitsPlan
 from texvent_lab.bench.digits.results import digits_table
 from texvent_lab.bench.digits.run import run_digits
 from texvent_lab.commands.bench.bench import ResultOptions
@@ -38,6 +39,12 @@ QUICK: Mapping[str, Any] = {
     "folds": 5,
 }
 """Plan of --quick."""
+ABLATED: Mapping[str, Any] = {
+    "arms": ("texvent accurate", *(arm.name for arm in ABLATION)),
+    "ways": ("exact", "frames"),
+    "folds": 5,
+}
+"""Plan of --ablation."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +52,18 @@ class DigitsOptions:
     """Data, simulators and networks."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        *("mnist", "nmnist", "quick", "arms", "ways", "work", "jobs", "out", "overwrite"),
+        *(
+            "mnist",
+            "nmnist",
+            "quick",
+            "ablation",
+            "arms",
+            "ways",
+            "work",
+            "jobs",
+            "out",
+            "overwrite",
+        ),
     )
 
     mnist: Path = REQUIRED
@@ -54,8 +72,11 @@ class DigitsOptions:
     """N-MNIST's folder."""
     quick: bool = False
     """Six arms with true frames: minutes on two cores."""
+    ablation: bool = False
+    """Display, motion and noise as on the recordings for fitting, then one property changed at a
+    time."""
     arms: str | None = None
-    """Names of arms, separated by commas; default: all."""
+    """Names of arms, separated by commas; default: all but those of --ablation."""
     ways: str | None = None
     """Frames of simulators, separated by commas: true ones, 1,020 per second (exact), 60 per second
     and what the pipeline interpolates (flow), or those alone (frames); default: all."""
@@ -80,7 +101,9 @@ def run(arguments: Sequence[str]) -> None:
         description=DESCRIPTION,
     )
     output.check()
-    chosen = dict(QUICK) if options.quick else {}
+    if options.quick and options.ablation:
+        raise ConfigError("--quick and --ablation name other arms; give one of them")
+    chosen = dict(QUICK if options.quick else ABLATED if options.ablation else {})
     for name in ("arms", "ways"):
         names = getattr(options, name)
         chosen |= {name: tuple(names.split(","))} if names else {}
