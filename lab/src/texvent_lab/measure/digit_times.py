@@ -1,4 +1,4 @@
-"""Which property of recorded times networks rely on: one at a time is replaced in recordings.
+"""Properties of recorded times that networks rely on: one at a time is replaced in recordings.
 
 Networks learn digits from the times of N-MNIST's recordings 1 to 500 and are shown the recordings
 for fitting, as they are and with one property replaced. Run it by

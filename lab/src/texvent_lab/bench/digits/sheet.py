@@ -38,17 +38,17 @@ class Stimulus:
     """Display and motion, and how much they differ between recordings, evenly to both sides."""
 
     amplitude: float
-    """Of movements, ± share of the measured ones."""
+    """Range of the size of movements, ± share of the measured ones."""
     speed: float
-    """Of movements, ± share."""
+    """Range of the speed of movements, ± share."""
     shift: float
-    """Of the start, ± px along x and y."""
+    """Range of the start, ± px along x and y."""
     black: tuple[float, float]
     """Share of white that the display shows as black: lowest and highest."""
     gamma: float = 1.0
     """Exponent by which the display turns levels into light."""
     lead_ms: float = 0.0
-    """How much earlier than `digit_corner` the sensor moves: the latency of its pixels, which that
+    """Lead of the sensor's motion over `digit_corner`, ms: the latency of its pixels, which that
     path has in it, where the pixel model has latency of its own."""
 
 

@@ -37,7 +37,7 @@ class WindowSet:
     """In all clips."""
     windows: int
     share: float
-    """Of pixels with an event in a window."""
+    """Share of pixels with an event in a window."""
 
 
 @dataclass(frozen=True)
