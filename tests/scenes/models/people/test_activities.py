@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from texvent.generation.subjects import scenes
 from texvent_scenes.models.activities import ACTIVITIES, ON_GROUND, TRAVELLING
 from texvent_scenes.models.people import person
 from texvent_scenes.models.people.outfit import ADULT, CLOTHES, HOLDS, PROPS, put_on
@@ -85,6 +86,15 @@ def test_arm_circles_turn_as_the_viewer_sees_them(side, sense, sign):
     middle = np.mean(hands, axis=0)
     angles = np.unwrap([math.atan2(z - middle[2], y - middle[1]) for _, y, z in hands])
     assert sign * (angles[-1] - angles[0]) < -4.0
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("turn", ["counter-clockwise", "counterclockwise", "anti-clockwise"])
+def test_every_spelling_of_an_arm_circle_is_understood(side, turn):
+    for way in (turn, turn.replace("-", " "), turn.replace("-", "")):
+        found = scenes().read(f"a man rotates the {side} arm {way}")
+        assert found.not_understood == ()
+        assert found.scene.objects[0].motions[0].kind == f"{side} arm counter-clockwise"
 
 
 @pytest.mark.parametrize("activity", ["squat", "push-up", "box", "dance", "sweep"])
