@@ -15,11 +15,13 @@ ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "docs/results"
 BENCHMARKS = {
     "fidelity": (),
+    "fidelity-programs": (),
     "paper": (),
     "real-slider_depth": ("--baseline", "texvent accurate, flow"),
     "real-davis346": ("--baseline", "texvent accurate, flow"),
     "digits": (),
     "digits-all": (),
+    "digits-ablation": (),
     "objects": (),
     "selftest": (),
 }

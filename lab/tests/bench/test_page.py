@@ -19,7 +19,10 @@ from texvent_lab.commands.bench import fidelity
 from .synthetic_report import synthetic_report
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results"
-STORED = ("fidelity", "real-slider_depth", "real-davis346", "digits", "digits-all", "selftest")
+STORED = (
+    *("fidelity", "fidelity-programs", "real-slider_depth", "real-davis346"),
+    *("digits", "digits-all", "digits-ablation", "selftest"),
+)
 
 
 @pytest.mark.parametrize("name", STORED)
