@@ -20,8 +20,14 @@ from .synthetic_report import synthetic_report
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results"
 STORED = (
-    *("fidelity", "fidelity-programs", "real-slider_depth", "real-davis346"),
-    *("digits", "digits-all", "digits-ablation", "selftest"),
+    "fidelity",
+    "fidelity-programs",
+    "real-slider_depth",
+    "real-davis346",
+    "digits",
+    "digits-all",
+    "digits-ablation",
+    "selftest",
 )
 
 
