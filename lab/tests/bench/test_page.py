@@ -19,7 +19,15 @@ from texvent_lab.commands.bench import fidelity
 from .synthetic_report import synthetic_report
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results"
-STORED = ("fidelity", "real-slider_depth", "real-davis346", "digits", "digits-all", "selftest")
+STORED = (
+    "fidelity",
+    "real-slider_depth",
+    "real-davis346",
+    "digits",
+    "digits-all",
+    "objects",
+    "selftest",
+)
 
 
 @pytest.mark.parametrize("name", STORED)
