@@ -27,6 +27,7 @@ STORED = (
     "digits",
     "digits-all",
     "digits-ablation",
+    "objects",
     "selftest",
 )
 

@@ -76,11 +76,9 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
         title = "Trained on simulated events, tested on recorded ones"
         return title, "digits.md", digits_chart(found), digits.digits_table(found)
     if document.get("schema") == objects.SCHEMA:
-        title, tables = (
-            "Simulated objects, recorded tests",
-            objects.objects_tables(objects.read_report(document)),
-        )
-        return title, "objects.md", b"", tables
+        scored = objects.read_report(document)
+        title, tables = "Simulated objects, recorded tests", objects.objects_tables(scored)
+        return title, "objects.md", objects_chart(scored), tables
     if document.get("schema") == PAPER_SCHEMA:
         return "The paper's tables", "benchmark.md", b"", paper_tables(document)
     report = read_report(document)
@@ -133,6 +131,19 @@ def digits_chart(report: digits.DigitsReport) -> bytes:
         panels.append(DotPanel(digits.REPRESENTATION_TITLES[kind], dots, lines))
     colours = dict(zip(digits.WAY_TITLES.values(), COLOURS, strict=False))
     return dot_chart(panels, colours)
+
+
+def objects_chart(report: objects.ObjectsReport) -> bytes:
+    """First score of each arm on both tests: a panel each, with the recorded ceiling as a line."""
+    panels = []
+    for title, rows in (("table", report.table), ("turntable", report.turntable)):
+        first = next(iter(rows[0].scores))
+        found = {one.arm: summarise(one.scores[first]) for one in rows}
+        ceiling = {"trained on recordings": found.pop(objects.RECORDED).mean}
+        dots = [Dot(arm, first, one.mean, one.standard_error) for arm, one in found.items()]
+        panels.append(DotPanel(f"{title}: {first}", dots, ceiling))
+    colours = {panel.dots[0].series: COLOURS[n] for n, panel in enumerate(panels)}
+    return dot_chart(panels, colours, least=0)
 
 
 def _facts(document: Mapping[str, Any]) -> str:

@@ -39,6 +39,13 @@ def summarise(values: Iterable[float]) -> Summary:
     return Summary(mean, spread, count, int(every.size) - count)
 
 
+def mean_text(values: Iterable[float]) -> str:
+    """Mean ± standard error over seeds; "–" without a defined value."""
+    found = summarise(values)
+    error = f" ± {found.standard_error:.3f}" if found.defined > 1 else ""
+    return f"{found.mean:.3f}{error}" if found.defined else "–"
+
+
 def normalise(value: float, *, floor: float, null: float, better: Better) -> float:
     """`S* = (d_null − d) / (d_null − d_floor)`, clipped to 0..1: 0 is the null, 1 the floor.
 

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -54,6 +55,16 @@ def test_frames_are_read_by_pose_from_a_folder_and_a_zip(tmp_path):
         vars(frames).values(), vars(read_table(tmp_path / "b.zip")).values(), strict=True
     ):
         assert np.array_equal(one, other)
+
+
+def test_a_damaged_zip_is_refused(tmp_path):
+    write_frames(tmp_path / "a")
+    path = Path(shutil.make_archive(str(tmp_path / "b"), "zip", tmp_path / "a"))
+    content = bytearray(path.read_bytes())
+    content[300 : len(content) // 2 : 50] = bytes(len(content[300 : len(content) // 2 : 50]))
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match="is damaged"):
+        read_table(path)
 
 
 def test_turntables_give_a_window_every_100_ms(tmp_path):

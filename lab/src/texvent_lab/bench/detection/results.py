@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from texvent_lab.bench.document import markdown_table
-from texvent_lab.bench.summary import summarise
+from texvent_lab.bench.summary import mean_text
 
 SCHEMA = "texvent-detection-1"
 
@@ -61,19 +61,15 @@ def detection_table(report: DetectionReport) -> str:
     rows = []
     for arm, scores in arms.items():
         cells = [f"{scores[0].events:,.0f}"]
-        cells += [_mean([one.ap["all"] for one in scores])]
+        cells += [mean_text([one.ap["all"] for one in scores])]
         cells += [", ".join(_interval(one.ap50["all"]) for one in scores)]
-        cells += [_mean([one.ap50[name]["value"] for one in scores]) for name in classes]
-        cells += [_mean([one.ap50_by_size[n] for one in scores]) for n in scores[0].ap50_by_size]
+        cells += [mean_text([one.ap50[name]["value"] for one in scores]) for name in classes]
+        cells += [
+            mean_text([one.ap50_by_size[n] for one in scores]) for n in scores[0].ap50_by_size
+        ]
         street = (_interval(one.street["AP50"]) if one.street else "–" for one in scores)
         rows.append([arm, *cells, ", ".join(street)])
     return markdown_table(titles, rows)
-
-
-def _mean(values: list[float]) -> str:
-    found = summarise(values)
-    error = f" ± {found.standard_error:.3f}" if found.defined > 1 else ""
-    return f"{found.mean:.3f}{error}" if found.defined else "–"
 
 
 def _interval(one: Mapping[str, float]) -> str:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent_lab.bench.digits.data import CLASSES
 from texvent_lab.bench.document import markdown_table, read_records
-from texvent_lab.bench.summary import summarise
+from texvent_lab.bench.summary import mean_text, summarise
 
 SCHEMA = "texvent-digits-2"
 SIGNIFICANCE = 0.05
@@ -173,10 +173,3 @@ def _cell(score: SetScore) -> str:
     is_alike = score.p is not None and score.p > SIGNIFICANCE
     mark = BEST if score.p is None else ALIKE if is_alike else ""
     return f"{mean_text(score.accuracy)} {mark}".rstrip()
-
-
-def mean_text(values: Sequence[float]) -> str:
-    """Mean ± standard error over seeds."""
-    found = summarise(values)
-    error = f" ± {found.standard_error:.3f}" if found.defined > 1 else ""
-    return f"{found.mean:.3f}{error}"

@@ -43,6 +43,8 @@ def render_clip(item: Item, options: Mapping[str, Any], path: Path) -> str:
     luma, t_us = (np.array(one) for one in zip(*frames, strict=True))
     if luma.shape[1:] != (SIDE, SIDE):
         raise ConfigError(f"sensor is {luma.shape[2]}x{luma.shape[1]}; a DVS128 has {SIDE}x{SIDE}")
+    if not _starts(t_us):
+        raise ConfigError(f"clips of {t_us[-1] / 1e6:g} s hold no window; make duration .4 or more")
     boxes = [_box(video, start + WINDOW_US // 2) for start in _starts(t_us)]
     with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
         np.savez(file, luma=luma, t_us=t_us, boxes=np.array(boxes, np.float32))

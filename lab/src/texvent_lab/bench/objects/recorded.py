@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import zipfile
+import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.files import open_events
+from texvent_lab.bench.detection.clips import bin_pixels
 
 SIDE = 128
 """Pixels along each side of the sensor."""
@@ -78,9 +80,7 @@ def last_polarity(events: EventStream, start_us: int) -> NDArray[np.int8]:
 
 def in_cells(images: NDArray[np.int8]) -> NDArray[np.uint8]:
     """ON and OFF pixels in cells of 2×2, as networks see them: [n, H, W] → [n, 2, H / 2, W / 2]."""
-    n, height, width = images.shape
-    blocks = images.reshape(n, height // 2, 2, width // 2, 2)
-    return np.stack([(blocks == sign).sum(axis=(2, 4), dtype=np.uint8) for sign in (1, -1)], axis=1)
+    return np.stack([bin_pixels(images == sign, 2) for sign in (1, -1)], axis=1)
 
 
 def read_table(path: Path) -> Frames:
@@ -132,6 +132,12 @@ def _members(path: Path) -> dict[str, Callable[[], bytes]]:
         archive = zipfile.ZipFile(path)
     except (OSError, zipfile.BadZipFile):
         raise FileFormatError(f"{path} is no zip and no folder of labelled frames") from None
+    try:
+        damaged = archive.testzip()
+    except (OSError, zipfile.BadZipFile, zlib.error):
+        damaged = "a file"
+    if damaged:
+        raise FileFormatError(f"{path} is damaged ({damaged}); fetch it again")
     return {name: partial(archive.read, name) for name in archive.namelist()}
 
 

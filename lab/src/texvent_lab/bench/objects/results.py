@@ -15,7 +15,7 @@ from texvent_lab.bench.detection.labels import COUNTED, IGNORED
 from texvent_lab.bench.detection.precision import ALL, bootstrap
 from texvent_lab.bench.document import markdown_table, read_records
 from texvent_lab.bench.objects.recorded import Frames
-from texvent_lab.bench.summary import summarise
+from texvent_lab.bench.summary import mean_text, summarise
 
 SCHEMA = "texvent-objects-1"
 REFERENCE = "texvent"
@@ -244,10 +244,3 @@ def _row(one: ObjectScore, names: Sequence[str]) -> list[str]:
     interval = "[{:.3f}, {:.3f}]".format(*one.interval)
     first, *others = (mean_text(one.scores[name]) for name in names)
     return [one.arm, *made, first, interval, difference, *others]
-
-
-def mean_text(values: Sequence[float]) -> str:
-    """Mean ± standard error over seeds."""
-    found = summarise(values)
-    error = f" ± {found.standard_error:.3f}" if found.defined > 1 else ""
-    return f"{found.mean:.3f}{error}"

@@ -21,7 +21,7 @@ from texvent.config import check_range
 from texvent.dataset.specification.items import Item, read_items
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, shown, warnings_to
+from texvent.errors import ConfigError, InputError, shown, warnings_to
 from texvent.extending import require, suggest
 from texvent.io.atomic import atomic_file
 from texvent.runtime.files.cache_folder import make_folder
@@ -39,7 +39,7 @@ from texvent_lab.bench.objects.recorded import (
     read_table,
     read_turntables,
 )
-from texvent_lab.bench.objects.results import ObjectsReport, WindowSet, score_all
+from texvent_lab.bench.objects.results import RECORDED, ObjectsReport, WindowSet, score_all
 from texvent_lab.train.schedule import EXTRA, Schedule
 
 PROTOCOL = 1
@@ -279,6 +279,8 @@ def train(run: Run, one: Training) -> str:
         learned = recorded.select(~test)
     else:
         learned = read_windows(run.windows_path(one.test, one.arm))
+    if not len(learned.images):
+        raise InputError(f"{one.test}, {one.arm or RECORDED}: there are no windows to learn from")
     plan, started = run.plan, time.perf_counter()
     found: NDArray[Any]
     options: dict[str, Any] = {"steps": plan.steps, "schedule": plan.schedule, "seed": one.seed}
