@@ -23,10 +23,10 @@ from texvent.run.rate_search import find_threshold
 from texvent_lab.bench.digits.data import FIRST_TEST, read_mnist, read_recordings
 from texvent_lab.bench.digits.inputs import REPRESENTATIONS, represent_all, represent_recordings
 from texvent_lab.bench.digits.plan import SCHEDULE, find_arm
-from texvent_lab.bench.digits.results import mean_text
 from texvent_lab.bench.digits.sheet import WIDE, Digits, DigitSheet
 from texvent_lab.bench.digits.training import predict, train_network
 from texvent_lab.bench.document import markdown_table
+from texvent_lab.bench.summary import mean_text
 from texvent_lab.train.schedule import EXTRA
 
 KIND = "surface"
