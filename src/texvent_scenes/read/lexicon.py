@@ -227,10 +227,12 @@ MAX_COUNT = 24
 _RANGES = {"speed_m_s": (0.0, 1000.0)}
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
-_NUMBER = r"(?:(?<!\S)[-−])?(?:\d+ ?[/⁄] ?[1-9]\d*|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+_NUMBER = r"(?:(?<!\S)[-−])?(?:(?:\d+ )?\d+ ?[/⁄] ?[1-9]\d*|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
 _SIGNS = str.maketrans("−⁄", "-/")
+_MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
+"""Between "1" and "½", which NFKC would join to 11/2."""
 
 
 @dataclass(frozen=True)
@@ -286,7 +288,7 @@ NO_TOKEN = Token(".", -1)
 
 def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     """Tokens of a prompt, in order."""
-    text = unicodedata.normalize("NFKC", prompt)
+    text = unicodedata.normalize("NFKC", _MIXED.sub(" ", prompt))
     found: list[Token] = []
     start = 0
     for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
@@ -364,8 +366,10 @@ def _without_chance(
 
 
 def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
-    """A number of things, or a speed or frequency with its unit ("1/2 Hz"), in range."""
-    number = float(Fraction(re.sub("[ ,]", "", words[at]).translate(_SIGNS)))
+    """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range."""
+    text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
+    number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
+    number = -number if text.startswith("-") else number
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
         for sense in lexicon.get(unit, ()):
