@@ -7,7 +7,7 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.io.calibration import read_calibration
-from texvent.runtime.files.yaml_text import load_yaml
+from texvent.runtime.files.yaml_text import MOST_VALUES, load_yaml
 from texvent.settings.config_files import read_config
 
 
@@ -39,6 +39,24 @@ def test_yaml_of_any_origin_is_read_or_refused_at_once(tmp_path: Path, text: str
     for read in (read_config, read_calibration):
         with pytest.raises(InputError):
             read(path)
+
+
+HUNDRED = f"&a [{', '.join(['0'] * 99)}]"
+PAIRS = [f"k{n}: *a" for n in range(988)] + [f"o{n}: 0" for n in range(54)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"[{HUNDRED}, {'*a, ' * 998}{'0, ' * 98}LAST]",
+        f"{{first: {HUNDRED}, {', '.join(PAIRS)}, last: LAST}}",
+    ],
+    ids=["sequence", "mapping"],
+)
+def test_as_many_values_as_are_allowed_are_read_and_one_more_is_refused(text: str) -> None:
+    assert load_yaml(text.replace("LAST", "0"))
+    with pytest.raises(ValueError, match=f"more than {MOST_VALUES:,} values"):
+        load_yaml(text.replace("LAST", "[0]"))
 
 
 def test_aliases_and_merge_keys_are_read() -> None:
