@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import inspect
 import re
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 from tests.dataset.conftest import CARS
 
 from texvent.cli.app import main
+from texvent.cli.dataset.stored import SampleOptions
 from texvent.dataset import SampleSource, Specification, make
 from texvent.dataset.preview import choose_samples
 from texvent.dataset.stored.folder import StoredDataset
@@ -64,3 +66,9 @@ def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> Non
     assert len(keys(label="bus", variant="paper")) == 2
     with pytest.raises(InputError, match="holds no samples with split 'val'"):
         keys(split="val")
+
+
+def test_samples_are_chosen_by_the_commands_defaults() -> None:
+    choice = inspect.signature(choose_samples).parameters.values()
+    defaults = {one.name: one.default for one in choice if one.default is not one.empty}
+    assert defaults == {name: getattr(SampleOptions, name) for name in defaults}

@@ -1,6 +1,7 @@
 """Videos that follow a scene: control videos, agreement, motion and truth, without a network."""
 
 import dataclasses
+import inspect
 import tracemalloc
 from fractions import Fraction
 from types import SimpleNamespace
@@ -24,6 +25,7 @@ from texvent.generation.video_models.controls import PIPELINES
 from texvent.generation.video_models.known_models import MODELS, check_control
 from texvent.interpolate.motion.layers import gamma_coded, linear
 from texvent.pipeline import video_to_events
+from texvent.run.prepare import report_prompt
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.source import TruthSource
@@ -54,6 +56,14 @@ def steer(scene, pixels):
     video = Video(pixels, times_of(scene), scene.fps, {"generator": "test"})
     shape = scene.fps, scene.size, scene.frame_count
     return SteeredVideo(*shape, video.metadata, video=video, scene=scene)
+
+
+@pytest.mark.parametrize("name", ["procedural", *STEERED])
+def test_a_report_is_of_the_staged_scene_unless_it_is_asked_for_otherwise(name):
+    part = GENERATORS.load(name)
+    report = part(part.config_type(), seed=1, size=SensorSize(64, 48)).report
+    usual = inspect.signature(report_prompt).parameters["is_staged"].default
+    assert inspect.signature(report).parameters["is_staged"].default is usual is True
 
 
 def truths(scene):

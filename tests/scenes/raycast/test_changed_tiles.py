@@ -82,6 +82,14 @@ def test_what_changes_is_drawn_anew_and_little_else(kind):
     assert 0.0 < share_changed(SCENES[kind], 0.0, 0.5, 0.52) < 0.75
 
 
+WET = HandScene((), high_camera, environment_base=replace(DULL, wetness=1.0))
+
+
+@pytest.mark.parametrize("scene", [*SCENES.values(), WET], ids=[*SCENES, "wet, no shape"])
+def test_nothing_is_drawn_anew_where_nothing_changes(scene):
+    assert share_changed(scene, 0.5, 0.5) == 0.0
+
+
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_change_that_is_missed_is_found(kind, monkeypatch):
     monkeypatch.setattr(changed, *MISSES[kind])

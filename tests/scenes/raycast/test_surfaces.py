@@ -8,10 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
-from tests.scenes.hand_scenes import day
+from tests.scenes.hand_scenes import HandScene, day
 
+from texvent.sensor import SensorSize
 from texvent_scenes.raycast.acceleration import bin_rectangles
 from texvent_scenes.raycast.records import INSTANT_RECORD, MAX_CROSSINGS, describe_surroundings
+from texvent_scenes.raycast.render import render
 from texvent_scenes.raycast.shading.ground import strip_place
 from texvent_scenes.raycast.shading.material import patch_axes, tile_average
 from texvent_scenes.raycast.shading.value_noise import box_coverage, square_wave
@@ -132,3 +134,13 @@ def test_every_cell_lists_the_rectangles_that_touch_it_in_order(rectangles):
             cell = row * 7 + column
             found = bins.items[bins.start[cell] : bins.start[cell + 1]]
             assert found.tolist() == expected
+
+
+def test_only_waves_higher_than_usual_foam_and_foam_is_light():
+    def sea(height):
+        scene = HandScene((), environment_base=replace(day(Ground.SEA), wave_height=height))
+        return render(scene, 0.3, SensorSize(64, 48)).astype(int)
+
+    foam = sea(1.0 + 1e-6) - sea(1.0)
+    assert foam.min() > -3
+    assert foam.max() > 50
