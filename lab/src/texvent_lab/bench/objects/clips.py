@@ -37,7 +37,8 @@ def render_clip(item: Item, options: Mapping[str, Any], path: Path) -> str:
     Boxes are those of the first object in the middle of each window, NaN out of view.
     """
     seed = derived_seed(0, item.key)
-    settings = resolve("generate", {**options, "seed": seed})
+    chosen = {name: value for name, value in options.items() if value != ""}
+    settings = resolve("generate", {**chosen, "seed": seed})
     video: Any = make_video(item.subject, settings)
     frames = [(one.luma.astype(np.float16), one.t_us) for one in video]
     luma, t_us = (np.array(one) for one in zip(*frames, strict=True))
@@ -125,9 +126,7 @@ def make_windows(
     paths: Sequence[Path],
     classes: Sequence[int],
     options: Mapping[str, Any],
-    threshold: float | None,
-    *,
-    spread: float = 0.0,
+    thresholds: Sequence[float | None],
 ) -> tuple[Frames, int]:
     """Windows of all clips in an arm, but for those whose object is out of view.
 
@@ -135,17 +134,15 @@ def make_windows(
         paths: frames of the clips.
         classes: number of the class of each.
         options: of the arm.
-        threshold: contrast threshold, log units; None leaves the model's.
-        spread: standard deviation of the natural logarithm of the threshold between clips.
+        thresholds: contrast threshold of each clip, log units; None leaves the model's.
 
     Returns:
         The windows; their events in all.
     """
     images, labels, boxes, groups, count = [], [], [], [], 0
-    for number, (path, kind) in enumerate(zip(paths, classes, strict=True)):
-        chance = np.random.default_rng(derived_seed(2, path.stem))
-        own = None if threshold is None else threshold * float(np.exp(chance.normal(0, spread)))
-        events = simulate_clip(path, options, own)
+    clips = zip(paths, classes, thresholds, strict=True)
+    for number, (path, kind, threshold) in enumerate(clips):
+        events = simulate_clip(path, options, threshold)
         count += len(events)
         images.append(_images(path, events))
         with np.load(path) as file:

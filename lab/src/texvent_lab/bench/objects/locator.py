@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from texvent.extending import require
 from texvent.networks import Tensor
 from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.bench.digits.training import Precision
 from texvent_lab.bench.objects.recorded import SIDE, Frames, in_cells
 from texvent_lab.networks.layers import Network, make_seeded
 from texvent_lab.train.loop import descend
@@ -60,7 +61,13 @@ class Locator(Network):
 
 
 def train_locator(
-    frames: Frames, classes: int, *, steps: int, schedule: Schedule, seed: int
+    frames: Frames,
+    classes: int,
+    *,
+    steps: int,
+    schedule: Schedule,
+    seed: int,
+    precision: Precision = "float32",
 ) -> Any:
     """A detector trained on frames for a number of batches.
 
@@ -68,6 +75,7 @@ def train_locator(
     """
     _torch.set_num_threads(1)
     network = make_seeded(lambda: Locator(classes), seed).train()
+    network.to(memory_format=_torch.channels_last)
     optimizer = schedule.make_optimizer(network)
 
     def losses() -> Iterator[Tensor]:
@@ -75,7 +83,8 @@ def train_locator(
         for step, (images, kinds, boxes) in zip(range(steps), batches, strict=False):
             for group in optimizer.param_groups:
                 group["lr"] = schedule.learning_rate * (1 - step / steps)
-            found = network(_tensor(images))
+            with _torch.autocast("cpu", _torch.bfloat16, enabled=precision == "bfloat16"):
+                found = network(_tensor(images)).float()
             yield _loss(found, kinds, boxes, classes)
 
     descend(losses(), optimizer, network, where="a detector of objects", schedule=schedule)
@@ -155,7 +164,8 @@ def locate(network: Any, images: NDArray[np.int8], classes: int) -> NDArray[np.v
 
 
 def _tensor(images: NDArray[np.int8]) -> Tensor:
-    return _torch.from_numpy(in_cells(images).astype(np.float32))
+    cells = _torch.from_numpy(in_cells(images).astype(np.float32))
+    return cells.contiguous(memory_format=_torch.channels_last)
 
 
 def _boxes(

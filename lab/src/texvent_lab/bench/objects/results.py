@@ -53,7 +53,7 @@ class ObjectScore:
     interval: Sequence[float]
     """95 % of the first score, by blocks of recorded windows."""
     difference: Sequence[float] | None
-    """Mean of the first score less `REFERENCE`'s, and its 95 % interval; None for itself."""
+    """Mean of the first score less the reference's, and its 95 % interval; None for itself."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,8 @@ class ObjectsReport:
     turntable: Sequence[ObjectScore]
     """Classification of turntable windows: accuracy, the mean over recordings, first."""
     seconds: float
+    reference: str = REFERENCE
+    """Arm that the others are compared with."""
 
     def document(self) -> dict[str, Any]:
         """The values, ready for JSON."""
@@ -92,6 +94,8 @@ def score_all(
     classes: Sequence[str],
     sets: Mapping[str, WindowSet],
     found: Mapping[str | None, Sequence[NDArray[Any]]],
+    *,
+    reference: str = REFERENCE,
 ) -> list[ObjectScore]:
     """Scores of all arms, then of networks trained on recorded windows.
 
@@ -101,18 +105,19 @@ def score_all(
         sets: arm → its windows.
         found: arm, or None for those trained on recorded windows → predictions per seed: boxes, or
             a class per window.
+        reference: arm that the others are compared with.
     """
     is_table = np.isfinite(recorded.boxes).all()
     score = _score_boxes if is_table else _score_classes
     scored = {arm: score(recorded, classes, one) for arm, one in found.items()}
-    reference = scored.get(REFERENCE, (None, None))[1]
+    compared = scored.get(reference)
     rows = []
     for arm, (scores, samples) in scored.items():
         difference = None
-        if reference is not None and arm not in (REFERENCE, None):
+        if compared is not None and arm not in (reference, None):
             first = next(iter(scores))
-            mean = np.mean(scores[first]) - np.mean(scored[REFERENCE][0][first])
-            difference = [float(mean), *_ends(samples - reference)]
+            mean = np.mean(scores[first]) - np.mean(compared[0][first])
+            difference = [float(mean), *_ends(samples - compared[1])]
         windows = None if arm is None else asdict(sets[arm])
         rows.append(ObjectScore(arm or RECORDED, windows, scores, _ends(samples), difference))
     return [*rows, count_floor(recorded, classes)] if not is_table else rows
@@ -225,7 +230,14 @@ def objects_tables(report: ObjectsReport) -> str:
     for title, rows in (("table", report.table), ("turntable", report.turntable)):
         ranked = sorted(rows, key=lambda one: (one.windows is None, -_mean(one)))
         names = list(ranked[0].scores)
-        titles = ["trained on", "δ", "pixels with an event", names[0], "95 %", "less texvent"]
+        titles = [
+            "trained on",
+            "δ",
+            "pixels with an event",
+            names[0],
+            "95 %",
+            f"less {report.reference}",
+        ]
         table = [_row(one, names) for one in ranked]
         parts.append(f"## {title.capitalize()}\n\n{markdown_table(titles + names[1:], table)}")
     return "\n".join(parts)

@@ -6,18 +6,19 @@ so that a run that was stopped goes on.
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent import __version__
-from texvent.config import check_range
+from texvent.config import check_choices, check_range
 from texvent.dataset.specification.items import Item, read_items
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
@@ -27,9 +28,10 @@ from texvent.io.atomic import atomic_file
 from texvent.runtime.files.cache_folder import make_folder
 from texvent_lab.bench.detection.run import with_count
 from texvent_lab.bench.digits.run import digest_of, is_whole
-from texvent_lab.bench.digits.training import predict, train_network
+from texvent_lab.bench.digits.training import Precision, predict, train_network
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.bench.objects.arms import Arm, Test, read_factors, with_folder
 from texvent_lab.bench.objects.clips import PILOT, make_windows, match_threshold, render_clip
 from texvent_lab.bench.objects.recorded import (
     TABLE_CLASSES,
@@ -39,12 +41,17 @@ from texvent_lab.bench.objects.recorded import (
     read_table,
     read_turntables,
 )
-from texvent_lab.bench.objects.results import RECORDED, ObjectsReport, WindowSet, score_all
+from texvent_lab.bench.objects.results import (
+    RECORDED,
+    REFERENCE,
+    ObjectsReport,
+    WindowSet,
+    score_all,
+)
 from texvent_lab.train.schedule import EXTRA, Schedule
 
-PROTOCOL = 1
+PROTOCOL = 2
 """Part of every file's name: raise it when a step computes something else from the same plan."""
-Test: TypeAlias = Literal["table", "turntable"]
 CLASSES: Mapping[Test, tuple[str, ...]] = {
     "table": TABLE_CLASSES,
     "turntable": tuple(TURNTABLE_FILES),
@@ -72,6 +79,8 @@ class ObjectsPlan:
     """Folder that keeps what was made."""
     arms: tuple[str, ...] = ()
     """Variants to train on; none: all."""
+    factors: Path | None = None
+    """File of arms that differ from one in a property, in place of those; see `read_factors`."""
     clips: int | None = None
     """Clips of each test; None: as many as the specifications say."""
     steps: int = 600
@@ -81,19 +90,16 @@ class ObjectsPlan:
     spread: float = 0.0
     """Standard deviation of the logarithm of the contrast threshold between clips."""
     schedule: Schedule = SCHEDULE
+    precision: Precision = "float32"
+    """Number type of the networks' computation."""
 
     def __post_init__(self) -> None:
         check_range("clips", self.clips, 1)
         check_range("steps", self.steps, 1, 1_000_000)
         check_range("seeds", self.seeds, 1, 1000)
         check_range("spread", self.spread, 0.0, 2.0)
+        check_choices(self)
         for test, classes in CLASSES.items():
-            names = {variant.name for variant in self.specifications[test].variants}
-            for arm in self.arms:
-                if arm not in names:
-                    raise ConfigError(
-                        f"unknown arm {shown(arm)}; {suggest(arm, tuple(sorted(names)))}"
-                    )
             labels = set(read_items(self.specifications[test]).labels)
             if other := labels - set(classes):
                 raise ConfigError(
@@ -104,17 +110,39 @@ class ObjectsPlan:
     @cached_property
     def specifications(self) -> dict[Test, Specification]:
         """Test → what is simulated for it."""
-        read = {test: read_specification(self.configs / f"{test}.toml") for test in CLASSES}
-        return {test: with_count(one, self.clips) for test, one in read.items()}
+        found = {}
+        for test in CLASSES:
+            one = with_count(read_specification(self.configs / f"{test}.toml"), self.clips)
+            options = with_folder(one.options, self.configs)
+            found[test] = dataclasses.replace(one, options=options)
+        return found
 
-    def items(self, test: Test) -> tuple[Item, ...]:
-        """The clips of a test; every class comes by about as often at any place of the list."""
-        return tuple(sorted(read_items(self.specifications[test]).all, key=lambda one: one.key))
+    @cached_property
+    def sets(self) -> Mapping[Test, Mapping[str, Arm]]:
+        """Test → its arms, by name."""
+        found: dict[Test, dict[str, Arm]] = {
+            test: {
+                variant.name: Arm(one, variant.options, spread=self.spread)
+                for variant in one.variants
+            }
+            for test, one in self.specifications.items()
+        }
+        every = read_factors(self.factors, found) if self.factors else found
+        self._check_arms({name for of_test in every.values() for name in of_test})
+        return {
+            test: {name: arm for name, arm in of_test.items() if name in (self.arms or of_test)}
+            for test, of_test in every.items()
+        }
 
-    def options(self, test: Test) -> dict[str, Mapping[str, Any]]:
-        """Arm → its options."""
-        variants = {one.name: one.options for one in self.specifications[test].variants}
-        return {arm: variants[arm] for arm in self.arms or variants}
+    def _check_arms(self, names: set[str]) -> None:
+        for arm in self.arms:
+            if arm not in names:
+                raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, tuple(sorted(names)))}")
+
+    @property
+    def reference(self) -> str:
+        """Arm that the others are compared with."""
+        return next(iter(self.sets["table"])) if self.factors else REFERENCE
 
 
 @dataclass(frozen=True)
@@ -139,14 +167,16 @@ class Run:
         name = digest_of(__version__, PROTOCOL, kind, *facts)
         return self.plan.work / f"{kind}-{name}.npz"
 
-    def frames_path(self, test: Test, item: Item) -> Path:
+    def frames_path(self, arm: Arm, item: Item) -> Path:
         """Rendered frames of a clip."""
-        return self.path("frames", item.key, dict(self.plan.specifications[test].options))
+        options = {n: one for n, one in arm.specification.options.items() if n != "assets"}
+        return self.path("frames", item.key, options, arm.looks)
 
-    def windows_path(self, test: Test, arm: str) -> Path:
+    def windows_path(self, test: Test, name: str) -> Path:
         """Windows of an arm."""
-        frames = [self.frames_path(test, one).stem for one in self.plan.items(test)]
-        facts = (dict(self.plan.options(test)[arm]), self.target(test), self.plan.spread)
+        arm = self.plan.sets[test][name]
+        frames = [self.frames_path(arm, one).stem for one in arm.items]
+        facts = (dict(arm.options), self.target(test), arm.threshold, arm.spread)
         return self.path("windows", frames, *facts)
 
     def prediction_path(self, one: Training) -> Path:
@@ -156,7 +186,7 @@ class Run:
         digest = digest_of(self.recorded[one.test].images.tobytes())
         rate = plan.schedule.learning_rate
         facts = (seen, digest, one.test, one.seed, plan.steps, plan.schedule.batch_size, rate)
-        return self.path("predicted", *facts)
+        return self.path("predicted", *facts, plan.precision)
 
     def target(self, test: Test) -> float:
         """Share of pixels with an event in a recorded window, to 4 digits."""
@@ -202,17 +232,21 @@ def run_objects(
     )
     make_folder(plan.work)
     tests: Sequence[Test] = list(CLASSES)
-    arms = {test: list(plan.options(test)) for test in tests}
-    clips = [(test, one) for test in tests for one in plan.items(test)]
-    _do(render, run, clips, lambda one: run.frames_path(*one), jobs, progress)
-    sets = [(test, arm) for test in tests for arm in arms[test]]
+    clips = {
+        run.frames_path(arm, one): (arm, one)
+        for test in tests
+        for arm in plan.sets[test].values()
+        for one in arm.items
+    }
+    _do(render, run, list(clips.values()), lambda one: run.frames_path(*one), jobs, progress)
+    sets = [(test, name) for test in tests for name in plan.sets[test]]
     _do(simulate, run, sets, lambda one: run.windows_path(*one), jobs, progress)
     # Seed by seed: a run that is stopped has whole rounds.
     networks = sorted(
         (
             (one,)
             for test in tests
-            for arm in (*arms[test], None)
+            for arm in (*plan.sets[test], None)
             for one in run.trainings(test, arm)
         ),
         key=lambda key: key[0].seed,
@@ -223,8 +257,12 @@ def run_objects(
         environment=describe_environment(),
         protocol=_protocol(run),
         **{
-            test: score_all(run.recorded[test], CLASSES[test], *_found(run, test)) for test in tests
+            test: score_all(
+                run.recorded[test], CLASSES[test], *_found(run, test), reference=plan.reference
+            )
+            for test in tests
         },
+        reference=plan.reference,
         seconds=time.perf_counter() - start,
     )
 
@@ -243,31 +281,35 @@ def _do(
         progress(f"{number} of {len(missing)}  {line}")
 
 
-def render(run: Run, test: Test, item: Item) -> str:
+def render(run: Run, arm: Arm, item: Item) -> str:
     """Render a clip."""
     with warnings_to(_leave_out):  # of objects out of view, which windows leave out too
-        return render_clip(item, run.plan.specifications[test].options, run.frames_path(test, item))
+        return render_clip(item, arm.specification.options, run.frames_path(arm, item))
 
 
 def _leave_out(warning: str) -> None:
     del warning
 
 
-def simulate(run: Run, test: Test, arm: str) -> str:
+def simulate(run: Run, test: Test, name: str) -> str:
     """Make the windows of an arm, with the threshold that gives the recorded share."""
-    options, items = run.plan.options(test)[arm], run.plan.items(test)
-    paths = [run.frames_path(test, one) for one in items]
+    arm = run.plan.sets[test][name]
+    paths = [run.frames_path(arm, one) for one in arm.items]
     with warnings_to(_leave_out):  # of clips at rest
-        threshold, share = match_threshold(paths[:PILOT], options, run.target(test))
-        numbers = [CLASSES[test].index(one.label or "") for one in items]
-        spread = run.plan.spread
-        frames, events = make_windows(paths, numbers, options, threshold, spread=spread)
+        threshold = arm.threshold[0] if len(arm.threshold) == 1 else None
+        if not arm.threshold:
+            threshold, _ = match_threshold(paths[:PILOT], arm.options, run.target(test))
+        numbers = [CLASSES[test].index(one.label or "") for one in arm.items]
+        thresholds = [arm.threshold_of(one.stem, threshold) for one in paths]
+        frames, events = make_windows(paths, numbers, arm.options, thresholds)
     if test == "table":
         frames = frames.select(np.isfinite(frames.boxes[:, 0]))
     facts = {"threshold": np.nan if threshold is None else threshold, "events": events}
-    _write(run.windows_path(test, arm), **vars(frames), **facts)
+    _write(run.windows_path(test, name), **vars(frames), **facts)
+    share = float((frames.images != 0).mean())
     return (
-        f"{test}, {arm}: threshold {threshold}, {share:.3f} of pixels, {len(frames.images)} windows"
+        f"{test}, {name}: threshold {threshold}, {share:.3f} of pixels, {len(frames.images)} "
+        "windows"
     )
 
 
@@ -284,6 +326,7 @@ def train(run: Run, one: Training) -> str:
     plan, started = run.plan, time.perf_counter()
     found: NDArray[Any]
     options: dict[str, Any] = {"steps": plan.steps, "schedule": plan.schedule, "seed": one.seed}
+    options["precision"] = plan.precision
     if one.test == "table":
         from texvent_lab.bench.objects.locator import locate, train_locator  # imports torch
 
@@ -315,7 +358,7 @@ def _found(
 ) -> tuple[dict[str, WindowSet], dict[str | None, list[NDArray[Any]]]]:
     """Sets of windows, and predictions per seed in the order of the recorded windows, by arm."""
     sets, found = {}, {}
-    for arm in (*run.plan.options(test), None):
+    for arm in (*run.plan.sets[test], None):
         if arm is not None:
             path = run.windows_path(test, arm)
             with np.load(path) as file:
@@ -337,12 +380,14 @@ def _joined(parts: list[tuple[NDArray[np.int64], NDArray[Any]]], test: Test) -> 
 
 def _protocol(run: Run) -> dict[str, Any]:
     plan = run.plan
+    first = {test: next(iter(arms.values())) for test, arms in plan.sets.items()}
     return {
-        "clips": {test: len(plan.items(test)) for test in CLASSES},
+        "clips": {test: len(arm.items) for test, arm in first.items()},
         "steps of training": plan.steps,
         "batch size": plan.schedule.batch_size,
+        "precision": plan.precision,
         "networks per arm": plan.seeds,
         "spread of thresholds": plan.spread,
         "recorded share of pixels with an event": {test: run.target(test) for test in CLASSES},
-        "arms": {arm: dict(options) for arm, options in plan.options("table").items()},
+        "arms": {name: dict(arm.options) for name, arm in plan.sets["table"].items()},
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -26,7 +26,7 @@ class ObjectsOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("configs",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("frames", "turntables", "arms", "clips", "work", "jobs", "out", "overwrite"),
+        *("frames", "turntables", "arms", "factors", "clips", "work", "jobs", "out", "overwrite"),
     )
 
     configs: Path = REQUIRED
@@ -37,6 +37,8 @@ class ObjectsOptions:
     """Folder of the recordings DataSet2_*.aedat."""
     arms: str | None = None
     """Names of variants, separated by commas; default: all."""
+    factors: Path | None = None
+    """File of arms that differ from one of those in a single property, in place of them."""
     clips: int | None = None
     """Clips of each test; default: as the specifications say."""
     steps: int = 600
@@ -45,6 +47,9 @@ class ObjectsOptions:
     """Networks per arm and test."""
     spread: float = 0.0
     """Standard deviation of the logarithm of the contrast threshold between clips."""
+    precision: Literal["float32", "bfloat16"] = "float32"
+    """Number type of the networks' computation; the second takes half the time on many
+    processors."""
     work: Path | None = None
     """Folder that keeps the results of steps; default: texvent's cache."""
     jobs: int = 1
@@ -69,10 +74,12 @@ def run(arguments: Sequence[str]) -> None:
         turntables=options.turntables,
         work=options.work or cache_folder("objects"),
         arms=tuple(options.arms.split(",")) if options.arms else (),
+        factors=options.factors,
         clips=options.clips,
         steps=options.steps,
         seeds=options.seeds,
         spread=options.spread,
+        precision=options.precision,
     )
     report = run_objects(plan, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
