@@ -19,6 +19,7 @@ count = 2
 
 [sources.vary]
 "objects[0].noun" = ["orange", "mug"]
+"objects[0].size" = { uniform = [0.9, 1.1] }
 
 [variants.texvent]
 

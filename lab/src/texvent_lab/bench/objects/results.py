@@ -31,8 +31,8 @@ POSES = 12
 class WindowSet:
     """Simulated windows of an arm."""
 
-    threshold: float
-    """Contrast threshold, log units; NaN for a model without one."""
+    threshold: float | None
+    """Contrast threshold, log units; None for a model without one, or where clips draw theirs."""
     events: int
     """In all clips."""
     windows: int
@@ -249,7 +249,10 @@ def _mean(one: ObjectScore) -> float:
 
 def _row(one: ObjectScore, names: Sequence[str]) -> list[str]:
     sets = one.windows
-    made = ["–", "–"] if sets is None else [f"{sets['threshold']:.2f}", f"{sets['share']:.3f}"]
+    made = ["–", "–"]
+    if sets is not None:
+        threshold = sets["threshold"]
+        made = ["–" if threshold is None else f"{threshold:.2f}", f"{sets['share']:.3f}"]
     difference = "–"
     if one.difference is not None:
         difference = "{:+.3f} [{:+.3f}, {:+.3f}]".format(*one.difference)

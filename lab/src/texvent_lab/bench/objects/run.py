@@ -7,6 +7,7 @@ so that a run that was stopped goes on.
 from __future__ import annotations
 
 import dataclasses
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -362,9 +363,14 @@ def _found(
         if arm is not None:
             path = run.windows_path(test, arm)
             with np.load(path) as file:
-                facts = float(file["threshold"]), int(file["events"])
+                threshold, events = float(file["threshold"]), int(file["events"])
             images = read_windows(path).images
-            sets[arm] = WindowSet(*facts, len(images), float((images != 0).mean()))
+            sets[arm] = WindowSet(
+                threshold if math.isfinite(threshold) else None,
+                events,
+                len(images),
+                float((images != 0).mean()),
+            )
         per_seed: dict[int, list[Any]] = {}
         for one in run.trainings(test, arm):
             with np.load(run.prediction_path(one)) as file:
