@@ -1,0 +1,194 @@
+"""Properties of simulated events that teach reconstruction: one at a time is replaced.
+
+A network is trained as a file says, once per factor and seed, and scored by the images that it
+makes of the events of a recording, in EVREAL's part where it names one. Trainings are kept.
+
+    texvent data pull slider_depth
+    texvent weights pull lpips
+    cd configs/training
+    python -m texvent_lab.measure.reconstruction_factors reconstruction-factors.toml slider_depth
+        --work work -o factors.json
+
+The file names the training and, per factor, `options` of the simulator, a number of `scenes`, each
+simulated so often that clips are as many, or another `specification` and its `variant`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.specification.specification import SampleSource, Specification, Variant
+from texvent.errors import ConfigError, TexventError, shown
+from texvent.extending import suggest
+from texvent.options.values import plain
+from texvent.runtime.files.cache_folder import make_folder
+from texvent.runtime.progress import NO_PROGRESS
+from texvent.settings.config_files import read_document
+from texvent_lab.bench.document import describe_environment, markdown_table, write_document
+from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
+from texvent_lab.bench.summary import mean_text
+from texvent_lab.frame_recordings import FrameRecording, locate_source, open_recording
+from texvent_lab.reconstruct.image_measures import load_measures
+from texvent_lab.train.reconstruction.config import ReconstructionConfig
+from texvent_lab.train.run import read_training
+from texvent_lab.train.schedule import Hardware
+
+SCHEMA = "texvent-reconstruction-factors-1"
+KEYS = ("options", "scenes", "specification", "variant")
+
+
+def changed(spec: Specification, variant: str, changes: Mapping[str, Any]) -> Specification:
+    """A specification of one variant with some of its options replaced, or of fewer scenes.
+
+    Args:
+        spec: sources of the clips.
+        variant: of it.
+        changes: `options`, and the number of `scenes` of its training clips; those of other splits
+            stay.
+
+    Raises:
+        ConfigError: there is no such variant, or there are fewer scenes.
+    """
+    known = {one.name: one for one in spec.variants}
+    if variant not in known:
+        raise ConfigError(f"unknown variant {shown(variant)}; {suggest(variant, tuple(known))}")
+    options = {**known[variant].options, **changes.get("options", {})}
+    spec = dataclasses.replace(spec, variants=(Variant(name=variant, options=options),))
+    count = changes.get("scenes")
+    if count is None:
+        return spec
+    clips = Recipe.of(spec).clips
+    items = {
+        split: [clips.clip(split, number).item for number in range(clips.counts[split])]
+        for split in clips.counts
+    }
+    learned = [one.prompt for one in items["train"]]
+    if count not in range(1, len(learned) + 1) or None in learned:
+        raise ConfigError(f"scenes is {shown(count)}; there are {len(learned)} prompts to learn")
+    chosen = [learned[number * len(learned) // count] for number in range(count)]
+    sources = [SampleSource(prompts=tuple(map(str, chosen)), split="train")]
+    for split, others in items.items():
+        if split != "train":
+            prompts = tuple(str(one.prompt) for one in others)
+            sources.append(SampleSource(prompts=prompts, split=split))
+    repeats = max(1, len(learned) // count)
+    return dataclasses.replace(spec, sources=tuple(sources), repeats=repeats)
+
+
+def trainings(
+    path: Path, work: Path, names: Sequence[str] | None
+) -> dict[str, ReconstructionConfig]:
+    """Factor → its training; the specification of each is written to the work folder.
+
+    Raises:
+        InputError, ConfigError: a file cannot be read or does not fit.
+    """
+    document = read_document(path)
+    base = read_training(path.parent / str(document.get("training")), ReconstructionConfig())
+    factors = dict(document.get("factors", {}))
+    found = {}
+    for number, (name, changes) in enumerate(factors.items()):
+        for key in changes:
+            if key not in KEYS:
+                raise ConfigError(f"{path}: {name}: unknown {shown(key)}; {suggest(key, KEYS)}")
+        if names and name not in names:
+            continue
+        own = changes.get("specification")
+        source = path.parent / own if own else base.data.specification
+        variant = str(changes.get("variant", base.data.variant))
+        spec = changed(read_specification(source), variant, changes)
+        make_folder(work)
+        written = work / f"factor-{number}.yaml"
+        written.write_text(json.dumps(spec.tables), encoding="utf-8")  # JSON is YAML
+        data = dataclasses.replace(base.data, specification=written, variant=variant)
+        loss = dataclasses.replace(base.loss, consistency=0.0) if own else base.loss
+        found[name] = dataclasses.replace(base, data=data, loss=loss)
+    if missing := set(names or ()) - set(found):
+        wrong = min(missing)
+        raise ConfigError(f"unknown factor {shown(wrong)}; {suggest(wrong, tuple(factors))}")
+    return found
+
+
+def score(weights: Path, config: ReconstructionConfig, recording: FrameRecording) -> dict[str, Any]:
+    """Means of the measures over the images that a network makes of recorded events."""
+    from texvent_lab.reconstruct.reconstructor import load_reconstructor  # imports torch
+
+    network = load_reconstructor(config.network.name, weights)
+    scorer = ReconstructionScorer(
+        reconstructor=network, measures=load_measures(), plan=ReconstructionPlan()
+    )
+    scores = scorer.score(recording, recording.events).scores
+    return {name: scores.mean(name) for name in scores.values}
+
+
+def run(path: Path, source: str, work: Path, seeds: int, names: Sequence[str] | None) -> Any:
+    """Train and score what was not before; the document."""
+    from texvent_lab.train.loop import train  # imports torch
+
+    start, rows = time.perf_counter(), []
+    recording = dataclasses.replace(open_recording(locate_source(source)[0]), name=source)
+    configs = trainings(path, work, names)
+    for name, config in configs.items():
+        values: dict[str, list[float]] = {}
+        for seed in range(seeds):
+            one = dataclasses.replace(config, seed=seed)
+            folder = work / f"{config.data.specification.stem}-{seed}"
+            options: Any = {"hardware": Hardware(device="cpu"), "progress": NO_PROGRESS}
+            train(one.make_task(), one.schedule, folder, tables=plain(one), **options)
+            for measure, value in score(folder / "weights.pt", one, recording).items():
+                values.setdefault(measure, []).append(value)
+            print(f"{name}, seed {seed}: {time.perf_counter() - start:.0f} s", file=sys.stderr)
+        rows.append({"factor": name, "scores": values})
+    return {
+        "schema": SCHEMA,
+        "environment": describe_environment(),
+        "recording": source,
+        "rows": rows,
+        "seconds": time.perf_counter() - start,
+    }
+
+
+def as_table(document: Mapping[str, Any]) -> str:
+    """A row per factor, means ± standard errors over seeds."""
+    measures = list(document["rows"][0]["scores"])
+    rows = [
+        [one["factor"], *(mean_text(one["scores"][name]) for name in measures)]
+        for one in document["rows"]
+    ]
+    return markdown_table(["trained on", *measures], rows)
+
+
+def main() -> int:
+    """Run it; 2 where an input will not do."""
+    parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.reconstruction_factors")
+    parser.add_argument("factors", type=Path, help="file of the training and its factors")
+    parser.add_argument("recording", help="of frames and events: a path, or a pulled data set")
+    parser.add_argument("--work", type=Path, required=True, help="folder that keeps trainings")
+    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--names", help="factors, separated by commas; default: all")
+    parser.add_argument("-o", "--out", type=Path)
+    parser.add_argument("--overwrite", action="store_true")
+    given = parser.parse_args()
+    names = given.names.split(",") if given.names else None
+    try:
+        document = run(given.factors, given.recording, given.work, given.seeds, names)
+        if given.out:
+            write_document(given.out, document, overwrite=given.overwrite)
+    except TexventError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    sys.stdout.write(as_table(document))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,145 @@
+"""Trainings of reconstruction that differ in one property of the clips, and their scores."""
+
+import sys
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.dataset import read_specification
+from texvent.dataset.generation.recipe import Recipe
+from texvent.errors import ConfigError
+from texvent_lab.bench.document import read_document
+
+from ..train.windowed_specification import TEXT
+
+pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+from texvent_lab.measure.reconstruction_factors import (
+    as_table,
+    changed,
+    main,
+    trainings,
+)
+
+pytestmark = pytest.mark.torch
+TRAINING = """\
+network = {name = "firenet"}
+loss = {lpips = 0.0, l1 = 1.0}
+[data]
+specification = "tiny.toml"
+variant = "paper"
+slice_us = 20000
+length = 4
+crop = 16
+cache = "cache"
+[schedule]
+epochs = 1
+batch_size = 1
+"""
+FACTORS = """\
+training = "training.toml"
+[factors."as it is"]
+[factors."threshold .4"]
+options = {contrast_threshold = 0.4}
+[factors.esim]
+specification = "tiny.toml"
+variant = "esim"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name, text in {"tiny": TEXT, "training": TRAINING, "factors": FACTORS}.items():
+        (tmp_path / f"{name}.toml").write_text(text)
+    return tmp_path
+
+
+def test_options_of_the_variant_are_replaced(folder):
+    spec = read_specification(folder / "tiny.toml")
+    found = changed(spec, "paper", {"options": {"noise": "none"}})
+    (variant,) = found.variants
+    assert dict(variant.options) == {"contrast_threshold": 0.2, "noise": "none"}
+    assert found.sources == spec.sources
+
+
+def test_fewer_scenes_give_as_many_clips_and_the_same_validation(folder):
+    spec = read_specification(folder / "tiny.toml")
+    before, after = (Recipe.of(one).clips for one in (spec, changed(spec, "paper", {"scenes": 1})))
+    assert before.counts == {"train": 2, "validation": 2}
+    prompts = {after.clip("train", number).item.prompt for number in range(after.counts["train"])}
+    assert prompts == {before.clip("train", 0).item.prompt}
+    assert after.counts["train"] == 2
+    told = [
+        {clips.clip("validation", n).item.prompt for n in range(clips.counts["validation"])}
+        for clips in (before, after)
+    ]
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"scenes": 3}, "scenes is 3; there are 2 prompts"),
+        ({"variant": "rvt"}, "unknown variant 'rvt'"),
+    ],
+)
+def test_what_cannot_be_changed_is_refused(folder, changes, message):
+    spec = read_specification(folder / "tiny.toml")
+    with pytest.raises(ConfigError, match=message):
+        changed(spec, changes.get("variant", "paper"), changes)
+
+
+def test_each_factor_has_a_training_of_its_own(folder):
+    found = trainings(folder / "factors.toml", folder / "work", None)
+    assert list(found) == ["as it is", "threshold .4", "esim"]
+    assert found["esim"].data.variant == "esim"
+    written = read_specification(found["threshold .4"].data.specification)
+    assert written.variants[0].options == {"contrast_threshold": 0.4}
+    with pytest.raises(ConfigError, match="unknown factor 'noise'"):
+        trainings(folder / "factors.toml", folder / "work", ["noise"])
+
+
+def test_the_command_names_what_will_not_do(folder, monkeypatch, capsys):
+    words = [str(folder / "factors.toml"), str(folder / "none"), "--work", str(folder / "work")]
+    monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
+    assert main() == 2
+    assert "there is no recording" in capsys.readouterr().err
+
+
+def write_recording(folder):
+    """A bar that moves to the right, in the layout of the Event-Camera Dataset: 32×24 px, .5 s."""
+    (folder / "images").mkdir(parents=True)
+    times, events = [], []
+    for number in range(25):
+        image = np.full((24, 32), 60, np.uint8)
+        image[:, number : number + 4] = 200
+        cv2.imwrite(str(folder / f"images/{number}.png"), image)
+        times.append(f"{number * 0.02:.6f} images/{number}.png")
+        events += [f"{number * 0.02 + 0.01:.6f} {number + 4} {y} 1" for y in range(24)]
+    (folder / "images.txt").write_text("\n".join(times))
+    (folder / "events.txt").write_text("\n".join(events))
+
+
+def test_the_command_trains_and_scores_every_factor_and_goes_on(folder, monkeypatch, capsys):
+    write_recording(folder / "bar")
+    monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))  # without LPIPS' weights
+    words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
+    words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,threshold .4"]
+    monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
+    assert main() == 0
+    rows = read_document(folder / "a.json")["rows"]
+    assert [one["factor"] for one in rows] == ["as it is", "threshold .4"]
+    assert len([one for one in (folder / "cache").rglob("*") if one.is_file()]) == 8  # 4 clips
+    assert {len(values) for one in rows for values in one["scores"].values()} == {1}
+    weights = folder / "work" / "factor-0-0" / "weights.pt"
+    before = weights.stat().st_mtime_ns
+    monkeypatch.setattr(sys, "argv", [*sys.argv, "--overwrite"])
+    assert main() == 0
+    assert weights.stat().st_mtime_ns == before
+    assert "| threshold .4 |" in capsys.readouterr().out
+
+
+def test_a_table_has_means_and_errors_over_seeds():
+    rows = [{"factor": "a", "scores": {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]}}]
+    table = as_table({"rows": rows})
+    assert "| a | 0.200 ± 0.100 | 0.500 ± 0.000 |" in table
