@@ -129,7 +129,6 @@ def test_the_command_trains_and_scores_every_factor_and_goes_on(folder, monkeypa
     assert main() == 0
     rows = read_document(folder / "a.json")["rows"]
     assert [one["factor"] for one in rows] == ["as it is", "threshold .4"]
-    assert len([one for one in (folder / "cache").rglob("*") if one.is_file()]) == 8  # 4 clips
     assert {len(values) for one in rows for values in one["scores"].values()} == {1}
     weights = folder / "work" / "factor-0-0" / "weights.pt"
     before = weights.stat().st_mtime_ns
