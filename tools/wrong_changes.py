@@ -17,8 +17,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 SOURCES = Path("src", "texvent")
-SCENES = "texvent_scenes"
-"""The package beside it, whose tests are in tests/scenes."""
+SCENES, LAB = "texvent_scenes", "texvent_lab"
+PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
+"""The packages beside it: the folder that holds each, and its tests."""
 ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
 """Tests of every file, after those that are near it."""
 ALWAYS_OF_SCENES = ("tests/scenes/golden/test_golden_scenes.py",)
@@ -63,13 +64,14 @@ class Change(NamedTuple):
 
 
 def source_path(file: str) -> Path:
-    """Path of a file that is named below `SOURCES`, or `texvent_scenes/` and below that."""
-    return SOURCES.parent / file if Path(file).parts[0] == SCENES else SOURCES / file
+    """Path of a file that is named below `SOURCES`, or below the folder of another package."""
+    return PACKAGES.get(Path(file).parts[0], (SOURCES,))[0] / file
 
 
 def file_of(path: Path) -> str:
     """The name that `source_path` takes."""
-    return path.relative_to(SOURCES if path.is_relative_to(SOURCES) else SOURCES.parent).as_posix()
+    folders = (SOURCES, *(folder for folder, _ in PACKAGES.values()))
+    return path.relative_to(next(one for one in folders if path.is_relative_to(one))).as_posix()
 
 
 Found = tuple[str, int, int, str]
@@ -250,6 +252,11 @@ def is_wrong(change: Change, text: str) -> bool:
     return ast.dump(ast.parse(new)) != ast.dump(ast.parse(text))
 
 
+def _sources(root: Path) -> list[Path]:
+    folders = dict.fromkeys(folder for folder, _ in PACKAGES.values())
+    return [path for folder in folders for path in sorted((root / folder).rglob("*.py"))]
+
+
 def draw(
     count: int,
     seed: int,
@@ -268,7 +275,7 @@ def draw(
     """
     rng = random.Random(seed)
     found, weights = {}, {}
-    for path in sorted((root / SOURCES.parent).rglob("*.py")):
+    for path in _sources(root):
         file = file_of(path.relative_to(root))
         if rooms and file.partition("/")[0] not in rooms:
             continue
@@ -307,26 +314,30 @@ def _spread(rng: random.Random, weights: Mapping[str, int], count: int) -> Itera
 def _imports(root: Path) -> dict[Path, frozenset[str]]:
     """The modules, and perhaps names in them, that each file imports, by paths below `root`."""
     found = {}
-    for folder in (SOURCES.parent, Path("tests")):
-        for path in (root / folder).rglob("*.py"):
-            names = set()
-            for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if isinstance(node, ast.ImportFrom) and node.module:
-                    names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
-                elif isinstance(node, ast.Import):
-                    names |= {one.name for one in node.names}
-            found[path.relative_to(root)] = frozenset(names)
+    tests = (path for folder in ("tests", "lab/tests") for path in (root / folder).rglob("*.py"))
+    for path in (*_sources(root), *tests):
+        names = set()
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
+            elif isinstance(node, ast.Import):
+                names |= {one.name for one in node.names}
+        found[path.relative_to(root)] = frozenset(names)
     return found
 
 
 def _mirrors(file: Path, root: Path) -> list[Path]:
     """Files of tests with the name of a source file, then all of the nearest folder."""
-    parts = ["scenes" if one == SCENES else one for one in file.parent.parts]
-    folder = root.joinpath("tests", *parts)
+    first, *inner = file.parent.parts or ("",)
+    folder = root.joinpath(PACKAGES[first][1] if first in PACKAGES else f"tests/{first}", *inner)
     while not folder.is_dir():
         folder = folder.parent
     tests = sorted(folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*"))
     return [one for one in tests if one.name.startswith(f"test_{file.stem}")] + tests
+
+
+def _is_source(path: Path) -> bool:
+    return any(path.is_relative_to(folder) for folder, _ in PACKAGES.values())
 
 
 def near_tests(file: str, root: Path) -> list[str]:
@@ -336,18 +347,17 @@ def near_tests(file: str, root: Path) -> list[str]:
     importing: list[Path] = []
     modules = [inner]
     for one in modules:  # grows by packages that hand on a name
-        inside = source_path(str(one)).relative_to(SOURCES.parent).with_suffix("")
-        name = ".".join(inside.parts).removesuffix(".__init__")
+        inside = one if one.parts[0] in PACKAGES else Path(SOURCES.name, one)
+        name = ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
         for path in sorted(path for path, names in imports.items() if name in names):
             importing.append(path)
-            is_source = path.is_relative_to(SOURCES.parent)
-            source = Path(file_of(path)) if is_source else one
+            source = Path(file_of(path)) if _is_source(path) else one
             if path.name == "__init__.py" and source not in modules:
                 modules.append(source)
     chosen = [one.relative_to(root) for one in _mirrors(inner, root)]
     chosen += [one for one in importing if one.name.startswith("test_")]
     for one in importing:
-        if one.is_relative_to(SOURCES.parent):
+        if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
     last = (*(ALWAYS_OF_SCENES if inner.parts[0] == SCENES else ()), *ALWAYS)
     near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in last]

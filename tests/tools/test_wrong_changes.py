@@ -69,6 +69,8 @@ def tree(tmp_path: Path) -> Path:
         "tests/big/test_part.py": "",
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
+        "lab/src/texvent_lab/run.py": "C = 1\n",
+        "lab/tests/test_run.py": "",
         "tests/test_user.py": "from texvent.user import seen\ndef test_it(): assert seen() == 2\n",
     }
     for name, text in files.items():
@@ -83,6 +85,7 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
     assert len(set(drawn)) == 22
     assert sum(one.file == "small/part.py" for one in drawn) == 1
     assert {one.file for one in draw(3, 5, tree, ["small"])} == {"small/part.py"}
+    assert {one.file for one in draw(2, 5, tree, ["texvent_lab"])} == {"texvent_lab/run.py"}
     assert {one.line for one in draw(9, 5, tree, lines={"big/part.py": {1}})} == {1}
 
 
@@ -90,6 +93,7 @@ def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: P
     near = ["tests/big/test_part.py", "tests/big/test_other.py", "tests/test_user.py"]
     assert near_tests("big/part.py", tree) == near
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
+    assert near_tests("texvent_lab/run.py", tree) == ["lab/tests/test_run.py"]
 
 
 @pytest.mark.long
