@@ -7,13 +7,18 @@ import av
 import cv2
 import numpy as np
 import pytest
+from tests.scenes.hand_scenes import HandScene
 
+from texvent.camera import PosedCamera
 from texvent.errors import InputError
+from texvent.sensor import SensorSize
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.pictures import PicturedModel, check_picture, load_picture
+from texvent_scenes.raycast.render import render_light
 from texvent_scenes.spec.scene import Picture
+from texvent_scenes.staging.actors import PlacedModel, assemble
 
 
 def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
@@ -70,12 +75,62 @@ def test_a_bad_picture_is_one_clear_line(picture, message):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
+SHOWING = pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
+POSE = Pose(0.0, 0.0, 0.0)
+
+
+@SHOWING
 def test_a_picture_takes_the_place_of_what_is_usually_printed(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pictured = PicturedModel(model, noun, Picture("checkerboard", "9x6"))
-    pose = Pose(0.0, 0.0, 0.0)
-    parts = pictured.parts(pose)
+    parts = pictured.parts(POSE)
     assert [part.image is not None for part in parts] == [True] + [False] * (len(parts) - 1)
-    assert 1 <= len(parts) <= len(model.parts(pose))
+    assert 1 <= len(parts) <= len(model.parts(POSE))
     assert len(parts) == len(pictured.parts(Pose(1.0, 0.0, 0.0)))
+
+
+class Model(HandScene):
+    """The parts of a model, drawn from before the face of the first one."""
+
+    def primitives(self, time_s):
+        return assemble([PlacedModel(self.shapes, np.eye(3, 4), 1)])
+
+    def camera(self, time_s):
+        to_body = self.shapes[0].to_body
+        normal, right, up = (side / np.linalg.norm(side) for side in to_body[:, :3].T)
+        middle = to_body[:, :3] @ [1.0, 0.0, 0.0] + to_body[:, 3]
+        away = 2.0 * np.linalg.norm(to_body[:, 1:3])
+        return PosedCamera(middle + away * normal, np.array([right, -up, -normal]), 1.0)
+
+
+@SHOWING
+@pytest.mark.parametrize("sides", [(60, 20), (30, 40)])
+def test_a_picture_is_whole_upright_and_in_its_own_shape(noun, sides, tmp_path):
+    """Red, green and blue quarters, and a grey one: where geometry puts them on the face."""
+    (across, down), path = sides, tmp_path / "quarters.png"
+    rgb = np.full((down, across, 3), 90, np.uint8)
+    for number in range(3):
+        rows, columns = divmod(number, 2)
+        rgb[rows * down // 2 :][: down // 2, columns * across // 2 :][:, : across // 2] = 0
+        rgb[rows * down // 2 :][: down // 2, columns * across // 2 :][:, : across // 2, number] = (
+            255
+        )
+    cv2.imwrite(str(path), rgb[..., ::-1])
+    model = NOUNS[noun].build(colour=(0.6, 0.6, 0.6), scale=1.0, seed=0)
+    parts = PicturedModel(model, noun, Picture("file", str(path))).parts(POSE)
+    scene, size = Model(tuple(parts)), SensorSize(80, 80)
+    light = render_light(scene, 0.0, size, shadows=False)
+    wide, high = 2.0 * np.linalg.norm(parts[0].to_body[:, 1:3], axis=0)
+    width, height = min(wide, high * across / down), min(high, wide * down / across)
+    metres = np.linalg.norm([wide, high]) / 80  # of a pixel, `away` being the diagonal of the face
+    x, y = np.meshgrid(*2 * [(np.arange(80) + 0.5 - 40) * metres])
+    u, v = x / width, y / height
+    inner = [np.abs(one) < 0.45 for one in (u, v)] + [np.abs(one) > 0.05 for one in (u, v)]
+    expected = (u > 0.0) + 2 * (v > 0.0)
+    judged = np.all(inner, axis=0) & (expected < 3)
+    assert np.mean(light.argmax(axis=2)[judged] == expected[judged]) > 0.97
+    margin = (np.maximum(np.abs(u), np.abs(v)) > 0.55) & (np.abs(x) < 0.45 * wide)
+    margin &= np.abs(y) < 0.45 * high
+    colourful = np.ptp(light, axis=2) > 0.5 * light.max(axis=2)
+    assert colourful[judged].mean() > 0.97
+    assert not margin.any() or colourful[margin].mean() < 0.05
