@@ -22,8 +22,8 @@ PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), 
 """The packages beside it: the folder that holds each, and its tests."""
 ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
 """Tests of every file, after those that are near it."""
-ALWAYS_OF_SCENES = ("tests/scenes/golden/test_golden_scenes.py",)
-"""Of every file of `SCENES`, too."""
+FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
+"""Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
 MOST_TESTS = 60
 """Files of tests that a change is held to, the nearest first."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
@@ -359,6 +359,7 @@ def near_tests(file: str, root: Path) -> list[str]:
     for one in importing:
         if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
-    last = (*(ALWAYS_OF_SCENES if inner.parts[0] == SCENES else ()), *ALWAYS)
-    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in last]
-    return near[:MOST_TESTS] + [one for one in last if (root / one).exists()]
+    if inner.parts[0] == SCENES and (root / FIRST_OF_SCENES).exists():
+        chosen.insert(0, Path(FIRST_OF_SCENES))
+    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
+    return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]

@@ -7,15 +7,19 @@ import av
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.examples import examples
 from tests.scenes.hand_scenes import HandScene
 
 from texvent.camera import PosedCamera
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
+from texvent_scenes.mesh import decode_srgb
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.pictures import PicturedModel, check_picture, load_picture
+from texvent_scenes.pictures import CACHED_FRAMES, PicturedModel, check_picture, load_picture
 from texvent_scenes.raycast.render import render_light
 from texvent_scenes.spec.scene import Picture
 from texvent_scenes.staging.actors import PlacedModel, assemble
@@ -50,12 +54,30 @@ def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path):
     assert source(0.11) is source(0.2)
 
 
-def test_an_image_file_is_read_in_linear_light(tmp_path):
+@pytest.fixture(scope="module")
+def long_video(tmp_path_factory):
+    """Of more frames than are kept; frame n is at 0.1 n s."""
+    count = CACHED_FRAMES + 3
+    path = tmp_path_factory.mktemp("video") / "long.mkv"
+    return write_video(path, [30 * n for n in range(count)], [10 * n for n in range(count)])
+
+
+@given(st.lists(st.integers(0, 3 * (CACHED_FRAMES + 3)), min_size=1, max_size=30))
+@examples(20)
+def test_a_video_shows_the_frame_of_each_instant_in_any_order(long_video, numbers):
+    source = load_picture(Picture("file", str(long_video)))
+    for number in numbers:
+        level = decode_srgb(np.uint8(30 * (number % (CACHED_FRAMES + 3))))
+        assert source(0.1 * number + 0.05).levels[0].mean() == pytest.approx(float(level), abs=0.02)
+
+
+def test_an_image_file_is_read_in_linear_light_and_anew_when_it_changes(tmp_path):
     path = tmp_path / "grey.png"
-    cv2.imwrite(str(path), np.full((5, 7, 3), 188, dtype=np.uint8))
-    image = load_picture(Picture("file", str(path)))(0.0)
-    assert image.levels[0].shape == (5, 7, 3)
-    assert image.levels[0].mean() == pytest.approx(0.503, abs=1e-3)
+    for size, code, light in (((5, 7), 188, 0.503), ((6, 9), 64, 0.0513)):
+        cv2.imwrite(str(path), np.full((*size, 3), code, dtype=np.uint8))
+        image = load_picture(Picture("file", str(path)))(0.0)
+        assert image.levels[0].shape == (*size, 3)
+        assert image.levels[0].mean() == pytest.approx(light, abs=1e-3)
 
 
 @pytest.mark.parametrize(
