@@ -119,6 +119,34 @@ def test_a_model_is_turned_upright_and_to_the_front_and_not_mirrored(tmp_path, u
     assert (model.length, model.width, model.height) == pytest.approx(tuple(high - low))
 
 
+USUAL = NOUNS["car"].build(colour=None, scale=1.0, seed=0)
+SIDES = [
+    # Noun, what the index says, longest side in the file; then in metres, of GLB and of others.
+    ("thing", {}, 19.0, 19.0, 19.0),
+    ("thing", {}, 21.0, 21.0, 0.21),  # centimetres
+    ("thing", {}, 999.0, 999.0, 9.99),
+    ("thing", {}, 1500.0, 1500.0, 1.5),  # millimetres
+    ("sports car", {}, 7.0, 7.0, max(USUAL.length, USUAL.width, USUAL.height)),
+    ("car", {"scale": 0.5, "height": 9.0, "length": 9.0}, 7.0, 3.5, 3.5),
+    ("car", {"height": 2.0, "length": 9.0}, 7.0, 4.0, 4.0),  # twice as long as high
+    ("car", {"length": 9.0}, 7.0, 9.0, 9.0),
+]
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+@pytest.mark.parametrize(("noun", "said", "side", "glb_m", "other_m"), SIDES)
+def test_a_model_is_as_large_as_its_index_its_unit_or_its_noun_says(
+    tmp_path, noun, said, side, glb_m, other_m, ending
+):
+    corners = [[0.0, 0.0, 0.0], [side, 0.0, 0.0], [0.0, 0.5 * side, 0.0]]
+    path = write_model(tmp_path / f"thing.{ending}", corners, [0, 1, 2])
+    asset = Asset(path, noun, up="y", forward="x", **said)
+    for scale in (1.0, 2.0):
+        model = load_model(asset, scale=scale)
+        expected = scale * (glb_m if ending == "glb" else other_m)
+        assert (model.length, model.height) == pytest.approx((expected, 0.5 * expected))
+
+
 def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):
     write_bar(tmp_path / "car.glb")
     write_bar(tmp_path / "sports_van.glb")

@@ -3,7 +3,8 @@
     python -m tests.scenes.golden.rows    # writes the sums anew; CHANGELOG.md says why
 
 `rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
-do, motions, relations, places, lights, effects, camera moves.
+do, motions, relations, places, lights, effects, camera moves; and a third of the sentences of
+`sentences.txt` as they are staged, which hold what these rows do to each other.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.scenes.golden.golden import decided, stored_scenes
 
 from texvent.sensor import SensorSize
 from texvent_scenes.defaults import complete
@@ -191,6 +193,20 @@ def _of_surroundings() -> Iterator[tuple[str, Scene]]:
         yield f"camera {scene_to_data(scene)['camera']}", scene
 
 
+def mark_sentence(sentence: str) -> Marks:
+    """A staged sentence at some instants, in an image, by a seed and over a time of its own."""
+    size = _one_of((SIZE, SensorSize(50, 80)), sentence)
+    seed, duration_s = _one_of((5, 6, 7), sentence), _one_of((1.0, 2.5), sentence, 1)
+    description = decided(stored_scenes()[sentence])
+    if description is None:
+        return {}
+    staged = compose_scene(description, seed=seed, size=size, duration_s=duration_s)
+    return {
+        seen.__name__: mark(*(seen(share * duration_s) for share in INSTANTS_S))
+        for seen in (staged.primitives, staged.camera, staged.environment)
+    } | {"said": mark(*staged.not_shown, *staged.notes, *staged.camera_path.notes)}
+
+
 def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
     """Name of each row, and its marks."""
     yield "camera moves", mark_moves
@@ -199,6 +215,8 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
         yield name, partial(mark_noun, noun)
     for name, scene in (*_of_objects(), *_of_surroundings()):
         yield f"scene: {name}", partial(mark_scene, scene)
+    for sentence in list(stored_scenes())[::3]:
+        yield f"sentence: {sentence}", partial(mark_sentence, sentence)
 
 
 def stored_sums() -> Mapping[str, Marks]:
