@@ -166,8 +166,10 @@ def _of_objects() -> Iterator[tuple[str, Scene]]:
         for noun, target in pairs[::2] if kind in ("on", "at") else [_one_of(pairs, kind)]:
             count = 2 if noun == "cat" else 1
             actor = SceneObject(noun, count=count, relations=(Relation(kind, (target,)),))
-            objects = actor, SceneObject(target), SceneObject("dog")
-            yield f"{noun} {kind} {target}", Scene(objects=objects, place=EMPTY)
+            others = SceneObject(target), SceneObject("dog")
+            yield f"{noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
+            actor = replace(actor, motions=(Motion("move", "left"), Motion("move", "right")))
+            yield f"moving {noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
     for one in get_args(spec.Placement):
         placed = SceneObject("man", placement=one), SceneObject("car")
         yield f"placed {one}", Scene(objects=placed, place=EMPTY)

@@ -85,6 +85,20 @@ def test_who_is_on_a_seat_or_at_a_table_sits_unless_what_they_do_is_done_standin
         assert relation == "on" or not doing.startswith("sit") or "ground" in doing or has_chair
 
 
+WAYS = ((), (("stand",),), (("walk", "left"),), (("walk", "left"), ("run", "left")))
+
+
+@pytest.mark.parametrize("kind", ["behind", "front"])
+def test_a_thing_stands_as_far_aside_of_who_goes_as_of_who_stands(kind):
+    """It is seen past the body, however long the way is."""
+    aside = []
+    for way in WAYS:
+        objects = thing("man", *way), thing("car", ("stand",))
+        _, car = stage(*objects, relations=((kind, 0, 1),)).actors
+        aside.append(car.middle(0.0)[0])
+    assert aside == pytest.approx([aside[0]] * len(WAYS), abs=0.1)
+
+
 def test_who_is_on_what_moves_goes_along():
     objects = thing("cat", ("sit",)), thing("bus", ("drive", "left"))
     cat, bus = stage(*objects, place="road", relations=(("on", 0, 1),)).actors
