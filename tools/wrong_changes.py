@@ -40,6 +40,8 @@ PARTNERS = {"rint": "floor", "round": "int"} | _both_ways(
     *[("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("floor", "ceil")],
     *[("any", "all"), ("sin", "cos"), ("x", "y"), ("width", "height")],
 )
+EITHER_WAY = ("min", "max", "minimum", "maximum", "hypot")
+"""Functions whose arguments may change places."""
 UNTOUCHED = (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom)
 WORDS_ALONE = re.compile(r".*(Error|Warning)|warn|debug|info|cast|TypeVar|TYPE_CHECKING|__all__")
 """Names of whatever only says something, or is for type checkers."""
@@ -157,7 +159,8 @@ def _constants(source: _Source, node: ast.AST) -> Iterator[Found]:
 def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
     if not isinstance(node, ast.Call) or any(isinstance(one, ast.Starred) for one in node.args):
         return
-    for left, right in pairwise(node.args):
+    name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+    for left, right in pairwise(() if name in EITHER_WAY else node.args):
         gap = source.data[source.end(left) : source.start(right)].decode()
         if source.text(left) != source.text(right):
             new = source.text(right) + gap + source.text(left)
