@@ -19,8 +19,12 @@ from typing import NamedTuple
 SOURCES = Path("src", "texvent")
 SCENES = "texvent_scenes"
 """The package beside it, whose tests are in tests/scenes."""
-ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
-"""Tests of every file, after those that are near it."""
+ALWAYS = (
+    *("tests/contract/test_golden.py", "tests/contract/test_doctests.py"),
+    *("tests/options/test_printed.py", "tests/options/test_every_option.py"),
+    "tests/resume/test_resume.py",
+)
+"""Tests of every file, after those that are near it: they reach it through the commands."""
 ALWAYS_OF_SCENES = ("tests/scenes/golden/test_golden_scenes.py",)
 """Of every file of `SCENES`, too."""
 MOST_TESTS = 60
@@ -347,8 +351,9 @@ def near_tests(file: str, root: Path) -> list[str]:
             source = Path(file_of(path)) if is_source else one
             if path.name == "__init__.py" and source not in modules:
                 modules.append(source)
-    chosen = [one.relative_to(root) for one in _mirrors(inner, root)]
-    chosen += [one for one in importing if one.name.startswith("test_")]
+    own = [one.relative_to(root) for one in _mirrors(inner, root)]
+    chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
+    chosen += [one for one in importing if one.name.startswith("test_")] + own
     for one in importing:
         if one.is_relative_to(SOURCES.parent):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]

@@ -68,6 +68,7 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent_scenes/read/part.py": "B = 1\n",
         "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
         "tests/big/test_part.py": "",
+        "tests/test_direct.py": "import texvent.big.part\n",
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
         "tests/test_user.py": "from texvent.user import seen\ndef test_it(): assert seen() == 2\n",
@@ -88,7 +89,8 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
 
 
 def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: Path) -> None:
-    near = ["tests/big/test_part.py", "tests/big/test_other.py", "tests/test_user.py"]
+    names = ("big/test_part", "test_direct", "big/test_other", "test_user")
+    near = [f"tests/{name}.py" for name in names]
     assert near_tests("big/part.py", tree) == near
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
 
