@@ -20,8 +20,12 @@ SOURCES = Path("src", "texvent")
 SCENES, LAB = "texvent_scenes", "texvent_lab"
 PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
 """The packages beside it: the folder that holds each, and its tests."""
-ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
-"""Tests of every file, after those that are near it."""
+ALWAYS = (
+    *("tests/contract/test_golden.py", "tests/contract/test_doctests.py"),
+    *("tests/options/test_printed.py", "tests/options/test_every_option.py"),
+    "tests/resume/test_resume.py",
+)
+"""Tests of every file, after those that are near it: they reach it through the commands."""
 FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
 """Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
 MOST_TESTS = 60
@@ -41,6 +45,8 @@ PARTNERS = {"rint": "floor", "round": "int"} | _both_ways(
     *[("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("floor", "ceil")],
     *[("any", "all"), ("sin", "cos"), ("x", "y"), ("width", "height")],
 )
+EITHER_WAY = ("min", "max", "minimum", "maximum", "hypot")
+"""Functions whose arguments may change places."""
 UNTOUCHED = (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom)
 WORDS_ALONE = re.compile(r".*(Error|Warning)|warn|debug|info|cast|TypeVar|TYPE_CHECKING|__all__")
 """Names of whatever only says something, or is for type checkers."""
@@ -159,7 +165,8 @@ def _constants(source: _Source, node: ast.AST) -> Iterator[Found]:
 def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
     if not isinstance(node, ast.Call) or any(isinstance(one, ast.Starred) for one in node.args):
         return
-    for left, right in pairwise(node.args):
+    name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+    for left, right in pairwise(() if name in EITHER_WAY else node.args):
         gap = source.data[source.end(left) : source.start(right)].decode()
         if source.text(left) != source.text(right):
             new = source.text(right) + gap + source.text(left)
@@ -354,8 +361,9 @@ def near_tests(file: str, root: Path) -> list[str]:
             source = Path(file_of(path)) if _is_source(path) else one
             if path.name == "__init__.py" and source not in modules:
                 modules.append(source)
-    chosen = [one.relative_to(root) for one in _mirrors(inner, root)]
-    chosen += [one for one in importing if one.name.startswith("test_")]
+    own = [one.relative_to(root) for one in _mirrors(inner, root)]
+    chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
+    chosen += [one for one in importing if one.name.startswith("test_")] + own
     for one in importing:
         if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]

@@ -49,6 +49,7 @@ def test_changes_are_those_by_hand_and_every_one_that_is_drawn_compiles(text: st
         "a = InputError(f'{a + 1}')",
         "def a(b: Literal[1]) -> Literal[2]: ...",
         "@b(c=1)\ndef a(): ...",
+        "def a(): return np.hypot(b, c)",
         "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    a = 1",
     ],
 )
@@ -67,6 +68,7 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent_scenes/read/part.py": "B = 1\n",
         "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
         "tests/big/test_part.py": "",
+        "tests/test_direct.py": "import texvent.big.part\n",
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
         "lab/src/texvent_lab/run.py": "C = 1\n",
@@ -90,7 +92,8 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
 
 
 def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: Path) -> None:
-    near = ["tests/big/test_part.py", "tests/big/test_other.py", "tests/test_user.py"]
+    names = ("big/test_part", "test_direct", "big/test_other", "test_user")
+    near = [f"tests/{name}.py" for name in names]
     assert near_tests("big/part.py", tree) == near
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
     assert near_tests("texvent_lab/run.py", tree) == ["lab/tests/test_run.py"]
