@@ -10,7 +10,7 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.relation_check import _RULES, Body
+from texvent_scenes.relation_check import _RULES, BodyBoxes
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
@@ -113,7 +113,9 @@ def block(x, side):
     middle = np.array([[one, 0.0, 0.5 * side] for one in x])
     size = np.full((2, 3), side)
     parts = np.stack([middle[0] - 0.5 * side, middle[0] + 0.5 * side])[None]
-    return Body(middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts)
+    return BodyBoxes(
+        middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts
+    )
 
 
 @pytest.mark.parametrize(
