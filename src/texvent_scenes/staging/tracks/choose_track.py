@@ -151,7 +151,7 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
 
 
 def _gain(plan: MotionPlan) -> float:
-    """By how much the pace of what speeds up or slows down in its place grows each second."""
+    """Growth of pace per second, of what speeds up or slows down in its place."""
     pace, end = plan.motion.pace, plan.motion.end_pace
     return 0.0 if end is None else (end - pace) / plan.duration_s
 
