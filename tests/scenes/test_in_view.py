@@ -14,7 +14,7 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.relation_check import _RULES, Body, _holds
+from texvent_scenes.relation_check import _RULES, BodyBoxes, _holds
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
@@ -141,7 +141,9 @@ def block(x, side):
     middle = np.array([[one, 0.0, 0.5 * side] for one in x])
     size = np.full((2, 3), side)
     parts = np.stack([middle[0] - 0.5 * side, middle[0] + 0.5 * side])[None]
-    return Body(middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts)
+    return BodyBoxes(
+        middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts
+    )
 
 
 @pytest.mark.parametrize(
@@ -165,7 +167,7 @@ def drawn_body(rng):
     middle = middle if rng.random() < 0.5 else np.tile(middle[0], (3, 1))
     seen = np.column_stack([rng.uniform(-0.5, 0.5, (3, 2)), rng.uniform(2.0, 9.0, 3)])
     parts = np.sort(rng.uniform(-2.0, 2.0, (2, 2, 3)), axis=1)
-    return Body(middle, size, seen, middle[-1] - middle[0], parts)
+    return BodyBoxes(middle, size, seen, middle[-1] - middle[0], parts)
 
 
 def turned_body(body):

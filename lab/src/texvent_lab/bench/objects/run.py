@@ -7,7 +7,7 @@ so that a run that was stopped goes on.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -23,13 +23,12 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, InputError, shown, warnings_to
 from texvent.extending import require, suggest
-from texvent.io.atomic import atomic_file
 from texvent.runtime.files.cache_folder import make_folder
 from texvent_lab.bench.detection.run import with_count
-from texvent_lab.bench.digits.run import digest_of, is_whole
 from texvent_lab.bench.digits.training import predict, train_network
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.kept_results import digest_of, make_missing, write_arrays
 from texvent_lab.bench.objects.clips import PILOT, make_windows, match_threshold, render_clip
 from texvent_lab.bench.objects.recorded import (
     TABLE_CLASSES,
@@ -71,7 +70,7 @@ class ObjectsPlan:
     work: Path
     """Folder that keeps what was made."""
     arms: tuple[str, ...] = ()
-    """Variants to train on; none: all."""
+    """Variants to train on, each for the tests that have it; none: all."""
     clips: int | None = None
     """Clips of each test; None: as many as the specifications say."""
     steps: int = 600
@@ -87,13 +86,11 @@ class ObjectsPlan:
         check_range("steps", self.steps, 1, 1_000_000)
         check_range("seeds", self.seeds, 1, 1000)
         check_range("spread", self.spread, 0.0, 2.0)
+        names = {one.name for each in self.specifications.values() for one in each.variants}
+        for arm in self.arms:
+            if arm not in names:
+                raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, tuple(sorted(names)))}")
         for test, classes in CLASSES.items():
-            names = {variant.name for variant in self.specifications[test].variants}
-            for arm in self.arms:
-                if arm not in names:
-                    raise ConfigError(
-                        f"unknown arm {shown(arm)}; {suggest(arm, tuple(sorted(names)))}"
-                    )
             labels = set(read_items(self.specifications[test]).labels)
             if other := labels - set(classes):
                 raise ConfigError(
@@ -114,7 +111,7 @@ class ObjectsPlan:
     def options(self, test: Test) -> dict[str, Mapping[str, Any]]:
         """Arm → its options."""
         variants = {one.name: one.options for one in self.specifications[test].variants}
-        return {arm: variants[arm] for arm in self.arms or variants}
+        return {arm: variants[arm] for arm in self.arms or variants if arm in variants}
 
 
 @dataclass(frozen=True)
@@ -204,9 +201,9 @@ def run_objects(
     tests: Sequence[Test] = list(CLASSES)
     arms = {test: list(plan.options(test)) for test in tests}
     clips = [(test, one) for test in tests for one in plan.items(test)]
-    _do(render, run, clips, lambda one: run.frames_path(*one), jobs, progress)
+    make_missing(render, run, clips, run.frames_path, jobs=jobs, progress=progress)
     sets = [(test, arm) for test in tests for arm in arms[test]]
-    _do(simulate, run, sets, lambda one: run.windows_path(*one), jobs, progress)
+    make_missing(simulate, run, sets, run.windows_path, jobs=jobs, progress=progress)
     # Seed by seed: a run that is stopped has whole rounds.
     networks = sorted(
         (
@@ -217,7 +214,7 @@ def run_objects(
         ),
         key=lambda key: key[0].seed,
     )
-    _do(train, run, networks, lambda one: run.prediction_path(*one), jobs, progress)
+    make_missing(train, run, networks, run.prediction_path, jobs=jobs, progress=progress)
     progress("scores")
     return ObjectsReport(
         environment=describe_environment(),
@@ -227,20 +224,6 @@ def run_objects(
         },
         seconds=time.perf_counter() - start,
     )
-
-
-def _do(
-    function: Callable[..., str],
-    run: Run,
-    todo: Sequence[tuple[Any, ...]],
-    path: Callable[[tuple[Any, ...]], Path],
-    jobs: int,
-    progress: Progress,
-) -> None:
-    """Make the files that are missing."""
-    missing = [(run, *one) for one in todo if not is_whole(path(one))]
-    for number, line in enumerate(run_jobs(function, missing, jobs), start=1):
-        progress(f"{number} of {len(missing)}  {line}")
 
 
 def render(run: Run, test: Test, item: Item) -> str:
@@ -265,7 +248,7 @@ def simulate(run: Run, test: Test, arm: str) -> str:
     if test == "table":
         frames = frames.select(np.isfinite(frames.boxes[:, 0]))
     facts = {"threshold": np.nan if threshold is None else threshold, "events": events}
-    _write(run.windows_path(test, arm), **vars(frames), **facts)
+    write_arrays(run.windows_path(test, arm), **vars(frames), **facts)
     return (
         f"{test}, {arm}: threshold {threshold}, {share:.3f} of pixels, {len(frames.images)} windows"
     )
@@ -294,14 +277,9 @@ def train(run: Run, one: Training) -> str:
         images = np.concatenate([in_cells(learned.images), in_cells(learned.images[:, :, ::-1])])
         network = train_network(images, np.tile(learned.classes, 2), **options)
         found = predict(network, in_cells(recorded.images[test]))
-    _write(run.prediction_path(one), found=found, numbers=np.flatnonzero(test))
+    write_arrays(run.prediction_path(one), found=found, numbers=np.flatnonzero(test))
     seconds = time.perf_counter() - started
     return f"{one.test}, {one.arm or 'recorded'}, seed {one.seed}: {seconds:.0f} s"
-
-
-def _write(path: Path, **arrays: Any) -> None:
-    with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
-        np.savez_compressed(file, **arrays)
 
 
 def read_windows(path: Path) -> Frames:
@@ -337,6 +315,7 @@ def _joined(parts: list[tuple[NDArray[np.int64], NDArray[Any]]], test: Test) -> 
 
 def _protocol(run: Run) -> dict[str, Any]:
     plan = run.plan
+    arms = plan.options("turntable") | plan.options("table")
     return {
         "clips": {test: len(plan.items(test)) for test in CLASSES},
         "steps of training": plan.steps,
@@ -344,5 +323,5 @@ def _protocol(run: Run) -> dict[str, Any]:
         "networks per arm": plan.seeds,
         "spread of thresholds": plan.spread,
         "recorded share of pixels with an event": {test: run.target(test) for test in CLASSES},
-        "arms": {arm: dict(options) for arm, options in plan.options("table").items()},
+        "arms": {arm: dict(arms[arm]) for arm in dict.fromkeys([*plan.options("table"), *arms])},
     }

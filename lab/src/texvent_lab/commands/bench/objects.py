@@ -36,7 +36,7 @@ class ObjectsOptions:
     turntables: Path = REQUIRED
     """Folder of the recordings DataSet2_*.aedat."""
     arms: str | None = None
-    """Names of variants, separated by commas; default: all."""
+    """Names of variants, separated by commas, each for the tests that have it; default: all."""
     clips: int | None = None
     """Clips of each test; default: as the specifications say."""
     steps: int = 600
