@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from tests.examples import examples
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
+from texvent.sensor import SensorSize
 from texvent_scenes.description import IndexedRelation, SceneDescription
-from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
+from texvent_scenes.in_view import LEAST_PIXELS, MOST_POINTS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.relation_check import _RULES, BodyBoxes, _holds
@@ -92,10 +93,14 @@ def test_a_note_tells_how_long_a_still_camera_shows_what_moves():
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
-    truth = ground_truth(scene, 0.0, 0.05, SIZE).instance
-    for instance, view in count_pixels(scene, list(scene.class_names), SIZE, [0.0, 1.0]).items():
-        assert view.pixels >= LEAST_PIXELS
-        assert view.pixels == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
+    large = SensorSize(4 * SIZE.width, 4 * SIZE.height)
+    for size, step in ((SIZE, 2), (large, 6)):  # a point stands for so many pixels along each side
+        truth = ground_truth(scene, 0.0, 0.05, size).instance
+        for number, view in count_pixels(scene, list(scene.class_names), size, [0.0, 1.0]).items():
+            assert view.pixels >= LEAST_PIXELS
+            assert view.pixels % step**2 == 0
+            assert view.pixels == pytest.approx(int(np.sum(truth == number)), rel=0.1, abs=20)
+            assert size.width * size.height / step**2 <= MOST_POINTS
 
 
 BALL = SceneObject("sphere", size=0.5)

@@ -3,8 +3,8 @@
     python -m tests.scenes.golden.rows    # writes the sums anew; CHANGELOG.md says why
 
 `rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
-do, motions, relations, places, lights, effects, camera moves; and a third of the sentences of
-`sentences.txt` as they are staged, which hold what these rows do to each other.
+do, motions, relations, places, lights, effects, camera moves, materials; and a third of the
+sentences of `sentences.txt` as they are staged, which hold what these rows do to each other.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, SURFACES, build_tile
+from texvent_scenes.rendered_scene import Texture
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_to_data
 from texvent_scenes.spec.scene import (
@@ -143,6 +145,14 @@ def mark_lights() -> Marks:
     }
 
 
+def mark_surface(texture: Texture) -> Marks:
+    """The tile of a material, and all that its row says."""
+    tile = build_tile(texture).reshape(-1, CHANNELS)
+    found = {f"channel {number}": mark(channel) for number, channel in enumerate(tile.T)}
+    return found | {"kind": mark(*(one for one in vars(SURFACES[texture]).values()
+                                   if isinstance(one, int | float)))}  # fmt: skip
+
+
 def _choices(owner: type, field: str) -> tuple[Any, ...]:
     """Words that a field of a scene may have."""
     (literal, _) = get_args(get_type_hints(owner)[field])
@@ -215,6 +225,8 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
     yield "lights", mark_lights
     for name, noun in NOUNS.items():
         yield name, partial(mark_noun, noun)
+    for texture in SURFACES:
+        yield f"surface: {texture.name}", partial(mark_surface, texture)
     for name, scene in (*_of_objects(), *_of_surroundings()):
         yield f"scene: {name}", partial(mark_scene, scene)
     for sentence in list(stored_scenes())[::3]:
