@@ -48,6 +48,7 @@ from texvent.generation.video_models.model_files import (
     fingerprint,
     read_pipeline_index,
 )
+from texvent.generation.video_models.upscalers import check_upscalers, find_upscalers
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import FinishedVideo, MadeVideo
 from texvent.generation.videos.video_cache import VideoCache, content_key
@@ -62,7 +63,7 @@ PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_pro
 """Options that decide the pixels, beside model, prompt, seed and files."""
 OF_COST = ("frames", "width", "height", "steps")
 """Options that decide the time, which a row knows for its own values."""
-PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras")
+PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras", "upscalers")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
@@ -125,7 +126,7 @@ class DiffusersGenerator:
         if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
-        if folder is not None and find_row_loras(self.model) is None:
+        if folder is not None and None in (find_row_loras(self.model), find_upscalers(self.model)):
             folder = None
         if folder is None:
             self._check_before_loading()
@@ -180,6 +181,7 @@ class DiffusersGenerator:
                 raise InputError(f"there is no LoRA {lora.file}; check its path")
         if self.model.folder is not None:
             find_row_loras(self.model)
+            find_upscalers(self.model)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _check_before_loading(self) -> None:
@@ -205,14 +207,16 @@ class DiffusersGenerator:
         files = find_files(model, progress.announce)
         loras = (*(find_row_loras(model, progress.announce) or ()), *self._loras)
         check_class(model, files.folder)
-        parts = find_control_part(model, config, files.folder, progress.announce)
+        upscalers = find_upscalers(model, progress.announce) or ()
+        check_upscalers(upscalers, files.folder)
+        parts = find_control_part(model, config, files.folder, progress.announce) + upscalers
         device, free = resolve_device()
         request = LoadRequest(
             folder=files.folder,
             content=" ".join(
                 [
                     fingerprint(files.folder),
-                    *(fingerprint(part) for _, part in parts),
+                    *(_sha256(one) if one.is_file() else fingerprint(one) for _, one in parts),
                     *(_sha256(one.file) for one in loras),
                 ]
             ),
@@ -232,7 +236,8 @@ class DiffusersGenerator:
         facts = {
             "source": model.source,
             "commit": files.commit,
-            **{f"{name}_commit": part.name for name, part in parts},
+            **{f"{name}_commit": part.name for name, part in parts if part.is_dir()},
+            **{f"{name}_sha256": _sha256(part) for name, part in upscalers},
             "lora_sha256": [_sha256(one.file) for one in loras[: len(model.loras)]] or None,
             "pipeline": pipeline_class.__name__,
             "dtype": request.placement.dtype,
