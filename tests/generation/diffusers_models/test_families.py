@@ -160,6 +160,32 @@ def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(saved, ma
         make("minimax-h3", lora=(str(path),))
 
 
+def test_the_turbo_lora_of_minimax_h3_runs_at_its_own_noise_levels(saved, tmp_path, monkeypatch):
+    from safetensors.torch import load_file, save_file
+
+    folder = shutil.copytree(saved("minimax-h3"), tmp_path / "minimax-h3-turbo")
+    weights = load_file(next((folder / "transformer").glob("*.safetensors")))
+    layer = next(name for name in weights if name.endswith("to_q.weight"))
+    rows, columns = weights[layer].shape
+    name = f"transformer.{layer.removesuffix('.weight')}.lora_"
+    factors = {f"{name}A.weight": torch.ones(2, columns), f"{name}B.weight": torch.ones(rows, 2)}
+    save_file(factors, folder / "minimax_h3_fl2v_turbo_4step_v1.0_768p_bf16.safetensors")
+    levels = []
+    kind = tiny_pipelines.diffusers.MiniMaxH3Scheduler
+    real = kind.set_timesteps
+
+    def note(self, *args, **named):
+        real(self, *args, **named)
+        levels.append(self.sigmas.tolist())
+
+    monkeypatch.setattr(kind, "set_timesteps", note)
+    made = build(folder, **H3, steps=5).generate(PROMPT)
+    assert len(made.metadata["lora_sha256"]) == 1
+    base = np.array([1, 0.75, 0.5, 0.25, 0])
+    for found, shift in zip(levels, (6, 3), strict=True):  # frames, then sound
+        assert np.allclose(found, shift * base / (1 + (shift - 1) * base))
+
+
 TEMPORAL = FAMILIES["ltx2-temporal"].options
 SPACE, TIME = (
     f"ltx-2.5-latent-{one}-upscaler-x2-bf16-1.0.safetensors" for one in ("spatial", "temporal")

@@ -79,6 +79,15 @@ class MiniMaxH3ModularPipeline:
         """Name → part."""
         return {name: getattr(self._pipe, name) for name in self.parts}
 
+    @property
+    def scheduler(self) -> Any:
+        """Noise schedule of the frames; that of the sound stays."""
+        return self._pipe.scheduler
+
+    @scheduler.setter
+    def scheduler(self, other: Any) -> None:
+        self._pipe.update_components(scheduler=other)
+
     def __call__(
         self,
         prompt: str,
