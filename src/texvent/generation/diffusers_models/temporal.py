@@ -15,17 +15,18 @@ from texvent._require import require
 
 EXTRA = "generate"
 OnStep: TypeAlias = Callable[[Any, int, Any, dict[str, Any]], dict[str, Any]]
-PARTS = (
-    "text_encoder", "tokenizer", "connectors", "transformer", "vae", "audio_vae", "vocoder",
-    "scheduler",
-)  # fmt: skip
-"""Folders of the repository that are needed."""
 LEFT_OUT = ("processor", "prompt_enhancer", "duration_head")
 """Parts that rewrite the prompt or choose the length."""
 
 
 class LTX2DFRTemporalRefinePipeline:
     """LTX-2.5's stages, with the argument names of other pipelines; its sound is left out."""
+
+    parts = (
+        "text_encoder", "tokenizer", "connectors", "transformer", "vae", "audio_vae", "vocoder",
+        "scheduler",
+    )  # fmt: skip
+    """Folders of the repository that are needed."""
 
     def __init__(self, first: Any, spatial: Any, refine: Any) -> None:
         self._first = first
@@ -49,7 +50,7 @@ class LTX2DFRTemporalRefinePipeline:
         first = diffusers.LTX2DFRPipeline.from_pretrained(
             folder, **dict.fromkeys(LEFT_OUT), **options
         )
-        shared = {name: getattr(first, name) for name in PARTS}
+        shared = {name: getattr(first, name) for name in cls.parts}
         shared["scheduler"] = diffusers.LTXEulerAncestralRFScheduler(
             eta=utils.TEMPORAL_ANCESTRAL_ETA
         )
@@ -66,7 +67,7 @@ class LTX2DFRTemporalRefinePipeline:
         """Fetch what is needed; the folder."""
         del use_safetensors
         hub = require("huggingface_hub", extra=EXTRA)
-        wanted = ["model_index.json", *(f"{one}/*" for one in PARTS)]
+        wanted = ["model_index.json", *(f"{one}/*" for one in cls.parts)]
         return str(hub.snapshot_download(repo, revision=revision, allow_patterns=wanted))
 
     @property

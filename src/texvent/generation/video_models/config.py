@@ -203,7 +203,7 @@ class VideoModel:
             lora = "not known" if self.lora_gb is None else f"{self.lora_gb:g} GB"
             size += f", and of its LoRA {lora} ({', '.join(self.loras)})"
         if self.upscalers:
-            size += f", also of its upscalers ({', '.join(self.upscalers)})"
+            size += f" with its upscalers ({', '.join(self.upscalers)})"
         return f"download {size}, time {f'about {told}' if told else 'not known'}"
 
     @property
