@@ -31,7 +31,8 @@ def with_sizes(model: VideoModel, control: str | None) -> VideoModel:
     """
     hub = require("huggingface_hub", extra=EXTRA)
     # A base of its errors is that of the library by which it asks.
-    errors = (*hub.errors.HfHubHTTPError.__bases__, ValueError)
+    known = require("huggingface_hub.errors", extra=EXTRA)
+    errors = (*known.HfHubHTTPError.__bases__, ValueError)
     try:
         main = _sizes(hub, model.repo, model.revision)
         own = MODULAR.get(model.pipeline or "")
