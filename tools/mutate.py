@@ -29,12 +29,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tools.wrong_changes import SOURCES, Change, draw, file_of, near_tests, source_path
+from tools.wrong_changes import PACKAGES, Change, draw, file_of, near_tests, source_path
 
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "tools" / "mutations.toml"
 LAB = Path("lab")
-"""Files and tests of the table that begin with it are those of the laboratory."""
+"""Tests of the table that begin with it are those of the laboratory."""
 LEFT_OUT = shutil.ignore_patterns(".*", "dist", "_build", "demo-output")
 """What no test of the table needs. Kernels that were compiled before are taken along."""
 PATIENCE_S, TEST_PATIENCE_S = 3600, 1200
@@ -52,20 +52,12 @@ class Mutation(NamedTuple):
     name: str
     """Area, and what is wrong then."""
     file: str
-    """As `source_path` takes it, or `lab/` and below lab/src/texvent_lab."""
+    """As `source_path` takes it."""
     old: str
     """Text that is there once."""
     new: str
     tests: tuple[str, ...]
     """Those that should notice, as pytest names them; below `tests`, or `lab/` and below that."""
-
-
-def path_of_source(file: str) -> Path:
-    """Path of a file of the table."""
-    inner = Path(file)
-    if inner.parts[0] == LAB.name:
-        return LAB / "src" / "texvent_lab" / inner.relative_to(LAB)
-    return source_path(file)
 
 
 def path_of_test(test: str) -> Path:
@@ -87,7 +79,7 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
     found = []
     for area, changes in tomllib.loads(path.read_text("utf-8")).items():
         for what, (file, old, new, *tests) in changes.items():
-            count = (root / path_of_source(file)).read_text("utf-8").count(old)
+            count = (root / source_path(file)).read_text("utf-8").count(old)
             if count != 1:
                 raise ValueError(f"{area}, {what}: {file} has {old!r} {count} times, not once")
             found.append(Mutation(f"{area}: {what}", file, old, new, tuple(tests)))
@@ -140,7 +132,7 @@ def changed(path: Path, text: str) -> Iterator[None]:
 
 def judge(tree: Path, mutation: Mutation) -> str:
     """Change a copy of the tree, run the tests that should notice, change it back."""
-    path = tree / path_of_source(mutation.file)
+    path = tree / source_path(mutation.file)
     with changed(path, path.read_text("utf-8").replace(mutation.old, mutation.new)):
         return run_tests(tree, [path_of_test(one) for one in mutation.tests])[0]
 
@@ -172,12 +164,13 @@ def wilson_interval(count: int, total: int) -> tuple[float, float]:
 
 def lines_changed_since(commit: str) -> dict[str, set[int]]:
     """Numbers of the lines that were changed after a commit, by files as of `source_path`."""
-    words = ["git", "diff", "-U0", "--no-prefix", "--diff-filter=d", "--relative=src", commit]
+    folders = dict.fromkeys(str(folder) for folder, _ in PACKAGES.values())
+    words = ["git", "diff", "-U0", "--no-prefix", "--diff-filter=d", commit, "--", *folders]
     found: dict[str, set[int]] = {}
     file = ""
     for line in subprocess.check_output(words, cwd=ROOT, text=True).splitlines():
         if line.startswith("+++ "):
-            file = file_of(SOURCES.parent / line.removeprefix("+++ "))
+            file = file_of(Path(line.removeprefix("+++ ")))
         elif match := re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line):
             first, count = int(match[1]), int(match[2] or 1)
             found.setdefault(file, set()).update(range(first, first + count))
@@ -235,7 +228,10 @@ def _read_options(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("names", nargs="*", help="only changes of the table that are named so")
     parser.add_argument("--draw", type=int, metavar="N", help="N new changes at random places")
     parser.add_argument("--seed", type=int, default=0, help="of the draw")
-    parser.add_argument("--rooms", nargs="+", default=(), help="draw in these folders of texvent")
+    parser.add_argument(
+        "--rooms", nargs="+", default=(),
+        help="draw in these folders of texvent, or in texvent_scenes and texvent_lab",
+    )  # fmt: skip
     parser.add_argument("--since", metavar="COMMIT", help="draw in the lines changed since then")
     parser.add_argument(
         "--only", type=lambda text: {int(one) for one in text.split(",")}, metavar="3,17",

@@ -17,12 +17,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 SOURCES = Path("src", "texvent")
-SCENES = "texvent_scenes"
-"""The package beside it, whose tests are in tests/scenes."""
-ALWAYS = ("tests/contract/test_golden.py", "tests/contract/test_doctests.py")
-"""Tests of every file, after those that are near it."""
-ALWAYS_OF_SCENES = ("tests/scenes/golden/test_golden_scenes.py",)
-"""Of every file of `SCENES`, too."""
+SCENES, LAB = "texvent_scenes", "texvent_lab"
+PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
+"""The packages beside it: the folder that holds each, and its tests."""
+ALWAYS = (
+    *("tests/contract/test_golden.py", "tests/contract/test_doctests.py"),
+    *("tests/options/test_printed.py", "tests/options/test_every_option.py"),
+    "tests/resume/test_resume.py",
+)
+"""Tests of every file, after those that are near it: they reach it through the commands."""
+FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
+"""Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
 MOST_TESTS = 60
 """Files of tests that a change is held to, the nearest first."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
@@ -40,6 +45,8 @@ PARTNERS = {"rint": "floor", "round": "int"} | _both_ways(
     *[("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("floor", "ceil")],
     *[("any", "all"), ("sin", "cos"), ("x", "y"), ("width", "height")],
 )
+EITHER_WAY = ("min", "max", "minimum", "maximum", "hypot")
+"""Functions whose arguments may change places."""
 UNTOUCHED = (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom)
 WORDS_ALONE = re.compile(r".*(Error|Warning)|warn|debug|info|cast|TypeVar|TYPE_CHECKING|__all__")
 """Names of whatever only says something, or is for type checkers."""
@@ -63,13 +70,14 @@ class Change(NamedTuple):
 
 
 def source_path(file: str) -> Path:
-    """Path of a file that is named below `SOURCES`, or `texvent_scenes/` and below that."""
-    return SOURCES.parent / file if Path(file).parts[0] == SCENES else SOURCES / file
+    """Path of a file that is named below `SOURCES`, or below the folder of another package."""
+    return PACKAGES.get(Path(file).parts[0], (SOURCES,))[0] / file
 
 
 def file_of(path: Path) -> str:
     """The name that `source_path` takes."""
-    return path.relative_to(SOURCES if path.is_relative_to(SOURCES) else SOURCES.parent).as_posix()
+    folders = (SOURCES, *(folder for folder, _ in PACKAGES.values()))
+    return path.relative_to(next(one for one in folders if path.is_relative_to(one))).as_posix()
 
 
 Found = tuple[str, int, int, str]
@@ -157,7 +165,8 @@ def _constants(source: _Source, node: ast.AST) -> Iterator[Found]:
 def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
     if not isinstance(node, ast.Call) or any(isinstance(one, ast.Starred) for one in node.args):
         return
-    for left, right in pairwise(node.args):
+    name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+    for left, right in pairwise(() if name in EITHER_WAY else node.args):
         gap = source.data[source.end(left) : source.start(right)].decode()
         if source.text(left) != source.text(right):
             new = source.text(right) + gap + source.text(left)
@@ -250,6 +259,11 @@ def is_wrong(change: Change, text: str) -> bool:
     return ast.dump(ast.parse(new)) != ast.dump(ast.parse(text))
 
 
+def _sources(root: Path) -> list[Path]:
+    folders = dict.fromkeys(folder for folder, _ in PACKAGES.values())
+    return [path for folder in folders for path in sorted((root / folder).rglob("*.py"))]
+
+
 def draw(
     count: int,
     seed: int,
@@ -268,7 +282,7 @@ def draw(
     """
     rng = random.Random(seed)
     found, weights = {}, {}
-    for path in sorted((root / SOURCES.parent).rglob("*.py")):
+    for path in _sources(root):
         file = file_of(path.relative_to(root))
         if rooms and file.partition("/")[0] not in rooms:
             continue
@@ -307,26 +321,30 @@ def _spread(rng: random.Random, weights: Mapping[str, int], count: int) -> Itera
 def _imports(root: Path) -> dict[Path, frozenset[str]]:
     """The modules, and perhaps names in them, that each file imports, by paths below `root`."""
     found = {}
-    for folder in (SOURCES.parent, Path("tests")):
-        for path in (root / folder).rglob("*.py"):
-            names = set()
-            for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if isinstance(node, ast.ImportFrom) and node.module:
-                    names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
-                elif isinstance(node, ast.Import):
-                    names |= {one.name for one in node.names}
-            found[path.relative_to(root)] = frozenset(names)
+    tests = (path for folder in ("tests", "lab/tests") for path in (root / folder).rglob("*.py"))
+    for path in (*_sources(root), *tests):
+        names = set()
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
+            elif isinstance(node, ast.Import):
+                names |= {one.name for one in node.names}
+        found[path.relative_to(root)] = frozenset(names)
     return found
 
 
 def _mirrors(file: Path, root: Path) -> list[Path]:
     """Files of tests with the name of a source file, then all of the nearest folder."""
-    parts = ["scenes" if one == SCENES else one for one in file.parent.parts]
-    folder = root.joinpath("tests", *parts)
+    first, *inner = file.parent.parts or ("",)
+    folder = root.joinpath(PACKAGES[first][1] if first in PACKAGES else f"tests/{first}", *inner)
     while not folder.is_dir():
         folder = folder.parent
     tests = sorted(folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*"))
     return [one for one in tests if one.name.startswith(f"test_{file.stem}")] + tests
+
+
+def _is_source(path: Path) -> bool:
+    return any(path.is_relative_to(folder) for folder, _ in PACKAGES.values())
 
 
 def near_tests(file: str, root: Path) -> list[str]:
@@ -336,19 +354,20 @@ def near_tests(file: str, root: Path) -> list[str]:
     importing: list[Path] = []
     modules = [inner]
     for one in modules:  # grows by packages that hand on a name
-        inside = source_path(str(one)).relative_to(SOURCES.parent).with_suffix("")
-        name = ".".join(inside.parts).removesuffix(".__init__")
+        inside = one if one.parts[0] in PACKAGES else Path(SOURCES.name, one)
+        name = ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
         for path in sorted(path for path, names in imports.items() if name in names):
             importing.append(path)
-            is_source = path.is_relative_to(SOURCES.parent)
-            source = Path(file_of(path)) if is_source else one
+            source = Path(file_of(path)) if _is_source(path) else one
             if path.name == "__init__.py" and source not in modules:
                 modules.append(source)
-    chosen = [one.relative_to(root) for one in _mirrors(inner, root)]
-    chosen += [one for one in importing if one.name.startswith("test_")]
+    own = [one.relative_to(root) for one in _mirrors(inner, root)]
+    chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
+    chosen += [one for one in importing if one.name.startswith("test_")] + own
     for one in importing:
-        if one.is_relative_to(SOURCES.parent):
+        if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
-    last = (*(ALWAYS_OF_SCENES if inner.parts[0] == SCENES else ()), *ALWAYS)
-    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in last]
-    return near[:MOST_TESTS] + [one for one in last if (root / one).exists()]
+    if inner.parts[0] == SCENES and (root / FIRST_OF_SCENES).exists():
+        chosen.insert(0, Path(FIRST_OF_SCENES))
+    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
+    return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]

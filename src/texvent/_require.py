@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import json
 import shlex
 import shutil
 import sys
+from collections.abc import Iterable
 from importlib import metadata
 from pathlib import Path
 from types import ModuleType
@@ -42,6 +44,11 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
             f"{module} is needed here and could not be imported ({one_line(error)}); "
             f"install it with: {install_command(target)}"
         ) from error
+
+
+def find_missing(modules: Iterable[str]) -> str | None:
+    """The first of some modules that is not installed; nothing is imported."""
+    return next((one for one in modules if importlib.util.find_spec(one) is None), None)
 
 
 def install_command(*words: str) -> str:

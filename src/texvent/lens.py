@@ -107,7 +107,7 @@ def distort(lens: Lens, points: Float64Array) -> Float64Array:
     x, y = points[..., 0], points[..., 1]
     first, second, third, fourth, fifth = lens.five
     if lens.distortion == "none":
-        return np.asarray(points, dtype=np.float64)
+        return points
     square = x * x + y * y
     if lens.distortion == "radtan":
         radial = 1.0 + square * (first + square * (second + square * fifth))

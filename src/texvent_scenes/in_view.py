@@ -25,7 +25,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.relation_check import Body, Violation, body_of, find_violations
+from texvent_scenes.relation_check import BodyBoxes, Violation, body_of, find_violations
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place
@@ -89,7 +89,7 @@ def find_unseen(
     pixels = {one: view.pixels for one, view in views.items()}
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
-    outside, small, bodies = list[str](), list[str](), list[list[Body]]()
+    outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]

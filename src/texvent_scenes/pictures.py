@@ -284,8 +284,6 @@ def _wrapped(words: list[str]) -> list[str]:
 _DISPLAY_GLOW = 0.9
 """Light of a display, as a multiple of the picture's."""
 _DARK: Colour = (0.01, 0.01, 0.01)
-_FACE = 1
-"""The side of the first part that shows the picture, +x; see `data/traits/pictures.toml`."""
 _BESIDE = 1.001
 """Farthest reach of a print from the middle of its face, in half sides."""
 
@@ -324,23 +322,20 @@ class PicturedModel:
         shown = replace(
             face,
             image=self._source(pose.time_s),
-            image_face=_FACE,
             texture=Texture.PLAIN,
             colour=face.colour if self._margin is None else self._margin,
             emission=_DISPLAY_GLOW if self._shines else 0.0,
         )
-        return [shown, *(part for part in others if not _is_print(part, face, _FACE))]
+        return [shown, *(part for part in others if not _is_print(part, face))]
 
 
-def _is_print(part: ModelPart, face: ModelPart, number: int) -> bool:
-    """Whether a part lies on a face of a box, within its borders."""
+def _is_print(part: ModelPart, face: ModelPart) -> bool:
+    """Whether a part lies on the side +x of a box, within its borders."""
     linear = np.linalg.inv(face.to_body[:, :3])
     local = np.column_stack(
         [linear @ part.to_body[:, :3], linear @ (part.to_body[:, 3] - face.to_body[:, 3])]
     )
     shape = Shape.BOX if part.shape is Shape.CONE else part.shape
     low, high = half_extents(shape, local)
-    axis, is_high = number // 2, number % 2 == 1
-    reach = high[axis] if is_high else -low[axis]
     widest = np.maximum(np.abs(low), np.abs(high))
-    return bool(reach > 0.9 and np.delete(widest, axis).max() <= _BESIDE)
+    return bool(high[0] > 0.9 and widest[1:].max() <= _BESIDE)

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
@@ -44,8 +44,6 @@ if TYPE_CHECKING:
     from texvent.ground_truth import GroundTruth
     from texvent.prompt_report import PromptReport
     from texvent.runtime.progress import Progress
-    from texvent_scenes.description import SceneDescription
-    from texvent_scenes.in_view import Unseen
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.raycast.incremental import IncrementalRenderer, RenderedFrame
     from texvent_scenes.raycast.optics import Optics
@@ -359,27 +357,15 @@ class ProceduralGenerator:
         return self._accepted(report_of(understand(prompt, nouns_of(prompt, self._nouns))))
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
-        # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent_scenes.assets.nouns import list_files
-        from texvent_scenes.in_view import without_words
+        # Imported here: all models are only needed to make a scene.
+        from texvent_scenes.staged_prompt import stage
 
         named = nouns_of(prompt, self._nouns)
         description = understand(prompt, named)
         said = self._accepted(report_of(description))  # before the scene is built
-        files = list_files(description, named)
-        nouns = tuple(named[one.noun] for one in description.objects)
-        contents = tuple(tuple(one.values()) for one in files)
-        scene, unseen = _staged(
-            description, nouns, contents, self.seed, self.size, self.config.duration
-        )
-        report = replace(
-            said,
-            shown=without_words(said.shown, unseen.violations),
-            notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes),
-            not_shown=(*said.not_shown, *scene.not_shown,
-                       *filter(None, (one.line for one in unseen.violations))),
-            out_of_view=unseen.out_of_view,
-            too_small=unseen.too_small,
+        scene, report, files = stage(
+            description, said, named, seed=self.seed, size=self.size,
+            duration_s=self.config.duration,
         )  # fmt: skip
         scene = replace(scene, has_highlights=self.config.hdr)
         return scene, self._accepted(report), files
@@ -395,36 +381,3 @@ class ProceduralGenerator:
         if refusal is not None:
             raise InputError(refusal)
         return report
-
-
-@lru_cache(maxsize=4)
-def _staged(
-    description: SceneDescription,
-    named: tuple[Noun, ...],
-    contents: tuple[tuple[str, ...], ...],
-    seed: int,
-    size: SensorSize,
-    duration_s: float,
-) -> tuple[ComposedScene, Unseen]:
-    """A scene and what it does not show; kept, since one is often simulated several times.
-
-    Assets are shown where the prompt names them, not as scenery.
-
-    Args:
-        description: the scene.
-        named: the noun of each of its objects.
-        contents: states of the files that it is made of: with others it is another scene.
-        seed: decides the layout.
-        size: of the image, pixels.
-        duration_s: length of the clip, s.
-    """
-    del contents
-    from texvent_scenes.in_view import find_unseen
-    from texvent_scenes.models.nouns import NOUNS
-    from texvent_scenes.staging.compose import compose_scene
-
-    shown = {one.noun: noun for one, noun in zip(description.objects, named, strict=True)}
-    scene = compose_scene(
-        description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
-    )
-    return scene, find_unseen(scene, description, size, duration_s)

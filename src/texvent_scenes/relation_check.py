@@ -48,7 +48,7 @@ class Violation(NamedTuple):
     """For the report, such as "the ball under the chair"."""
 
 
-class Body(NamedTuple):
+class BodyBoxes(NamedTuple):
     """Box around a body at the instants of a clip; arrays [t, 3]."""
 
     middle: Float64Array
@@ -63,7 +63,7 @@ class Body(NamedTuple):
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
 
 
-def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> Body:
+def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
     """The body of an actor at instants, s, with the camera at each."""
     corners = np.array([actor.corners(time) for time in times])
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -73,11 +73,11 @@ def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]
     seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
     displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
     parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
-    return Body(middle, high - low, seen, displacement, np.array(parts))
+    return BodyBoxes(middle, high - low, seen, displacement, np.array(parts))
 
 
 def find_violations(
-    description: SceneDescription, copies: Sequence[Sequence[Body]]
+    description: SceneDescription, copies: Sequence[Sequence[BodyBoxes]]
 ) -> Iterator[Violation]:
     """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
@@ -116,7 +116,7 @@ def find_violations(
                              f"{motion.direction}")  # fmt: skip
 
 
-def _holds(kind: str, body: Body, others: Sequence[Body]) -> bool:
+def _holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes]) -> bool:
     """Whether a body is so to another one, or between two of them, for long enough."""
     if kind == "between":
         pairs = itertools.combinations(others, 2)
@@ -130,7 +130,7 @@ def _holds(kind: str, body: Body, others: Sequence[Body]) -> bool:
     )
 
 
-def _stay(*bodies: Body) -> bool:
+def _stay(*bodies: BodyBoxes) -> bool:
     """Whether bodies stay in their places."""
     return all(
         np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max() for one in bodies
@@ -138,30 +138,30 @@ def _stay(*bodies: Body) -> bool:
 
 
 _Flags = NDArray[np.bool_]
-_Rule = Callable[[Body, Body], _Flags]
+_Rule = Callable[[BodyBoxes, BodyBoxes], _Flags]
 """Whether a body is so to another one at each instant, [t]; [1] of relations of a whole way."""
 
 
-def _within(one: Body, other: Body, axes: int, share: float = 0.0) -> _Flags:
+def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> _Flags:
     """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
     room = 0.55 * other.size + share * one.size + 0.02
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
 
 
-def _clears(one: Body, other: Body, share: float) -> Float64Array:
+def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
     """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
     level = other.middle[:, 2] + share * other.size[:, 2]
     return np.asarray(one.middle[:, 2] - 0.5 * one.size[:, 2] - level)
 
 
-def _is_on(one: Body, other: Body) -> _Flags:
+def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it is over its lower half and not above it."""
     room = 0.5 * one.size[:, 2] + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
     is_over = (_clears(one, other, 0.5) <= room) & (_clears(one, other, -0.5) >= -0.05)
     return np.asarray(_within(one, other, 2) & is_over)
 
 
-def _is_under(one: Body, other: Body) -> _Flags:
+def _is_under(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether a part of the other is above it, and none where it is itself."""
     (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
     slim = 0.4 * one.size[:, None]
@@ -171,24 +171,24 @@ def _is_under(one: Body, other: Body) -> _Flags:
     return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
 
 
-def _aside(one: Body, other: Body) -> Float64Array:
+def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
     """[t] how far it is to the other's right in the image, in half widths of both."""
     half = sum(0.5 * body.size[:, :2].max(axis=1) / np.maximum(body.seen[:, 2], 1e-3)
                for body in (one, other))  # fmt: skip
     return np.asarray((one.seen - other.seen)[:, 0] / half)
 
 
-def _deeper(one: Body, other: Body, sign: int) -> _Flags:
+def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     is_near = np.abs(_aside(one, other)) <= 1.5
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 
-def _recedes(one: Body, other: Body, sign: int) -> _Flags:
+def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     away = np.linalg.norm(one.middle - other.middle, axis=1)
     return np.asarray(sign * (away - away[0]) > _LEAST_DISPLACEMENT * one.size.max())
 
 
-def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
+def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
     """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
     off = (one.middle - other.middle)[:, :2]
     displacement = off[-1] - off[0]
@@ -196,26 +196,26 @@ def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
     return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
 
 
-def _is_around(one: Body, other: Body) -> _Flags:
+def _is_around(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
     return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or _stay(one)])
 
 
-def _is_near(one: Body, other: Body, share: float) -> _Flags:
+def _is_near(one: BodyBoxes, other: BodyBoxes, share: float) -> _Flags:
     """Whether the gap on the ground is at most a share of the greater one's extent."""
     gap = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
     extent = np.maximum(one.size.max(axis=1), other.size.max(axis=1))
     return np.asarray(np.linalg.norm(np.maximum(gap[:, :2], 0.0), axis=1) <= share * extent)
 
 
-def _is_beside(one: Body, other: Body) -> _Flags:
+def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it is near, and as high: not on a desk under which the other one lies."""
     apart = np.abs(one.middle - other.middle)[:, 2] - 0.5 * (one.size + other.size)[:, 2]
     return np.asarray(_is_near(one, other, 3.0) & (apart <= 0.5 * one.size.max(axis=1)))
 
 
-def _is_between(one: Body, first: Body, second: Body) -> _Flags:
+def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
     """Whether its middle lies beside the way from one to the other, nearer than half of that."""
     way = (second.middle - first.middle)[:, :2]
     off = (one.middle - first.middle)[:, :2]

@@ -123,9 +123,7 @@ class Primitives:
     """[n] `Mesh` of each `Shape.MESH`, None elsewhere; None: there are no meshes. `colour`
     multiplies its own."""
     image: NDArray[np.object_] | None = None
-    """[n] `SurfaceImage` that a face of a box shows, or None; None: there are no images."""
-    image_face: NDArray[np.int8] | None = None
-    """[n] the face that shows it: 0..5 = -x, +x, -y, +y, -z, +z."""
+    """[n] `SurfaceImage` that a box shows on its side +x, or None; None: there are no images."""
 
 
 class Ground(IntEnum):

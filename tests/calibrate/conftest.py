@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.recording import FrameRecording
+from texvent.calibrate.recording import CalibrationRecording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.frames import Video
@@ -35,13 +35,13 @@ def moving_blobs(count: int = 90, shape=(24, 32), fps: int = 60) -> Video:
     return Video(np.stack(frames), [round(i * 1e6 / fps) for i in range(count)])
 
 
-def record(frames: Video, config: PhysicalConfig, seed: int = 77) -> FrameRecording:
+def record(frames: Video, config: PhysicalConfig, seed: int = 77) -> CalibrationRecording:
     """Frames with the events that a sensor makes of them."""
     sensor = PhysicalSimulator(config, seed=seed)
     events = EventStream.concat([sensor.step(frame) for frame in frames])
-    return FrameRecording(frames, events, InterpolateConfig(interpolate="none"))
+    return CalibrationRecording(frames, events, InterpolateConfig(interpolate="none"))
 
 
 @pytest.fixture(scope="session")
-def recording() -> FrameRecording:
+def recording() -> CalibrationRecording:
     return record(moving_blobs(), TRUTH)

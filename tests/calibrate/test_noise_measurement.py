@@ -9,7 +9,7 @@ from texvent.calibrate.noise import (
     find_still_pixels,
     measure_noise,
 )
-from texvent.calibrate.recording import FrameRecording, TimeSpan
+from texvent.calibrate.recording import CalibrationRecording, TimeSpan
 from texvent.events import EventStream
 from texvent.frames import Video
 
@@ -21,7 +21,7 @@ SPAN = TimeSpan(0, 2_000_000)
 STRIPES = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0)
 
 
-def still_recording(image=STRIPES, **options) -> FrameRecording:
+def still_recording(image=STRIPES, **options) -> CalibrationRecording:
     """An image, by default dark, middle and bright stripes, that stays for two seconds."""
     frames = Video(np.stack([image.astype(np.float32)] * 41), [i * 50_000 for i in range(41)])
     return record(frames, dataclasses.replace(TRUTH, **options), seed=5)

@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.recording import FrameRecording
+from texvent.calibrate.recording import CalibrationRecording
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull
@@ -17,7 +17,7 @@ from texvent.simulation.physical.cameras import PRESETS
 @pytest.mark.network
 def test_a_fitted_davis_is_closer_to_the_half_it_has_not_seen():
     folder = pull("slider_depth")
-    recording = FrameRecording(
+    recording = CalibrationRecording(
         open_frames(folder, CaptureConfig()),
         load(folder / "events.txt", size=SensorSize(240, 180)),
         InterpolateConfig(max_intermediate=8),

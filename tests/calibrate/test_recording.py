@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from texvent.calibrate.recording import FrameRecording, TimeSpan, simulate_span
+from texvent.calibrate.recording import CalibrationRecording, TimeSpan, simulate_span
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -39,13 +39,13 @@ def test_a_simulated_span_holds_its_events_only(recording):
 def test_unlike_sizes_are_refused(recording):
     other = EventStream.empty(SensorSize(5, 5))
     with pytest.raises(InputError, match=r"32x24.*5x5"):
-        FrameRecording(recording.frames, other, recording.interpolate)
+        CalibrationRecording(recording.frames, other, recording.interpolate)
 
 
 def test_clocks_that_do_not_meet_are_refused(recording):
     frames = moving_blobs()
     late = Video(frames.pixels, [t + 10**9 for t in frames.times_us])
     with pytest.raises(InputError, match="same clock"):
-        FrameRecording(late, recording.events, InterpolateConfig()).halves()
+        CalibrationRecording(late, recording.events, InterpolateConfig()).halves()
     with pytest.raises(InputError, match="lacks one"):
-        FrameRecording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()
+        CalibrationRecording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()

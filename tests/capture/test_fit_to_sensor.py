@@ -102,6 +102,11 @@ def test_motion_fits_wherever_pixels_do(width, height, new_width, new_height, fi
     inside = np.isfinite(fitted.depth)
     widest = max(1.0, width / new_width, height / new_height)
     assert np.abs(shown - fitted.instance)[inside].max(initial=0) <= widest
+    # Its centre is a point of the pixel whose column is the id, and whose row is below the depth.
+    scale, shift = fit_place(SensorSize(width, height), size, fit)
+    centres = (np.argwhere(inside)[:, ::-1] + 0.5 - shift) / scale
+    own = np.stack([fitted.instance, fitted.depth - 1], axis=-1)[inside] + 0.5
+    assert np.abs(centres - own).max(initial=0) <= 0.5 + 1e-6
 
 
 @given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.dataset.conftest import make_set
 
 from texvent.cli.app import main
 from texvent.dataset.generation.make_sample import npy_bytes
@@ -43,6 +44,22 @@ def test_a_sound_set_is_sound(cars: Path) -> None:
     assert not findings.notes
     assert (findings.shards, findings.samples) == (4, 9)
     assert findings.events > 0
+
+
+def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path: Path) -> None:
+    one = {"sources": [{"prompts": ["a red bus drives left"]}], "splits": {"train": 1.0}}
+    folder = make_set(tmp_path / "stored", **one, variants={"paper": {}}, store_videos=True)
+    videos = folder / "videos"
+    whole = check(folder)
+    assert whole.is_sound
+    assert not whole.notes
+    (videos / "train-000000.tar").unlink()
+    assert check(folder).missing == ["videos/train-000000.tar"]
+    shutil.rmtree(videos)
+    without = check(folder)
+    assert without.is_sound
+    assert without.notes == ["its videos are not here; no loader needs them"]
+    assert (whole.shards, without.shards) == (2, 1)
 
 
 def test_missing_changed_and_foreign_files_are_told_apart(copied: Path) -> None:

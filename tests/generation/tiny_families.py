@@ -12,7 +12,8 @@ from typing import Any
 
 import diffusers
 import transformers
-from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
+from diffusers.pipelines.ltx2 import LTX2LatentUpsamplerModel, LTX2TextConnectors, LTX2Vocoder
+from safetensors.torch import save_file
 
 from .tiny_pipelines import SMALL, cosmos_transformer, qwen, t5, wan_vae
 
@@ -35,6 +36,8 @@ class Family:
     """Beside or instead of `tiny_models.OPTIONS`."""
     frames: int = 5
     """What comes out."""
+    side: int = 32
+    """Its width and height."""
     steps: int = 2
     """Denoising steps that are reported; HunyuanVideo 1.5 reports none."""
     takes_image: bool = False
@@ -52,7 +55,7 @@ def flow_unipc():
     )
 
 
-def ltx2(kind=diffusers.LTX2Pipeline):
+def ltx2(kind=diffusers.LTX2Pipeline, patch_size=1, **of_transformer):
     tokenizer = gemma_tokenizer()
     text = SMALL | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
     vision = SMALL | {"image_size": 14, "patch_size": 14}
@@ -82,7 +85,7 @@ def ltx2(kind=diffusers.LTX2Pipeline):
             upsample_type=("spatiotemporal",),
             upsample_residual=(False,),
             upsample_factor=(1,),
-            patch_size=1,
+            patch_size=patch_size,
             patch_size_t=1,
             decoder_causal=False,
         ),
@@ -120,6 +123,7 @@ def ltx2(kind=diffusers.LTX2Pipeline):
             caption_channels=16,
             rope_double_precision=False,
             rope_type="split",
+            **of_transformer,
         ),
     )
 
@@ -372,6 +376,31 @@ def minimax_h3():
     )
 
 
+class WithFiles:
+    """A pipeline and networks of single files that are published elsewhere."""
+
+    def __init__(self, pipe, **networks):
+        self.pipe, self.networks = pipe, networks
+
+    def save_pretrained(self, folder, safe_serialization):
+        self.pipe.save_pretrained(folder, safe_serialization=safe_serialization)
+        for name, network in self.networks.items():
+            save_file(network.state_dict(), folder / f"{name}.safetensors")
+
+
+def ltx2_temporal():
+    """LTX-2.5, whose network marks keyframes, with its upscalers' files; it doubles both sides."""
+    small = {"in_channels": 4, "mid_channels": 32, "num_blocks_per_stage": 1}
+    space = LTX2LatentUpsamplerModel(**small, use_rational_resampler=False)
+    time = LTX2LatentUpsamplerModel(**small, spatial_upsample=False, temporal_upsample=True)
+    files = {
+        "ltx-2.5-latent-spatial-upscaler-x2-bf16-1.0": space,
+        "ltx-2.5-latent-temporal-upscaler-x2-bf16-1.0": time,
+    }
+    pipe = ltx2(patch_size=4, use_keyframes_abs_pos_embedding=True)
+    return WithFiles(pipe, **files)
+
+
 def ltx2_in_context():
     return ltx2(diffusers.LTX2InContextPipeline)
 
@@ -385,6 +414,22 @@ FAMILIES = {
         {"steps": 8, "guidance": 1.0},
         steps=8,
         named="LTX-2.3-Distilled-Diffusers",
+    ),
+    "ltx2-temporal": Family(
+        ltx2_temporal,
+        "LTX2DFRTemporalRefinePipeline",
+        {
+            "fps": 50,
+            "frames": 33,
+            "width": 64,
+            "height": 64,
+            "steps": None,
+            "guidance": None,
+        },
+        frames=33,
+        side=64,
+        steps=8 + 3 + 2 * 4,
+        named="ltx2.5-temporal",
     ),
     "minimax-h3": Family(
         minimax_h3,

@@ -16,7 +16,7 @@ from texvent.io.split_files import Interval, read_intervals, split, write_split
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(4, 3)
-TIMES = [5, 10, 11, 25, 39, 40, 41]
+TIMES = [5, 10, 11, 11, 25, 39, 40, 41]
 
 
 def events() -> EventStream:
@@ -29,12 +29,13 @@ def packets(*cuts: int) -> EventPackets:
     return EventPackets([events()[a:b] for a, b in itertools.pairwise(ends)], SIZE)
 
 
-@pytest.mark.parametrize("cuts", [(), (1, 2, 3, 4, 5, 6), (3, 3)])
+@pytest.mark.parametrize("cuts", [(), (1, 2, 3, 4, 5, 6, 7), (3, 3)])
 def test_intervals_are_half_open_and_may_overlap_or_be_empty(cuts: tuple[int, ...]) -> None:
-    intervals = [Interval(10, 25), Interval(25, 40), Interval(0, 100), Interval(90, 95)]
+    ends = [(10, 25), (25, 40), (0, 100), (90, 95), (11, 12)]
+    intervals = [Interval(*pair) for pair in ends]
     found = dict(split(packets(*cuts), intervals))
     times = {n: [t for part in parts for t in part.t.tolist()] for n, parts in found.items()}
-    assert times == {0: [10, 11], 1: [25, 39], 2: TIMES, 3: []}
+    assert times == {0: [10, 11, 11], 1: [25, 39], 2: TIMES, 3: [], 4: [11, 11]}
 
 
 @pytest.mark.parametrize(
@@ -83,7 +84,7 @@ def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
 def test_a_folder_has_one_file_per_frame_interval(tmp_path: Path) -> None:
     folder = tmp_path / "split"
     intervals = [Interval(10, 25), Interval(25, 40)]
-    assert write_split(packets(3), intervals, folder, format="npz") == 4
+    assert write_split(packets(3), intervals, folder, format="npz") == 5
     assert sorted(one.name for one in folder.iterdir()) == [
         *("000000.npz", "000001.npz", "timestamps.txt")
     ]

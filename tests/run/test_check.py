@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import islice
 
 import pytest
 from tests.video_check.made_clips import frames, pan
 
 import texvent
 from texvent.config import CaptureConfig
-from texvent.run.check import check_frames, check_source, open_source
+from texvent.run.check import _instants, check_frames, check_source, open_source
 from texvent.runtime.progress import NoProgress
 
 
@@ -54,6 +55,12 @@ def test_a_stream_is_read_once_and_may_be_of_unknown_length(images):
     assert read == list(range(60))
     assert found.report.measurements["frames"] == 60
     assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
+
+
+def test_motion_is_measured_all_over_a_clip_and_ever_more_seldom_in_one_without_end():
+    assert list(_instants(160)) == [10, 30, 50, 70, 90, 110, 130, 150]
+    assert list(_instants(2)) == [1] * 8
+    assert list(islice(_instants(None), 6)) == [1, 11, 31, 71, 151, 311]
 
 
 def test_two_frames_are_enough_and_one_is_refused(images):

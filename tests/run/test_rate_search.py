@@ -10,13 +10,13 @@ from texvent.run.rate_search import HIGHEST, LOWEST, MAX_STEPS, find_threshold, 
 from texvent.settings.resolution import resolve
 
 
-def moving_waves(count: int = 13) -> Video:
+def moving_waves(count: int = 13, start_us: int = 0) -> Video:
     y, x = np.mgrid[:24, :32]
     frames = [
         np.round(120 + 70 * np.sin((x + 2 * i) / 3) * np.cos((y - i) / 4)).astype(np.uint8)
         for i in range(count)
     ]
-    return Video(np.stack(frames), [round(i * 1e6 / 24) for i in range(count)])
+    return Video(np.stack(frames), [start_us + round(i * 1e6 / 24) for i in range(count)])
 
 
 def simulation(video=None, **options):
@@ -43,9 +43,12 @@ def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
         match_rate(simulation(), target)
 
 
-@pytest.mark.parametrize(("simulator", "target"), [("physical", 30_000), ("esim", 10_000)])
-def test_a_simulation_is_matched_to_a_rate(simulator, target):
-    run = simulation(simulator=simulator, **({"noise_scale": None} if simulator == "esim" else {}))
+@pytest.mark.parametrize(
+    ("simulator", "target", "start_us"), [("physical", 30_000, 0), ("esim", 10_000, 10**10)]
+)
+def test_a_simulation_is_matched_to_a_rate_wherever_its_clock_begins(simulator, target, start_us):
+    options = {"noise_scale": None} if simulator == "esim" else {}
+    run = simulation(moving_waves(start_us=start_us), simulator=simulator, **options)
     matched, found = match_rate(run, target, seconds=0.5)
     assert found.ratio == pytest.approx(1, rel=0.05)
     events = matched.packets.collect()

@@ -1,16 +1,21 @@
 """The check of a scene: what is out of view or tiny, and which words no instant shows."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, stage, thing
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.examples import examples
+from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
+from texvent.sensor import SensorSize
 from texvent_scenes.description import IndexedRelation, SceneDescription
-from texvent_scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
+from texvent_scenes.in_view import LEAST_PIXELS, MOST_POINTS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.relation_check import _RULES, Body
+from texvent_scenes.relation_check import _RULES, BodyBoxes, _holds
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
@@ -61,13 +66,41 @@ def test_a_note_tells_when_what_somebody_sends_off_leaves_the_view(act):
     assert unseen_from(*objects).notes == ()
 
 
+AIMS = [(x, z) for x in (-7.0, -3.0, 2.0) for z in (-2.0, 1.0, 4.0)]
+
+
+def test_a_note_tells_how_long_a_still_camera_shows_what_moves():
+    """Whether a corner of its box is in the image at each of seven instants."""
+    movers = thing("car", ("drive", "right")), thing("drone", ("fly", "up"))
+    times, kinds = np.linspace(0.0, DURATION_S, 7), set()
+    for mover, (x, z) in itertools.product(movers, AIMS):
+        view = {"position": (x, -9.0, z), "target": (x, 0.0, z)}
+        scene = stage(mover, place="plain")
+        scene = replace(scene, camera_path=CameraTrack(pose(*view.values()), (), DURATION_S))
+        places = [in_image(scene, scene.actors[0], float(time_s)) for time_s in times]
+        inside = [bool(((one >= 0.0) & (one < 1.0)).all(axis=1).any()) for one in places]
+        expected = ()
+        if inside[0] and not inside[-1]:
+            last_s = max(time_s for time_s, is_in in zip(times, inside, strict=True) if is_in)
+            expected = (f"the {mover.noun} leaves the view after {last_s:.2g} s",)
+        elif 0 < sum(inside) < 3.5:
+            expected = (f"the {mover.noun} is in view for {sum(inside) / 7:.0%} of the clip",)
+        assert unseen_from(mover, **view).notes == expected, (x, z)
+        kinds |= {one.split()[2] for one in expected}
+    assert kinds == {"leaves", "is"}
+
+
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
-    truth = ground_truth(scene, 0.0, 0.05, SIZE).instance
-    for instance, view in count_pixels(scene, list(scene.class_names), SIZE, [0.0, 1.0]).items():
-        assert view.pixels >= LEAST_PIXELS
-        assert view.pixels == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
+    large = SensorSize(4 * SIZE.width, 4 * SIZE.height)
+    for size, step in ((SIZE, 2), (large, 6)):  # a point stands for so many pixels along each side
+        truth = ground_truth(scene, 0.0, 0.05, size).instance
+        for number, view in count_pixels(scene, list(scene.class_names), size, [0.0, 1.0]).items():
+            assert view.pixels >= LEAST_PIXELS
+            assert view.pixels % step**2 == 0
+            assert view.pixels == pytest.approx(int(np.sum(truth == number)), rel=0.1, abs=20)
+            assert size.width * size.height / step**2 <= MOST_POINTS
 
 
 BALL = SceneObject("sphere", size=0.5)
@@ -113,7 +146,9 @@ def block(x, side):
     middle = np.array([[one, 0.0, 0.5 * side] for one in x])
     size = np.full((2, 3), side)
     parts = np.stack([middle[0] - 0.5 * side, middle[0] + 0.5 * side])[None]
-    return Body(middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts)
+    return BodyBoxes(
+        middle, size, middle[:, [0, 2, 1]] + [0.0, 0.0, 9.0], middle[1] - middle[0], parts
+    )
 
 
 @pytest.mark.parametrize(
@@ -129,6 +164,48 @@ def test_room_and_way_are_counted_in_sizes_of_who_is_said_to_be_so(kind, x, held
     small, large = block(x, 0.5), block((0.0, 0.0), 8.0)
     pairs = (small, large), (large, small)
     assert tuple(_RULES[kind](*pair).any() for pair in pairs) == held
+
+
+def drawn_body(rng):
+    """A body anywhere within 4 m at three instants, two boxes around its shapes."""
+    middle, size = rng.uniform(-2.0, 2.0, (3, 3)), np.tile(rng.uniform(0.2, 2.0, 3), (3, 1))
+    middle = middle if rng.random() < 0.5 else np.tile(middle[0], (3, 1))
+    seen = np.column_stack([rng.uniform(-0.5, 0.5, (3, 2)), rng.uniform(2.0, 9.0, 3)])
+    parts = np.sort(rng.uniform(-2.0, 2.0, (2, 2, 3)), axis=1)
+    return BodyBoxes(middle, size, seen, middle[-1] - middle[0], parts)
+
+
+def turned_body(body):
+    """The same body where all is a quarter turn further to the left and 3 m higher or aside."""
+    turn, away = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), np.full(3, 3.0)
+    parts = np.sort(body.parts @ turn + away, axis=1)
+    return body._replace(middle=body.middle @ turn + away, size=np.abs(body.size @ turn),
+                         parts=parts)  # fmt: skip
+
+
+def mirrored_body(body):
+    """The same body in a mirror: what was on the left is on the right."""
+    flip = np.array([-1.0, 1.0, 1.0])
+    return body._replace(middle=body.middle * flip, seen=body.seen * flip,
+                         parts=np.sort(body.parts * flip, axis=1))  # fmt: skip
+
+
+@given(st.integers(0, 2**32 - 1))
+@examples(60)
+def test_relations_hold_however_the_world_is_turned_and_left_is_right_in_a_mirror(seed):
+    one, *others = (drawn_body(np.random.default_rng([seed, number])) for number in range(3))
+    for kind in (*_RULES, "between"):
+        held = _holds(kind, one, others)
+        assert _holds(kind, turned_body(one), list(map(turned_body, others))) == held, kind
+        swapped = {"left of": "right of", "right of": "left of"}.get(kind, kind)
+        assert _holds(swapped, mirrored_body(one), list(map(mirrored_body, others))) == held, kind
+    # As complex numbers in which the way is from 0 to 1.
+    one_m, first, second = (body.middle[:, 0] + 1j * body.middle[:, 1] for body in (one, *others))
+    off = (one_m - first) / (second - first)
+    is_between = (off.real > 0.0) & (off.real < 1.0) & (np.abs(off.imag) <= 0.5)
+    is_still = not any(np.ptp(body.middle, axis=0).any() for body in (one, *others))
+    stays = np.mean(is_between) >= 0.5 if is_still else is_between.any()
+    assert _holds("between", one, others) == stays
 
 
 @pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])

@@ -9,6 +9,7 @@ import numpy as np
 
 import texvent
 from texvent.errors import warnings_to
+from texvent.generation.kept_frames import KeptFrames
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
@@ -78,6 +79,26 @@ def test_a_flicker_faster_than_the_frames_fires_events_everywhere() -> None:
     assert len(events) > 4 * 2 * 32 * 24
     assert len(steady) < len(events) / 10
     assert 0.4 < events.p.mean() < 0.6
+
+
+def test_what_is_kept_of_a_scene_is_what_would_be_rendered() -> None:
+    """One store for all sizes and codes of a scene, asked twice."""
+    kept, videos = KeptFrames(), []
+    for size in (SMALL, SensorSize(36, 48)):
+        config = ProceduralConfig(duration=0.2, fps=Fraction(10), hdr=True)
+        video = ProceduralGenerator(config, size=size).generate("a red ball bounces")
+        videos += [video, video.gamma_coded()]
+    for video in (one.with_motion() for one in (*videos, *videos)):
+        seen = []
+        for stream in (video, video.keeping(kept)):
+            frames = list(stream)
+            between = list(stream.between(frames[0], frames[1], (30_000, 70_000)))
+            truth = stream.ground_truth(0, 100_000)
+            motions = [one for frame in frames for one in vars(frame.motion).values()]
+            seen.append([*(one.pixels for one in (*frames, *between, stream.at(50_000))),
+                         truth.depth, truth.flow, *motions])  # fmt: skip
+        for fresh, stored in zip(*seen, strict=True):
+            np.testing.assert_array_equal(fresh, stored)
 
 
 def test_frames_from_one_on_are_those_of_the_whole_video() -> None:

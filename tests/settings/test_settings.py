@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tomli_w
+from tests.held_back import HeldBack
 
 import texvent
 from texvent._registry import SIMULATORS
@@ -24,6 +25,19 @@ def test_a_video_keeps_its_size_and_a_scene_is_davis346():
     assert resolve("simulate", {}).size is None
     assert resolve("generate", {}).size == (346, 260)
     assert resolve("generate", {}).interpolate.interpolate == "motion"
+
+
+@pytest.mark.parametrize(
+    ("command", "beside"), [("generate", None), ("simulate", None), ("simulate", True)]
+)
+def test_the_interpolation_that_a_model_was_made_for_goes_before_others_wishes(
+    held_back, monkeypatch, command, beside
+):
+    monkeypatch.setattr(HeldBack, "default_interpolate", "blend", raising=False)
+    for options, expected in ({}, "blend"), ({"interpolate": "none"}, "none"):
+        options = {"simulator": held_back, **options}
+        found = resolve(command, options, motion_beside=beside).interpolate.interpolate
+        assert found == expected
 
 
 def test_a_sensor_with_measured_constants_chooses_its_preset():

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tools.ceilings import Size, faults, measure, table
+from tools.ceilings import Size, faults, measure, raised, table
 
 
 @pytest.fixture
@@ -27,3 +27,10 @@ def test_lines_and_modules_are_counted(tree: Path) -> None:
 
 def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(data=1), tree) == ["room: 2 (data); the ceiling is 1"]
+
+
+def test_new_ceilings_are_two_per_cent_above_the_sizes(tree: Path) -> None:
+    (tree / "room" / "b.py").write_text("x = 1\n" * 997)
+    text = '# Rooms.\n["room"]\npaths = ["room"]\npython = 7\nmodules = 1\n'
+    new = '# Rooms.\n["room"]\npaths = ["room"]\npython = 1021\nmodules = 3\n'
+    assert raised(text, tree) == new

@@ -49,6 +49,7 @@ def test_changes_are_those_by_hand_and_every_one_that_is_drawn_compiles(text: st
         "a = InputError(f'{a + 1}')",
         "def a(b: Literal[1]) -> Literal[2]: ...",
         "@b(c=1)\ndef a(): ...",
+        "def a(): return np.hypot(b, c)",
         "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    a = 1",
     ],
 )
@@ -67,8 +68,11 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent_scenes/read/part.py": "B = 1\n",
         "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
         "tests/big/test_part.py": "",
+        "tests/test_direct.py": "import texvent.big.part\n",
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
+        "lab/src/texvent_lab/run.py": "C = 1\n",
+        "lab/tests/test_run.py": "",
         "tests/test_user.py": "from texvent.user import seen\ndef test_it(): assert seen() == 2\n",
     }
     for name, text in files.items():
@@ -83,13 +87,16 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
     assert len(set(drawn)) == 22
     assert sum(one.file == "small/part.py" for one in drawn) == 1
     assert {one.file for one in draw(3, 5, tree, ["small"])} == {"small/part.py"}
+    assert {one.file for one in draw(2, 5, tree, ["texvent_lab"])} == {"texvent_lab/run.py"}
     assert {one.line for one in draw(9, 5, tree, lines={"big/part.py": {1}})} == {1}
 
 
 def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: Path) -> None:
-    near = ["tests/big/test_part.py", "tests/big/test_other.py", "tests/test_user.py"]
+    names = ("big/test_part", "test_direct", "big/test_other", "test_user")
+    near = [f"tests/{name}.py" for name in names]
     assert near_tests("big/part.py", tree) == near
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
+    assert near_tests("texvent_lab/run.py", tree) == ["lab/tests/test_run.py"]
 
 
 @pytest.mark.long

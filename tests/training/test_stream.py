@@ -30,7 +30,7 @@ torch = pytest.importorskip("torch")
 
 from texvent.training import Clip, ClipRanges, EventStream, PhysicalRanges  # noqa: E402
 from texvent.training.cuts import CutPlan, cut_clip  # noqa: E402
-from texvent.training.draws import draw_clip  # noqa: E402
+from texvent.training.draws import draw_clip, order_of_pass  # noqa: E402
 from texvent.training.sources import read_clip  # noqa: E402
 
 SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
@@ -271,6 +271,12 @@ def test_boxes_lie_where_their_objects_are_in_a_mirrored_crop():
     for straight, turned in zip(take(stream, 2), take(mirror, 2), strict=True):
         for one, other in zip(straight.truth["boxes"][0], turned.truth["boxes"][0], strict=True):
             assert torch.equal(WIDTH - one["boxes"][:, [2, 0]], other["boxes"][:, [0, 2]])
+
+
+def test_every_pass_of_every_seed_shows_all_sources_in_an_order_of_its_own():
+    orders = [order_of_pass(seed, number, 9).tolist() for seed in (0, 1) for number in range(3)]
+    assert all(sorted(one) == list(range(9)) for one in orders)
+    assert len(set(map(tuple, orders))) == len(orders)
 
 
 def test_decoded_clips_stay_within_memory_and_disk_and_leave_no_folder(folder):

@@ -7,7 +7,7 @@ from selenium.webdriver.support.select import Select
 from selenium.webdriver.support.wait import WebDriverWait
 
 from texvent.capture.open import open_frames
-from texvent.cli.simulation.web import LEAD
+from texvent.cli.simulation.pages import LEAD
 from texvent.config import CaptureConfig
 from texvent.web.job_page import JobServer, list_examples, list_generators
 from texvent.web.live import LiveEvents

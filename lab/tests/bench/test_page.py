@@ -38,6 +38,7 @@ def test_every_stored_result_has_a_page_with_its_chart(name):
     page = files[f"{name}.md"].decode()
     assert f"({name}.svg)" in page
     assert "commit: " in page
+    assert page.splitlines()[0].partition(" (")[2].rstrip(")") == name.partition("-")[2]
     ElementTree.fromstring(files[f"{name}.svg"])
 
 

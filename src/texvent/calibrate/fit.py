@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from texvent._version import full_version
 from texvent.calibrate.estimates import Measurement, UnidentifiedOption
 from texvent.calibrate.noise import LEAST_EXPOSURE_S, MeasuredNoise, measure_noise
-from texvent.calibrate.recording import FrameRecording, TimeSpan, simulate_span
+from texvent.calibrate.recording import CalibrationRecording, TimeSpan, simulate_span
 from texvent.calibrate.search import COORDINATES, Distance, Report, Search, measure_distance
 from texvent.calibrate.uncertainty import judge_fit
 from texvent.events import EventStream
@@ -51,7 +51,7 @@ class Fit(Measurement):
 
 
 def fit_sensor(
-    recording: FrameRecording,
+    recording: CalibrationRecording,
     *,
     start: PhysicalConfig,
     seconds: float = 1.0,

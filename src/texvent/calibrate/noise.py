@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.calibrate.estimates import Estimate, Float64Array, bootstrap
-from texvent.calibrate.recording import FrameRecording, TimeSpan
+from texvent.calibrate.recording import CalibrationRecording, TimeSpan
 from texvent.frames import MICROSECONDS, Frame
 from texvent.represent.event_frame import count_events
 from texvent.simulation.physical.circuit import linearize
@@ -60,7 +60,7 @@ class MeasuredNoise(NamedTuple):
 
 
 def measure_noise(
-    recording: FrameRecording, span: TimeSpan, *, gamma: float, on_fraction: float = 0.5
+    recording: CalibrationRecording, span: TimeSpan, *, gamma: float, on_fraction: float = 0.5
 ) -> MeasuredNoise | None:
     """Noise and leak of still pixels.
 
@@ -138,7 +138,7 @@ def _rates(counts: Float64Array, exposure: Float64Array) -> Float64Array:
 
 
 def _still_pixels(
-    recording: FrameRecording, span: TimeSpan, gamma: float
+    recording: CalibrationRecording, span: TimeSpan, gamma: float
 ) -> Iterator[tuple[Float64Array, tuple[int, int], BoolArray]]:
     """Intensity, interval and still pixels of the frames of a span that have two neighbours."""
     for window in _windows(recording, span):
@@ -155,7 +155,7 @@ def _still_pixels(
             yield np.where(static, own, light[i]), (times[i], times[i + 1]), still
 
 
-def _windows(recording: FrameRecording, span: TimeSpan) -> Iterator[list[Frame]]:
+def _windows(recording: CalibrationRecording, span: TimeSpan) -> Iterator[list[Frame]]:
     """The frames of a span, a second at a time; neighbouring windows share two frames."""
     window: list[Frame] = []
     for frame in recording.frames:

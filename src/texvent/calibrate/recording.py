@@ -42,7 +42,7 @@ class TimeSpan(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class FrameRecording:
+class CalibrationRecording:
     """Frames and events of one sensor on one clock.
 
     Raises:
@@ -125,7 +125,7 @@ def simulate_span(
     """Simulated events of a span.
 
     Args:
-        frames: of `FrameRecording.dense_frames`.
+        frames: of `CalibrationRecording.dense_frames`.
         span: which events are wanted.
         config: the model.
         offset_us: what is added to the times of the frames.

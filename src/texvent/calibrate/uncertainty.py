@@ -31,13 +31,13 @@ BLOCK_US = 10_000
 """Shortest block."""
 MOST_BLOCKS = 20
 FACTOR = 2.0
-"""By which balance and cutoff are changed to see the distance rise."""
+"""Factor of balance and cutoff in the search for a rise of the distance."""
 FARTHEST = 1.5 * math.log(FACTOR)
 """A vertex farther away, in the logarithm, is at no known place."""
 NEAREST = math.log(STEPS[-1]) / 2
 """Half of the last step of the search, in the logarithm: no interval is shorter."""
 THRESHOLD_FACTOR = 1.1
-"""By which thresholds are changed to see how counts fall."""
+"""Factor of the thresholds in the measurement of falling counts."""
 LEAST_POWER = 0.3
 """The least power with which counts fall that is believed."""
 

@@ -106,11 +106,11 @@ COMMANDS = {
         "Open an event file in the browser: point cloud, playback, rate.",
     ),
     "app": (
-        "texvent.cli.simulation.web",
+        "texvent.cli.simulation.pages:run_app",
         "The web page: prompt or video in, events out.",
     ),
     "live": (
-        "texvent.cli.simulation.live",
+        "texvent.cli.simulation.pages:run_live",
         "A camera or video beside its events in the browser.",
     ),
     "info": (

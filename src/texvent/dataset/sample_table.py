@@ -17,7 +17,7 @@ from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
 
 Arrays: TypeAlias = dict[str, Any]
-"""By name."""
+"""Arrays by name."""
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
 Augmentation: TypeAlias = Callable[[EventStream, np.random.Generator], EventStream]

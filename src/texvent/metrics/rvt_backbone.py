@@ -32,7 +32,7 @@ Features: TypeAlias = NDArray[np.float32]
 INPUT_CHANNELS = 20
 """Channels of the stacked histogram: 2 polarities of 10 bins."""
 STRIDES = (4, 2, 2, 2)
-"""By how much each stage reduces the image it is given."""
+"""Reduction of the image by each stage."""
 RUN_STAGES = 3
 """Stages whose features are compared."""
 MLP_RATIO = 4

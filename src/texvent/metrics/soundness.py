@@ -22,8 +22,8 @@ MAX_HOT_SHARE = 0.1
 """Share of the events from hot pixels above which a recording is suspicious: most cameras have a
 few such pixels."""
 HOT_EVENTS, HOT_FACTOR = 100, 20.0
-"""As `hot_pixels.LEAST_EVENTS` and `FACTOR`, four times as strict: what is said here casts doubt on
-a recording, while the filter `hot-pixels` only loses a pixel."""
+"""Stricter than the filter `hot-pixels` (`noise_filters.py: LEAST_EVENTS`, `FACTOR`): what is said
+here casts doubt on a recording, while the filter only loses a pixel."""
 CLUMP_EVENTS = 10
 """Events of one µs, beyond one per 1000 pixels, above which they are clumped."""
 MAX_CLUMPED = 0.5

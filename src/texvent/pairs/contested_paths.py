@@ -46,7 +46,7 @@ CONTESTED_RELATIVE, CONTESTED_PX2 = 0.1, 16.0
 this, px². Above it two surfaces meet there, and the path is chosen among theirs."""
 
 CLEARLY_BETTER = 0.3
-"""By how much more the flows must confirm another path (0..2) to take it instead of the mean."""
+"""Least gain in agreement of the flows (0..2) for which a path takes the place of the mean."""
 
 SWEPT = 1.5
 """Least agreement of the flows on a surface that passes in front, 0..2."""

@@ -61,7 +61,7 @@ def event_frame(events: Events, kind: EventFrameKind = "signed") -> Array:
 
 def count_events(events: EventStream) -> NDArray[np.int32]:
     """Number of events per polarity and pixel, [2, H, W] int32; index 0 is OFF, 1 is ON."""
-    return np.asarray(event_frame(events, "count"), dtype=np.int32)
+    return np.asarray(event_frame(events, "count"))
 
 
 def binary_event_image(events: Events, *, size: tuple[int, int] | None = None) -> Array:

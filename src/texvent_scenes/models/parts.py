@@ -49,7 +49,7 @@ from texvent_scenes.models.shapes import (
     shift,
     turn_about,
 )
-from texvent_scenes.models.skeleton import Anchor, Body, Group, read_anchor, read_skeleton
+from texvent_scenes.models.skeleton import Anchor, Body, PartGroup, read_anchor, read_skeleton
 from texvent_scenes.models.surfaces import Painted, paint_model, toned
 from texvent_scenes.rendered_scene import Colour
 
@@ -148,7 +148,7 @@ class PartsBuilder:
         return {name: read_anchor(text, names) for name, text in said.items()}
 
     @cached_property
-    def _drawing(self) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
+    def _drawing(self) -> tuple[tuple[Placed, ...], tuple[PartGroup, ...]]:
         """Parts that stay in the body, and groups of those that move."""
         table = self._filled
         texts = [
@@ -184,7 +184,7 @@ def _check_channels(joints: Sequence[Joint], acts: str) -> None:
 
 def _read_clump(
     table: Mapping[str, Any], painted: Painted, seed: int
-) -> tuple[Group, list[ModelPart]]:
+) -> tuple[PartGroup, list[ModelPart]]:
     """Balls around an upright axis, their places, sizes and shades chosen by the seed.
 
     Its table: count, surface; lowest and highest `out` (from the axis), `up`, `size` (m) and
@@ -202,7 +202,7 @@ def _read_clump(
         )
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
         parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
-    return Group((), tuple(map(read_joint, table.get("joints", ())))), parts
+    return PartGroup((), tuple(map(read_joint, table.get("joints", ())))), parts
 
 
 def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:

@@ -36,9 +36,7 @@ class ModelPart:
     mesh: Mesh | None = None
     """Its triangles, for `Shape.MESH`; `colour` multiplies their own."""
     image: SurfaceImage | None = None
-    """Image that a face of a box shows now."""
-    image_face: int = 1
-    """That face: 0..5 = -x, +x, -y, +y, -z, +z."""
+    """Image that a box shows on its side +x now."""
 
     def at(self, to_body: NDArray[np.float64]) -> ModelPart:
         """The same part at another place; ten times as fast as `dataclasses.replace`."""

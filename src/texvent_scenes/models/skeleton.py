@@ -31,7 +31,7 @@ Maps = Mapping[str, Affine | None]
 
 
 @dataclass(frozen=True)
-class Group:
+class PartGroup:
     """Parts that move together."""
 
     parts: tuple[Placed, ...]
@@ -127,7 +127,7 @@ def read_anchor(text: str, names: Collection[str]) -> Anchor:
 
 def read_skeleton(
     texts: Iterable[tuple[str, bool]],
-) -> tuple[tuple[Placed, ...], tuple[Group, ...]]:
+) -> tuple[tuple[Placed, ...], tuple[PartGroup, ...]]:
     """Parts that stay in the body, and groups of those that move.
 
     Args:
@@ -138,7 +138,7 @@ def read_skeleton(
     """
     split = [(read_groups(text), is_usual) for text, is_usual in texts]
     rigid, wheels = read_parts("\n".join(first[1] for (first, *_), _ in split))
-    groups, names = list[Group](), set[str]()
+    groups, names = list[PartGroup](), set[str]()
     for (how, lines), is_usual in (
         (one, is_usual) for (_, *more), is_usual in split for one in more
     ):
@@ -149,10 +149,10 @@ def read_skeleton(
         groups.append(group)
         names.add(group.name)
         wheels += more
-    return rigid, (*groups, *(Group(shapes, (joint,)) for shapes, joint in wheels))
+    return rigid, (*groups, *(PartGroup(shapes, (joint,)) for shapes, joint in wheels))
 
 
-def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> Group:
+def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> PartGroup:
     """A group from the words after "moving"; it may be on one of those that have these names.
 
     Raises:
@@ -181,7 +181,7 @@ def read_group(how: str, parts: tuple[Placed, ...], names: Collection[str]) -> G
         else:
             (joints if at_rest is None else at_rest).append(read_joint(item))
     resting = None if at_rest is None else tuple(at_rest)
-    return Group(parts, tuple(joints), name, on, resting, light, clip, is_paired)
+    return PartGroup(parts, tuple(joints), name, on, resting, light, clip, is_paired)
 
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
@@ -215,7 +215,7 @@ class Body:
     seed: int
     observe: Callable[[Pose], Mapping[str, float]]
     """Channels of its activity."""
-    groups: Sequence[tuple[Group, Sequence[ModelPart]]]
+    groups: Sequence[tuple[PartGroup, Sequence[ModelPart]]]
     """Groups with their parts, painted; each is on the body or on one before it."""
     anchors: Mapping[str, Anchor]
     extras: Sequence[Callable[[Instant, Maps], Sequence[ModelPart]]]

@@ -138,7 +138,6 @@ SHAPE_RECORD = np.dtype(
         ("second_colour", "f8", 3),
         ("root", "i8"),  # of a mesh: its first node
         ("image", "i8"),  # what a face shows, index into `images`; -1 = nothing
-        ("image_face", "i8"),
         ("image_fit", "f8", 2),  # face coordinates 0..1, from the middle, to those of the image
     ],
     align=True,

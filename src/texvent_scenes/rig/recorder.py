@@ -20,8 +20,8 @@ from texvent_scenes.rig.layouts.parts import FACTS, Tally, write_facts
 from texvent_scenes.rig.recording import prepare_recording
 
 LAYOUTS = {"hdf5": hdf5, "dsec": dsec, "rosbag1": bag, "mcap": bag}
-"""By the name that option `layout` takes: modules with `check`, which refuses rigs that the layout
-cannot hold before any work, and `write`, which fills an empty folder."""
+"""Layouts by the name that option `layout` takes: modules with `check`, which refuses rigs that the
+layout cannot hold before any work, and `write`, which fills an empty folder."""
 
 
 def record(

@@ -219,7 +219,6 @@ def assemble(placed: Sequence[PlacedModel]) -> Primitives:
         instance=np.repeat(np.array([model.instance for model in placed], dtype=np.int32), sizes),
         mesh=_objects([part.mesh for part in parts]),
         image=_objects([part.image for part in parts]),
-        image_face=np.array([part.image_face for part in parts], dtype=np.int8),
     )
 
 
@@ -243,10 +242,9 @@ def _join(groups: Sequence[Primitives], name: str) -> Any:
     values = [getattr(group, name) for group in groups]
     if all(value is None for value in values):
         return None
-    empty = -1 if name == "image_face" else None
     return np.concatenate(
         [
-            np.full(len(group.shape), empty) if value is None else value
+            np.full(len(group.shape), None) if value is None else value
             for group, value in zip(groups, values, strict=True)
         ]
     )

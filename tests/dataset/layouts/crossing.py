@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -47,7 +46,8 @@ def crossing(**changes: Any) -> LayoutSample:
     @contextmanager
     def frames() -> Iterator[FrameStream]:
         pixels = np.random.default_rng(1).integers(0, 255, (7, *SIZE.shape, 3), dtype=np.uint8)
-        yield open_frames(pixels, CaptureConfig(fps=Fraction(25)))
+        times_us = INSTANTS + changes.get("start_us", 0)
+        yield open_frames(pixels, CaptureConfig(), t_us=times_us)
 
     facts: dict[str, Any] = {
         "key": "abc",

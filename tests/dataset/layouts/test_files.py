@@ -10,13 +10,42 @@ import numpy as np
 import pytest
 import yaml
 from tests.dataset.conftest import assert_same
-from tests.dataset.layouts.crossing import SIZE, crossing, crossing_boxes, crossing_events
+from tests.dataset.layouts.crossing import INSTANTS, SIZE, crossing, crossing_boxes, crossing_events
 from tests.dataset.layouts.readers import READERS
 
 from texvent.dataset.export import LAYOUTS
 from texvent.dataset.layouts.rvt import REPRESENTATION, write_rvt
 from texvent.errors import InputError, OutputError
+from texvent.events import EventStream
 from texvent.view.drawing.event_image import frame_image
+
+
+@pytest.mark.parametrize("name", [name for name, one in LAYOUTS.items() if one.has_boxes])
+def test_a_sample_of_a_later_clock_is_the_same_sample_later(tmp_path: Path, name: str) -> None:
+    later, layout = 3_000_000, LAYOUTS[name]
+    boxes, events = crossing_boxes(), crossing_events()
+    boxes["t"] += later
+    moved = EventStream.from_columns(events.x, events.y, events.t + later, events.p, size=SIZE)
+    facts = {"start_us": later, "stop_us": later + 240_000, "instants_us": INSTANTS + later}
+    found = []
+    for folder, sample in (
+        (tmp_path / "first", crossing()),
+        (tmp_path / "later", crossing(boxes=boxes, read_events=lambda: moved, **facts)),
+    ):
+        place = layout.place.format(split="train", folder="train", key="abc")
+        (folder / place).parent.mkdir(parents=True)
+        assert layout.write(sample, folder / place)
+        layout.finish(folder, [sample], ("car", "man"))
+        ((_, read),) = READERS[name](folder)
+        found.append(read)
+    first, second = found
+    if first.events is not None:
+        assert_same({**second.events, "t": second.events["t"].astype(np.int64) - later}, events)
+    if first.boxes is not None:
+        assert [(t + later, *box) for t, *box in first.boxes] == [tuple(b) for b in second.boxes]
+    if first.pictures is not None:
+        one, other = ([(*ends, lit.tolist()) for *ends, lit in read.pictures] for read in found)
+        assert [(start + later, stop + later, lit) for start, stop, lit in one] == other
 
 
 def test_rvt_holds_what_its_loader_asserts(tmp_path: Path) -> None:

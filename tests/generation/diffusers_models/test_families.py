@@ -73,7 +73,7 @@ def test_every_family_goes_from_its_files_to_frames(name, make):
     video, steps = make(name)
     frames = pixels(video)
     assert video.metadata["pipeline"] == family.pipeline
-    assert frames.shape == (family.frames, 32, 32, 3)
+    assert frames.shape == (family.frames, family.side, family.side, 3)
     assert frames.std(axis=(1, 2, 3)).min() > 0, "every frame shows something"
     assert steps == [("denoise", step + 1, family.steps) for step in range(family.steps)]
 
@@ -158,3 +158,139 @@ def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(saved, ma
             assert not np.array_equal(plain, other)
     with pytest.raises(FileFormatError, match=f"is {rows}x{columns + 1} in it, and not {rows}x"):
         make("minimax-h3", lora=(str(path),))
+
+
+def test_the_turbo_lora_of_minimax_h3_runs_at_its_own_noise_levels(saved, tmp_path, monkeypatch):
+    from safetensors.torch import load_file, save_file
+
+    folder = shutil.copytree(saved("minimax-h3"), tmp_path / "minimax-h3-turbo")
+    weights = load_file(next((folder / "transformer").glob("*.safetensors")))
+    layer = next(name for name in weights if name.endswith("to_q.weight"))
+    rows, columns = weights[layer].shape
+    name = f"transformer.{layer.removesuffix('.weight')}.lora_"
+    factors = {f"{name}A.weight": torch.ones(2, columns), f"{name}B.weight": torch.ones(rows, 2)}
+    save_file(factors, folder / "minimax_h3_fl2v_turbo_4step_v1.0_768p_bf16.safetensors")
+    levels = []
+    kind = tiny_pipelines.diffusers.MiniMaxH3Scheduler
+    real = kind.set_timesteps
+
+    def note(self, *args, **named):
+        real(self, *args, **named)
+        levels.append(self.sigmas.tolist())
+
+    monkeypatch.setattr(kind, "set_timesteps", note)
+    made = build(folder, **H3, steps=5).generate(PROMPT)
+    assert len(made.metadata["lora_sha256"]) == 1
+    base = np.array([1, 0.75, 0.5, 0.25, 0])
+    for found, shift in zip(levels, (6, 3), strict=True):  # frames, then sound
+        assert np.allclose(found, shift * base / (1 + (shift - 1) * base))
+
+
+TEMPORAL = FAMILIES["ltx2-temporal"].options
+SPACE, TIME = (
+    f"ltx-2.5-latent-{one}-upscaler-x2-bf16-1.0.safetensors" for one in ("spatial", "temporal")
+)
+
+
+def test_stages_of_twice_the_frames_are_those_of_their_publisher(make, monkeypatch):
+    """Frame rate that the network is told, noise and tokens of every step, computed by hand.
+
+    17 frames at half size are 9 latent ones of 4x4 and two keyframes; then of 8x8; then two pieces
+    of the 17 latent frames that these become, between keyframes at 8 and 16: 9 of them with the
+    first keyframe and a new one before it; all of them, for the second starts a keyframe early,
+    with both and two new ones.
+    """
+    steps = []
+    kind = tiny_pipelines.diffusers.LTX2VideoTransformer3DModel
+    real = kind.forward
+
+    def note(self, hidden_states, *args, **named):
+        steps.append((named["fps"], round(float(named["sigma"][0])), hidden_states.shape[1]))
+        return real(self, hidden_states, *args, **named)
+
+    monkeypatch.setattr(kind, "forward", note)
+    make("ltx2-temporal")
+    first = [(25, level, 16 * (9 + 2)) for level in (1000, 994, 988, 981, 975, 909, 725, 422)]
+    second = [(25, level, 64 * (9 + 2)) for level in (909, 725, 422)]
+    assert steps[:11] == first + second
+    levels = [975, 909, 725, 422]
+    assert [one[:2] for one in steps[11:]] == [(60, level) for level in 2 * levels]
+    tokens = [one[2] for one in steps[11:]]
+    assert tokens == 4 * [64 * (9 + 1 + 1)] + 4 * [64 * (17 + 2 + 2)]
+
+
+@pytest.mark.parametrize("file", [SPACE, TIME])
+def test_both_upscalers_count_and_one_that_lacks_or_is_another_is_one_line(saved, tmp_path, file):
+    from safetensors.torch import load_file, save_file
+
+    folder = shutil.copytree(saved("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
+    usual = build(folder, **TEMPORAL).generate(PROMPT)
+    assert len(usual.metadata["temporal_latent_upsampler_sha256"]) == 64
+    weights = load_file(folder / file)
+    save_file(weights | {"final_conv.bias": weights["final_conv.bias"] + 1}, folder / file)
+    other = build(folder, **TEMPORAL).generate(PROMPT)
+    assert not np.array_equal(pixels(usual), pixels(other))
+    fewer = {name: one for name, one in weights.items() if not name.startswith("final")}
+    wider = {"initial_conv.weight": torch.zeros(32, 5, 3, 3, 3)}
+    watcher = Watcher()
+    for content, error, said in (
+        (
+            load_file(folder / (TIME if file == SPACE else SPACE)),
+            FileFormatError,
+            "is no upscaler in",
+        ),
+        (weights | wider, FileFormatError, "takes latents of 5 channels, and .* makes 4"),
+        ({"other": torch.zeros(1)}, FileFormatError, "holds no upscaler that doubles latents"),
+    ):
+        save_file(content, folder / file)
+        with pytest.raises(error, match=said) as told:
+            build(folder, **TEMPORAL).generate(PROMPT, progress=watcher)
+        assert "\n" not in str(told.value)
+    (folder / file).unlink()
+    with pytest.raises(InputError, match=f"lacks the upscaler .*{file}, of Lightricks/.*put the"):
+        build(folder, **TEMPORAL).plan(PROMPT)
+    assert watcher.lines == [], "refused before anything was loaded"
+    save_file(fewer, folder / file)
+    with pytest.raises(FileFormatError, match="cannot be loaded as an upscaler of latents"):
+        build(folder, **TEMPORAL).generate(PROMPT)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"frames": 40}, "frames is 40; .* takes multiples of 16 and one more, such as 33"),
+        ({"width": 96}, "width is 96; .* takes multiples of 64"),
+        ({"steps": 8}, "steps is set, but LTX2DFRTemporalRefinePipeline does not take it"),
+        ({"negative_prompt": "dark"}, "negative_prompt is set, but LTX2DFRTemporalRefinePipeline"),
+    ],
+)
+def test_what_twice_the_frames_do_not_take_is_refused_before_they_are_loaded(saved, options, said):
+    watcher = Watcher()
+    with pytest.raises(ConfigError, match=said):
+        build(saved("ltx2-temporal"), **{**TEMPORAL, **options}).generate(PROMPT, progress=watcher)
+    assert watcher.lines == []
+
+
+def test_a_network_without_keyframes_makes_no_frames_in_between(saved, tmp_path):
+    folder = shutil.copytree(saved("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
+    shutil.rmtree(folder / "transformer")
+    shutil.copytree(saved("ltx2-distilled") / "transformer", folder / "transformer")
+    with pytest.raises(InputError, match="a network that makes no keyframes"):
+        build(folder, **TEMPORAL).plan(PROMPT)
+
+
+def test_fifty_frames_per_second_start_from_an_image_and_become_events(saved, start_image):
+    from texvent.pipeline import text_to_events
+    from texvent.settings.resolution import resolve
+
+    of_run = {**TEMPORAL, "generator": str(saved("ltx2-temporal")), "on_failure": "ignore"}
+    video = {}
+    for image in (None, str(start_image)):
+        of_image = {} if image is None else {"image": image}
+        run = text_to_events(PROMPT, resolve("generate", {**of_run, **of_image, "sensor": "24x16"}))
+        events = run.packets.collect()
+        assert len(events) > 0
+        assert events.size == (24, 16)
+        assert [frame.t_us for frame in run.video] == list(range(0, 33 * 20_000, 20_000))
+        video[image] = pixels(run.video)
+    assert not np.array_equal(*video.values())

@@ -65,7 +65,8 @@ def test_the_arguments_and_schedules_of_rows_are_known_to_diffusers():
             call = call_of(pipeline)
             assert set(row["call"]) <= set(call), f"{row['name']}: {pipeline}"
         schedule = dict(row["scheduler"])
-        kind = "UniPCMultistepScheduler"
+        is_h3 = row["pipeline"].startswith("MiniMaxH3")
+        kind = "MiniMaxH3Scheduler" if is_h3 else "UniPCMultistepScheduler"
         assert set(schedule) <= set(inspect.signature(getattr(diffusers, kind)).parameters)
         if row["sigmas"]:
             assert len(row["sigmas"]) == row["steps"]

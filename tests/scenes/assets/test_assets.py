@@ -6,6 +6,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.scenes.assets.glb_bar import write_bar, write_triangle
 
 from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
@@ -74,6 +76,75 @@ def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path):
     (tmp_path / "wobbly_lamp.glb").unlink()
     with pytest.raises(InputError, match="is not here"):
         check_files(video.metadata["files"])
+
+
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.text(max_size=3),
+    lambda one: st.lists(one, max_size=3) | st.dictionaries(st.sampled_from(["sha256", "a"]), one),
+    max_leaves=6,
+)
+
+
+@given(VALUES)
+def test_what_is_no_list_of_files_is_passed(described):
+    check_files(described)
+
+
+AXES = ("x", "-x", "y", "-y", "z", "-z")
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+@pytest.mark.parametrize("forward", [*AXES, None])
+@pytest.mark.parametrize("up", [*AXES, None])
+def test_a_model_is_turned_upright_and_to_the_front_and_not_mirrored(tmp_path, up, forward, ending):
+    """A triangle whose corners are one, two and three units along the file's axes."""
+    corners = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]]
+    path = write_model(tmp_path / f"thing.{ending}", corners, [0, 1, 2])
+    asset = Asset(path, "thing", scale=1.0, up=up, forward=forward)
+    usual = ("z", "-y") if ending == "ply" else ("y", "z")
+    names = (up or usual[0], forward or usual[1])
+    if names[0][-1] == names[1][-1]:
+        with pytest.raises(InputError, match="they must be two axes"):
+            load_model(asset)
+        return
+    above, ahead = (np.eye(3)[AXES.index(one) // 2] * (-1) ** AXES.index(one) for one in names)
+    left = np.cross(above, ahead)  # of a right-handed frame: ahead, left, above
+    expected = np.array(corners) @ np.stack([ahead, left, above], axis=1)
+    low, high = expected.min(axis=0), expected.max(axis=0)
+    (part,) = load_model(asset).parts(Pose(0.0, 0.0, 0.0))
+    places = part.mesh.vertices @ part.to_body[:, :3].T + part.to_body[:, 3]
+    foot = [*(0.5 * (low + high))[:2], low[2]]
+    np.testing.assert_allclose(places[part.mesh.triangles[0]], expected - foot, atol=1e-6)
+    model = load_model(asset)
+    assert (model.length, model.width, model.height) == pytest.approx(tuple(high - low))
+
+
+USUAL = NOUNS["car"].build(colour=None, scale=1.0, seed=0)
+SIDES = [
+    # Noun, what the index says, longest side in the file; then in metres, of GLB and of others.
+    ("thing", {}, 19.0, 19.0, 19.0),
+    ("thing", {}, 21.0, 21.0, 0.21),  # centimetres
+    ("thing", {}, 999.0, 999.0, 9.99),
+    ("thing", {}, 1500.0, 1500.0, 1.5),  # millimetres
+    ("sports car", {}, 7.0, 7.0, max(USUAL.length, USUAL.width, USUAL.height)),
+    ("car", {"scale": 0.5, "height": 9.0, "length": 9.0}, 7.0, 3.5, 3.5),
+    ("car", {"height": 2.0, "length": 9.0}, 7.0, 4.0, 4.0),  # twice as long as high
+    ("car", {"length": 9.0}, 7.0, 9.0, 9.0),
+]
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+@pytest.mark.parametrize(("noun", "said", "side", "glb_m", "other_m"), SIDES)
+def test_a_model_is_as_large_as_its_index_its_unit_or_its_noun_says(
+    tmp_path, noun, said, side, glb_m, other_m, ending
+):
+    corners = [[0.0, 0.0, 0.0], [side, 0.0, 0.0], [0.0, 0.5 * side, 0.0]]
+    path = write_model(tmp_path / f"thing.{ending}", corners, [0, 1, 2])
+    asset = Asset(path, noun, up="y", forward="x", **said)
+    for scale in (1.0, 2.0):
+        model = load_model(asset, scale=scale)
+        expected = scale * (glb_m if ending == "glb" else other_m)
+        assert (model.length, model.height) == pytest.approx((expected, 0.5 * expected))
 
 
 def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):

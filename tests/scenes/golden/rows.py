@@ -3,7 +3,8 @@
     python -m tests.scenes.golden.rows    # writes the sums anew; CHANGELOG.md says why
 
 `rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
-do, motions, relations, places, lights, effects, camera moves.
+do, motions, relations, places, lights, effects, camera moves, materials; and a third of the
+sentences of `sentences.txt` as they are staged, which hold what these rows do to each other.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.scenes.golden.golden import decided, stored_scenes
 
 from texvent.sensor import SensorSize
 from texvent_scenes.defaults import complete
@@ -28,6 +30,8 @@ from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, SURFACES, build_tile
+from texvent_scenes.rendered_scene import Texture
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_to_data
 from texvent_scenes.spec.scene import (
@@ -141,6 +145,14 @@ def mark_lights() -> Marks:
     }
 
 
+def mark_surface(texture: Texture) -> Marks:
+    """The tile of a material, and all that its row says."""
+    tile = build_tile(texture).reshape(-1, CHANNELS)
+    found = {f"channel {number}": mark(channel) for number, channel in enumerate(tile.T)}
+    return found | {"kind": mark(*(one for one in vars(SURFACES[texture]).values()
+                                   if isinstance(one, int | float)))}  # fmt: skip
+
+
 def _choices(owner: type, field: str) -> tuple[Any, ...]:
     """Words that a field of a scene may have."""
     (literal, _) = get_args(get_type_hints(owner)[field])
@@ -164,8 +176,10 @@ def _of_objects() -> Iterator[tuple[str, Scene]]:
         for noun, target in pairs[::2] if kind in ("on", "at") else [_one_of(pairs, kind)]:
             count = 2 if noun == "cat" else 1
             actor = SceneObject(noun, count=count, relations=(Relation(kind, (target,)),))
-            objects = actor, SceneObject(target), SceneObject("dog")
-            yield f"{noun} {kind} {target}", Scene(objects=objects, place=EMPTY)
+            others = SceneObject(target), SceneObject("dog")
+            yield f"{noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
+            actor = replace(actor, motions=(Motion("move", "left"), Motion("move", "right")))
+            yield f"moving {noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
     for one in get_args(spec.Placement):
         placed = SceneObject("man", placement=one), SceneObject("car")
         yield f"placed {one}", Scene(objects=placed, place=EMPTY)
@@ -191,14 +205,32 @@ def _of_surroundings() -> Iterator[tuple[str, Scene]]:
         yield f"camera {scene_to_data(scene)['camera']}", scene
 
 
+def mark_sentence(sentence: str) -> Marks:
+    """A staged sentence at some instants, in an image, by a seed and over a time of its own."""
+    size = _one_of((SIZE, SensorSize(50, 80)), sentence)
+    seed, duration_s = _one_of((5, 6, 7), sentence), _one_of((1.0, 2.5), sentence, 1)
+    description = decided(stored_scenes()[sentence])
+    if description is None:
+        return {}
+    staged = compose_scene(description, seed=seed, size=size, duration_s=duration_s)
+    return {
+        seen.__name__: mark(*(seen(share * duration_s) for share in INSTANTS_S))
+        for seen in (staged.primitives, staged.camera, staged.environment)
+    } | {"said": mark(*staged.not_shown, *staged.notes, *staged.camera_path.notes)}
+
+
 def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
     """Name of each row, and its marks."""
     yield "camera moves", mark_moves
     yield "lights", mark_lights
     for name, noun in NOUNS.items():
         yield name, partial(mark_noun, noun)
+    for texture in SURFACES:
+        yield f"surface: {texture.name}", partial(mark_surface, texture)
     for name, scene in (*_of_objects(), *_of_surroundings()):
         yield f"scene: {name}", partial(mark_scene, scene)
+    for sentence in list(stored_scenes())[::3]:
+        yield f"sentence: {sentence}", partial(mark_sentence, sentence)
 
 
 def stored_sums() -> Mapping[str, Marks]:

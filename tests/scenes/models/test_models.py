@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from texvent_scenes.colours import COLOURS, SHADES, SURFACES, find_colour
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent_scenes.rendered_scene import Shape
@@ -190,6 +191,19 @@ def test_a_colour_word_shows(noun):
     hue = np.array(VIOLET) / np.linalg.norm(VIOLET)
     likeness = [float(np.dot(p.colour, hue) / max(np.linalg.norm(p.colour), 1e-9)) for p in painted]
     assert max(likeness) > 0.97
+
+
+@pytest.mark.parametrize("shade", SHADES)
+def test_a_shade_of_a_colour_is_on_its_way_to_white_or_black(shade):
+    """Of each channel as much is left, or as much white mixed in."""
+    for name, base in COLOURS.items():
+        found, colour = np.array(find_colour(f"{shade} {name}", SURFACES)), np.array(base)
+        assert (found < colour).all() == (shade in ("dark", "deep"))
+        if shade in ("light", "pale"):
+            np.testing.assert_allclose(np.ptp((1.0 - found) / (1.0 - colour)), 0.0, atol=1e-9)
+        else:
+            shares = (found / colour)[found < 1.0]
+            np.testing.assert_allclose(shares, shares[:1].repeat(len(shares)), rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["ball", "football", "sphere", "wheel", "car", "truck", "bicycle"])

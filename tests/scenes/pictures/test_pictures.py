@@ -7,13 +7,22 @@ import av
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.examples import examples
+from tests.scenes.hand_scenes import HandScene
 
+from texvent.camera import PosedCamera
 from texvent.errors import InputError
+from texvent.sensor import SensorSize
+from texvent_scenes.mesh import decode_srgb
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.pictures import PicturedModel, check_picture, load_picture
+from texvent_scenes.pictures import CACHED_FRAMES, PicturedModel, check_picture, load_picture
+from texvent_scenes.raycast.render import render_light
 from texvent_scenes.spec.scene import Picture
+from texvent_scenes.staging.actors import PlacedModel, assemble
 
 
 def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
@@ -45,12 +54,30 @@ def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path):
     assert source(0.11) is source(0.2)
 
 
-def test_an_image_file_is_read_in_linear_light(tmp_path):
+@pytest.fixture(scope="module")
+def long_video(tmp_path_factory):
+    """Of more frames than are kept; frame n is at 0.1 n s."""
+    count = CACHED_FRAMES + 3
+    path = tmp_path_factory.mktemp("video") / "long.mkv"
+    return write_video(path, [30 * n for n in range(count)], [10 * n for n in range(count)])
+
+
+@given(st.lists(st.integers(0, 3 * (CACHED_FRAMES + 3)), min_size=1, max_size=30))
+@examples(20)
+def test_a_video_shows_the_frame_of_each_instant_in_any_order(long_video, numbers):
+    source = load_picture(Picture("file", str(long_video)))
+    for number in numbers:
+        level = decode_srgb(np.uint8(30 * (number % (CACHED_FRAMES + 3))))
+        assert source(0.1 * number + 0.05).levels[0].mean() == pytest.approx(float(level), abs=0.02)
+
+
+def test_an_image_file_is_read_in_linear_light_and_anew_when_it_changes(tmp_path):
     path = tmp_path / "grey.png"
-    cv2.imwrite(str(path), np.full((5, 7, 3), 188, dtype=np.uint8))
-    image = load_picture(Picture("file", str(path)))(0.0)
-    assert image.levels[0].shape == (5, 7, 3)
-    assert image.levels[0].mean() == pytest.approx(0.503, abs=1e-3)
+    for size, code, light in (((5, 7), 188, 0.503), ((6, 9), 64, 0.0513)):
+        cv2.imwrite(str(path), np.full((*size, 3), code, dtype=np.uint8))
+        image = load_picture(Picture("file", str(path)))(0.0)
+        assert image.levels[0].shape == (*size, 3)
+        assert image.levels[0].mean() == pytest.approx(light, abs=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -70,12 +97,62 @@ def test_a_bad_picture_is_one_clear_line(picture, message):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
+SHOWING = pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
+POSE = Pose(0.0, 0.0, 0.0)
+
+
+@SHOWING
 def test_a_picture_takes_the_place_of_what_is_usually_printed(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pictured = PicturedModel(model, noun, Picture("checkerboard", "9x6"))
-    pose = Pose(0.0, 0.0, 0.0)
-    parts = pictured.parts(pose)
+    parts = pictured.parts(POSE)
     assert [part.image is not None for part in parts] == [True] + [False] * (len(parts) - 1)
-    assert 1 <= len(parts) <= len(model.parts(pose))
+    assert 1 <= len(parts) <= len(model.parts(POSE))
     assert len(parts) == len(pictured.parts(Pose(1.0, 0.0, 0.0)))
+
+
+class Model(HandScene):
+    """The parts of a model, drawn from before the face of the first one."""
+
+    def primitives(self, time_s):
+        return assemble([PlacedModel(self.shapes, np.eye(3, 4), 1)])
+
+    def camera(self, time_s):
+        to_body = self.shapes[0].to_body
+        normal, right, up = (side / np.linalg.norm(side) for side in to_body[:, :3].T)
+        middle = to_body[:, :3] @ [1.0, 0.0, 0.0] + to_body[:, 3]
+        away = 2.0 * np.linalg.norm(to_body[:, 1:3])
+        return PosedCamera(middle + away * normal, np.array([right, -up, -normal]), 1.0)
+
+
+@SHOWING
+@pytest.mark.parametrize("sides", [(60, 20), (30, 40)])
+def test_a_picture_is_whole_upright_and_in_its_own_shape(noun, sides, tmp_path):
+    """Red, green and blue quarters, and a grey one: where geometry puts them on the face."""
+    (across, down), path = sides, tmp_path / "quarters.png"
+    rgb = np.full((down, across, 3), 90, np.uint8)
+    for number in range(3):
+        rows, columns = divmod(number, 2)
+        rgb[rows * down // 2 :][: down // 2, columns * across // 2 :][:, : across // 2] = 0
+        rgb[rows * down // 2 :][: down // 2, columns * across // 2 :][:, : across // 2, number] = (
+            255
+        )
+    cv2.imwrite(str(path), rgb[..., ::-1])
+    model = NOUNS[noun].build(colour=(0.6, 0.6, 0.6), scale=1.0, seed=0)
+    parts = PicturedModel(model, noun, Picture("file", str(path))).parts(POSE)
+    scene, size = Model(tuple(parts)), SensorSize(80, 80)
+    light = render_light(scene, 0.0, size, shadows=False)
+    wide, high = 2.0 * np.linalg.norm(parts[0].to_body[:, 1:3], axis=0)
+    width, height = min(wide, high * across / down), min(high, wide * down / across)
+    metres = np.linalg.norm([wide, high]) / 80  # of a pixel, `away` being the diagonal of the face
+    x, y = np.meshgrid(*2 * [(np.arange(80) + 0.5 - 40) * metres])
+    u, v = x / width, y / height
+    inner = [np.abs(one) < 0.45 for one in (u, v)] + [np.abs(one) > 0.05 for one in (u, v)]
+    expected = (u > 0.0) + 2 * (v > 0.0)
+    judged = np.all(inner, axis=0) & (expected < 3)
+    assert np.mean(light.argmax(axis=2)[judged] == expected[judged]) > 0.97
+    margin = (np.maximum(np.abs(u), np.abs(v)) > 0.55) & (np.abs(x) < 0.45 * wide)
+    margin &= np.abs(y) < 0.45 * high
+    colourful = np.ptp(light, axis=2) > 0.5 * light.max(axis=2)
+    assert colourful[judged].mean() > 0.97
+    assert not margin.any() or colourful[margin].mean() < 0.05

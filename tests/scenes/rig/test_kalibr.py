@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import cv2
 import numpy as np
 import pytest
 import yaml
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, TexventWarning
 from texvent.lens import Lens
+from texvent.runtime.progress import NO_PROGRESS
 from texvent.sensor import SensorSize
-from texvent_scenes.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
-from texvent_scenes.rig.kalibr import camchain, imu_yaml, read_noise, read_rig, stereo_rig
+from texvent.settings.resolution import resolve
+from texvent_scenes.rig.config import RigConfig
+from texvent_scenes.rig.description import IMU_NOISES, NOISE_NAMES, ImuNoise, Rig, RigCamera
+from texvent_scenes.rig.kalibr import camchain, imu_yaml, read_rig, stereo_rig
+from texvent_scenes.rig.recording import prepare_recording
 
 SIZE = SensorSize(346, 260)
 KALIBR = """
@@ -103,7 +111,6 @@ def test_imu_yaml_has_kalibrs_fields() -> None:
         "rostopic": "/imu0",
         "update_rate": 200.0,
     }
-    assert read_noise(written, "imu.yaml") == noise
 
 
 def test_without_distortion_radtan_with_zeros_is_written() -> None:
@@ -136,8 +143,43 @@ def test_short_forms_of_a_file_by_hand(tmp_path: Path) -> None:
     assert noise == ImuNoise(2e-3, 0.0, 1e-4, 0.0)
     in_first = np.linalg.inv(second.from_first)
     np.testing.assert_allclose(in_first[:3, 3], [0.12, 0, 0], atol=1e-12)
-    forward = in_first[:3, 2]
-    assert np.degrees(np.arctan2(forward[0], forward[2])) == pytest.approx(10.0)
+
+
+@given(degrees=st.lists(st.floats(-170.0, 170.0), min_size=3, max_size=3))
+def test_a_camera_is_turned_about_x_then_y_then_z_of_the_one_before(degrees: list[float]) -> None:
+    with TemporaryDirectory() as folder:
+        text = f"cam0: {{}}\ncam1: {{rotation: {degrees}}}"
+        second = read_rig(write(Path(folder), text), SIZE)[0].cameras[1]
+    point = np.array([0.3, -0.2, 0.9])  # of the second camera
+    seen = point
+    for axis, angle in zip(np.eye(3), np.radians(degrees), strict=True):
+        seen = cv2.Rodrigues(angle * axis)[0] @ seen
+    np.testing.assert_allclose(np.linalg.inv(second.from_first)[:3, :3] @ point, seen, atol=1e-9)
+
+
+STATED = ImuNoise(4e-3, 3e-3, 2e-4, 1e-4)
+WRITTEN = {
+    "imu.yaml": imu_yaml(STATED, 200.0, "/imu0"),
+    "within.yml": yaml.safe_dump({"imu0": yaml.safe_load(imu_yaml(STATED, 9.0, ""))}),
+    "imu.toml": "".join(f"{name} = {getattr(STATED, name)}\n" for name in NOISE_NAMES),
+}
+
+
+@pytest.mark.parametrize("imu0", [None, ImuNoise(1e-3, 2e-3, 5e-4, 6e-5)])
+@pytest.mark.parametrize("name", [*IMU_NOISES, *WRITTEN])
+def test_the_noise_is_that_of_the_file_or_name_and_then_of_the_rig(
+    tmp_path: Path, name: str, imu0: ImuNoise | None
+) -> None:
+    rig = {"cam0": {}, **({"imu0": vars(imu0)} if imu0 else {})}
+    path = write(tmp_path, yaml.safe_dump(rig))
+    said = str(write(tmp_path, WRITTEN[name], name)) if name in WRITTEN else name
+    config = RigConfig(rig=path, imu=100.0, imu_noise=said)
+    settings = resolve("generate", {"sensor": "32x24", "duration": 0.1})
+    recording = prepare_recording("a ball", settings, config, progress=NO_PROGRESS)
+    expected = IMU_NOISES.get(name, STATED)
+    is_default = name == RigConfig().imu_noise
+    assert recording.noise == (imu0 if imu0 and is_default else expected)
+    assert [one.name for one in recording.rig.cameras] == ["cam0"]
 
 
 def test_a_sensor_by_name_has_its_size(tmp_path: Path) -> None:

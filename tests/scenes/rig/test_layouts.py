@@ -157,7 +157,7 @@ def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path
     out = rig.record(PROMPT, tmp_path / "bag", layout=layout, **OPTIONS)
     path = out / ("rig.bag" if layout == "rosbag1" else "rig.mcap")
     counts: dict[str, int] = {}
-    events, images, forces, times = 0, [], [], []
+    events, images, imu, poses, times = 0, [], [], [], []
     with AnyReader([path], default_typestore=types_with_events()) as reader:
         for connection, time_ns, data in reader.messages():
             counts[connection.topic] = counts.get(connection.topic, 0) + 1
@@ -172,7 +172,14 @@ def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path
             elif connection.topic == "/cam0/image_raw":
                 images.append(message.data.reshape(message.height, message.width, 3))
             elif connection.topic == "/imu0":
-                forces.append([message.linear_acceleration.x, message.angular_velocity.z])
+                measured = message.angular_velocity, message.linear_acceleration
+                stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+                imu.append([stamp, *(vector(one) for one in measured)])
+            elif connection.topic == "/groundtruth":
+                pose = message.pose
+                poses.append(
+                    [*vector(pose.position), *vector(pose.orientation), pose.orientation.w]
+                )
             elif connection.topic == "/cam1/camera_info":
                 fields = {one.lower(): getattr(message, one) for one in dir(message)}
                 assert fields["k"][2] == 31.5
@@ -183,12 +190,17 @@ def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path
     assert counts["/texvent"] == 1
     stored = cv2.imread(str(native / "cam0/frames/000003.png"))[..., ::-1]
     np.testing.assert_array_equal(images[3], stored)
-    imu = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
-    np.testing.assert_allclose(forces, imu[:, [4, 3]], rtol=1e-7)
+    rows = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
+    np.testing.assert_allclose([[one[0], *one[1], *one[2]] for one in imu], rows, rtol=1e-7)
+    np.testing.assert_allclose(poses, np.loadtxt(native / "poses.txt")[:, 1:], atol=1e-7)
     if layout == "rosbag1":
         assert events == facts_of(out)["events"]["cam0"]
     read = texvent.load(path, stream="/cam0/events")
     assert_same_events(read, texvent.load(native / "cam0/events.h5"))
+
+
+def vector(value) -> tuple[float, float, float]:  # type: ignore[no-untyped-def]
+    return value.x, value.y, value.z
 
 
 def types_with_events():  # type: ignore[no-untyped-def]

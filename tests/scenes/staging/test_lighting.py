@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage, thing
 
-from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.effects import LAMPS, lamp_of
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.raycast.render import render
 from texvent_scenes.scene_input import describe_scene, list_nouns
@@ -61,8 +61,15 @@ def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
 @pytest.mark.parametrize("noun", sorted(set(LAMPS) & set(NOUNS)))
 def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
     scene = stage(thing(noun, is_lit=True), light="night", place="plain")
-    levels = [scene.environment(t).lamps["light"].max(initial=0.0) for t in (0.0, 0.1, 0.3)]
+    levels, others = [], set()  # lamps but for those of its parts that shine at that instant
+    for time_s in np.linspace(0.0, 1.9, 12):
+        light, shapes = scene.environment(time_s).lamps["light"], scene.primitives(time_s)
+        shining = shapes.colour[(shapes.instance == 1) & (shapes.emission > 0.0)]
+        own = sum(lamp_of(noun, tuple(colour)) is not None for colour in shining)
+        others.add(int((light.max(axis=1) > 0.0).sum()) - own)
+        levels.append(light.max(initial=0.0))
     assert max(levels) > 0.0
+    assert len(others) == 1
     rows = scene.environment(0.0).lamps
     assert (rows["casts"] > 0.0).sum() <= 4
     assert all(np.isfinite(rows[name]).all() for name in rows.dtype.names)

@@ -14,7 +14,8 @@ from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, bounce_height
-from texvent_scenes.staging.tracks.phases import build_path, schedule
+from texvent_scenes.staging.tracks.phase_keys import build_path
+from texvent_scenes.staging.tracks.phases import schedule
 from texvent_scenes.staging.tracks.track import Term, Track, seated, steady
 
 TIMES_S = np.linspace(0.0, 2.0, 5)

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import stage, thing
 
 from texvent.sensor import SensorSize
+from texvent_scenes.models.activities import ACTIVITIES, TO_AND_FROM_SEATS, TRAVELLING
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.raycast.render import render
@@ -68,11 +70,33 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
         assert overlap(one, table, 0.0) < 0.5
 
 
-@pytest.mark.parametrize(("motions", "doing"), [((), "sit"), ((("stand",),), "stand")])
-def test_who_is_on_a_seat_sits_unless_they_stand(motions, doing):
-    man, chair = stage(thing("man", *motions), thing("chair"), relations=(("on", 0, 1),)).actors
-    assert man.track.at(0.0).activity == doing
-    assert overlap(man, chair, 0.0) > 0.4
+@for_every([None, *sorted(set(ACTIVITIES) - TO_AND_FROM_SEATS)])
+def test_who_is_on_a_seat_or_at_a_table_sits_unless_what_they_do_is_done_standing(kind):
+    for relation, target in (("on", "chair"), ("at", "table")):
+        motions = () if kind is None else ((kind,),)
+        objects = thing("man", *motions), thing(target)
+        man, *others = stage(*objects, relations=((relation, 0, 1),)).actors
+        is_done_seated = kind is not None and ACTIVITIES[kind].is_done_seated
+        doing = f"sit and {kind}" if is_done_seated else kind or "sit"
+        assert man.track.at(0.0).activity == doing, relation
+        is_on = relation == "on" and kind not in TRAVELLING
+        assert all(overlap(man, one, 0.0) > 0.1 for one in others if is_on)
+        has_chair = any(prop.anchor == "ground" for prop in man.props)
+        assert relation == "on" or not doing.startswith("sit") or "ground" in doing or has_chair
+
+
+WAYS = ((), (("stand",),), (("walk", "left"),), (("walk", "left"), ("run", "left")))
+
+
+@pytest.mark.parametrize("kind", ["behind", "front"])
+def test_a_thing_stands_as_far_aside_of_who_goes_as_of_who_stands(kind):
+    """It is seen past the body, however long the way is."""
+    aside = []
+    for way in WAYS:
+        objects = thing("man", *way), thing("car", ("stand",))
+        _, car = stage(*objects, relations=((kind, 0, 1),)).actors
+        aside.append(car.middle(0.0)[0])
+    assert aside == pytest.approx([aside[0]] * len(WAYS), abs=0.1)
 
 
 def test_who_is_on_what_moves_goes_along():

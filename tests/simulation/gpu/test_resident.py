@@ -189,6 +189,10 @@ def test_events_store_the_device_that_made_them(device):
     assert "device" not in run.provenance
     facts = on(device, run).provenance["device"]
     assert {"device", "torch", "triton"} <= set(facts)
+    assert on(device, run).device.note.startswith(f"{find_gpu(device) or device} (")
+    beside = replace(on(device, run).device, obstacle="why")
+    assert (beside.facts["device"]["pixel_model"], beside.resident) == ("cpu", None)
+    assert beside.note == "pixel model on the CPU: why"
     assert run.settings.as_tables() == simulation(clip(), device="auto").settings.as_tables()
 
 

@@ -60,7 +60,9 @@ def page_files(
     name = page_name(file_name)
     link = f"[{described}](../{described}) describes the measurement."
     drawing = [f"![Chart of the scores]({name}.svg)"] if chart else []
-    parts = [f"# {title}", link, facts, *drawing, tables]
+    which = name.partition("-")[2]  # several results of a kind: fidelity-programs
+    heading = f"# {title} ({which})" if which else f"# {title}"
+    parts = [heading, link, facts, *drawing, tables]
     page = options_as_code(without_tags("\n\n".join(part.rstrip() for part in parts) + "\n"))
     return {f"{name}.md": page.encode(), **({f"{name}.svg": chart} if chart else {})}
 

@@ -22,7 +22,7 @@ from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
-from texvent.calibrate.recording import FrameRecording
+from texvent.calibrate.recording import CalibrationRecording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.simulation.physical.config import PhysicalConfig
@@ -85,7 +85,7 @@ def main() -> None:
     folder = parser.parse_args().folder
     video = render_video(half_moving, frames=FRAMES)
     interpolate = InterpolateConfig(frames_per_pixel=FRAMES_PER_PIXEL)
-    recording = FrameRecording(video, recorded(half_moving), interpolate)
+    recording = CalibrationRecording(video, recorded(half_moving), interpolate)
     rest = measure_static_scene(recorded(field_at_rest, REST_FRAMES), PhysicalConfig())
     first = fit_sensor(recording, start=rest.config, report=print).config
     flicker = measure_flicker(recorded(flickering_field), first, hz=FLICKER_HZ, ratio=RATIO)

@@ -43,7 +43,7 @@ PUBLISHED: Mapping[str, RealSize] = MappingProxyType({"wan-vace-1.3b": RealSize(
 """Row of the table of models → its size."""
 
 
-class _Clock:
+class _Stages:
     """Notes when each stage of a run begins, and its denoising steps."""
 
     def __init__(self) -> None:
@@ -76,7 +76,7 @@ def measure_real_size(name: str, size: RealSize, device: str, **options: Any) ->
         options: of the run.
     """
     torch = require("torch", extra=EXTRA)
-    clock = _Clock()
+    clock = _Stages()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / name
         clock.begin("build and save")

@@ -136,6 +136,13 @@ def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
     assert "| less texvent |" in capsys.readouterr().out
     with pytest.raises(ConfigError, match="unknown arm 'rvt'"):
         run([*words, "--arms", "rvt"])
+    turntable = tmp_path / "configs" / "turntable.toml"
+    turntable.write_text(turntable.read_text().replace("variants.difference", "variants.turned"))
+    run([*words, "--arms", "turned,texvent", "-o", str(tmp_path / "three.json")])
+    document = json.loads((tmp_path / "three.json").read_text())
+    assert [one["arm"] for one in document["table"]] == ["texvent", "recorded"]
+    assert [one["arm"] for one in document["turntable"]][:2] == ["turned", "texvent"]
+    assert {*document["protocol"]["arms"]} == {"texvent", "turned"}
     table = tmp_path / "configs" / "table.toml"
     table.write_text(table.read_text().replace('"orange"', '"car"'))
     with pytest.raises(ConfigError, match=r"other classes than the recordings: car; label clips"):

@@ -18,6 +18,7 @@ from texvent_lab.bench.fidelity import entries
 from texvent_lab.bench.fidelity.entries import read_ablations
 from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.paper import run as paper
+from texvent_lab.bench.paper.ablations import choose_e8, measure_ablations
 from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import (
     TABLES,
@@ -26,8 +27,6 @@ from texvent_lab.bench.paper.published_tables import (
     join_measured,
 )
 from texvent_lab.bench.paper.run import (
-    choose_e8,
-    measure_ablations,
     measure_accuracy,
     measure_eqs,
     measure_event_frames,

@@ -41,7 +41,7 @@ OUTLIER = 0.25
 ROUNDS = 5
 """Times that the fit is repeated without them."""
 ROUNDED_US = 0.5
-"""By how much times are rounded down, on average, µs; a refractory period begins at the rounded
+"""Mean amount by which times are rounded down, µs; a refractory period begins at the rounded
 time."""
 GOLDEN = (math.sqrt(5) - 1) / 2
 STEP = 1e-3

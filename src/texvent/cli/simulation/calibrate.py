@@ -13,7 +13,7 @@ from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
-from texvent.calibrate.recording import FrameRecording
+from texvent.calibrate.recording import CalibrationRecording
 from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -156,7 +156,7 @@ def run(arguments: Sequence[str]) -> int:
     progress = ConsoleProgress(is_quiet=options.quiet)
     if options.frames is not None:
         frames = open_frames(options.frames, CaptureConfig(**vars(reading)))
-        recording = FrameRecording(frames, events, interpolate)
+        recording = CalibrationRecording(frames, events, interpolate)
         config, lines = _fit(recording, start, options, progress)
     else:
         config, lines = _measure(events, start, options)
@@ -172,7 +172,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _fit(
-    recording: FrameRecording,
+    recording: CalibrationRecording,
     start: PhysicalConfig,
     options: CalibrateOptions,
     progress: ConsoleProgress,

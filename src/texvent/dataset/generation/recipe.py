@@ -229,7 +229,7 @@ class Recipe:
 
     @property
     def variants(self) -> Mapping[str, Variant]:
-        """By name."""
+        """Variants by name."""
         return {variant.name: variant for variant in self.specification.variants}
 
     def shards(self, variant: str) -> Iterator[Shard]:

@@ -15,7 +15,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent._require import require
+from texvent._require import find_missing, install_command, require
 from texvent._version import __version__
 from texvent.errors import ConfigError, InputError, shown
 from texvent.generation.diffusers_models.guardrail import (
@@ -40,14 +40,18 @@ from texvent.generation.diffusers_models.pipeline_loading import (
 )
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.controls import check_class, find_control_part
+from texvent.generation.video_models.download_sizes import with_sizes
 from texvent.generation.video_models.known_models import check_control, check_shape
 from texvent.generation.video_models.lora import check_loras, find_row_loras, parse_lora
 from texvent.generation.video_models.model_files import (
+    check_weight_files,
+    elsewhere_parts,
     find_downloaded,
     find_files,
     fingerprint,
     read_pipeline_index,
 )
+from texvent.generation.video_models.upscalers import check_upscalers, find_upscalers
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import FinishedVideo, MadeVideo
 from texvent.generation.videos.video_cache import VideoCache, content_key
@@ -58,11 +62,13 @@ from texvent.runtime.progress import NoProgress, Progress
 from texvent.sensor import SensorSize
 
 EXTRA = "generate"
+NEEDED = ("diffusers", "huggingface_hub", "torch")
+"""Packages without which neither files nor a GPU can be looked for."""
 PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
 """Options that decide the pixels, beside model, prompt, seed and files."""
 OF_COST = ("frames", "width", "height", "steps")
 """Options that decide the time, which a row knows for its own values."""
-PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras")
+PIXEL_FACTS = ("call", "sigmas", "scheduler", "loras", "upscalers")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
@@ -115,7 +121,9 @@ class DiffusersGenerator:
         )
 
     def plan(self, prompt: str) -> str | None:
-        """Cost of making the video, or None if it was made before. Touches no network.
+        """Cost of making the video, or None if it was made before. No weights are fetched.
+
+        Without the packages that make it, the cost that its row states.
 
         Raises:
             TexventError: as `generate`, for faults that show before the networks are loaded.
@@ -124,26 +132,38 @@ class DiffusersGenerator:
         key = content_key(self._pixel_facts(prompt, self.seed))
         if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
-        config, folder = self.config, self.model.folder or find_downloaded(self.model)
-        if folder is not None and find_row_loras(self.model) is None:
-            folder = None
-        if folder is None:
-            self._check_before_loading()
-        else:  # all files are here: options that do not fit them are refused too
-            self._prepare(NoProgress())
-        here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
-        row, cost = self.model, self.model.cost
+        missing, row, found = find_missing(NEEDED), self.model, ""
+        if missing is None:
+            here, row = self._look_for_files()
+            device, free = resolve_device()
+            seen = "no GPU" if free is None else f"{device} with {free / GB:.0f} GB free"
+            found = f", torch finds {seen}"
+        else:
+            if row.folder is not None:
+                check_weight_files(row.folder, elsewhere_parts(row))
+            install = install_command(f"texvent[{EXTRA}]")
+            here = f"files, their sizes and a GPU are not known without {missing} ({install})"
+        config, cost = self.config, row.cost
         if row.minutes and any(getattr(config, one) != getattr(row, one) for one in OF_COST):
             cost += f" (for {row.frames} frames of {row.width}x{row.height}, {row.steps} steps)"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
-        device, free = resolve_device()
-        found = "no GPU" if free is None else f"{device} with {free / GB:.0f} GB free"
         return (
-            f"the video is not made yet: {self.model.name} would make it"
-            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
-            f"; {self.model.memory}, torch finds {found}; {cost}"
+            f"the video is not made yet: {row.name} would make it"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {row.licence_and_terms}"
+            f"; {row.memory}{found}; {cost}"
         )
+
+    def _look_for_files(self) -> tuple[str, VideoModel]:
+        """Place of the model's files for messages, and its row with the sizes of missing ones."""
+        folder = self.model.folder or find_downloaded(self.model)
+        if folder is not None and None in (find_row_loras(self.model), find_upscalers(self.model)):
+            folder = None
+        if folder is None:
+            self._check_before_loading()
+            return "it has to be fetched first", with_sizes(self.model, self.config.control)
+        self._prepare(NoProgress())  # refuses options that do not fit the files, too
+        return f"its files are in {folder}", self.model
 
     @property
     def fps(self) -> Fraction:
@@ -180,6 +200,7 @@ class DiffusersGenerator:
                 raise InputError(f"there is no LoRA {lora.file}; check its path")
         if self.model.folder is not None:
             find_row_loras(self.model)
+            find_upscalers(self.model)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _check_before_loading(self) -> None:
@@ -205,14 +226,16 @@ class DiffusersGenerator:
         files = find_files(model, progress.announce)
         loras = (*(find_row_loras(model, progress.announce) or ()), *self._loras)
         check_class(model, files.folder)
-        parts = find_control_part(model, config, files.folder, progress.announce)
+        upscalers = find_upscalers(model, progress.announce) or ()
+        check_upscalers(upscalers, files.folder)
+        parts = find_control_part(model, config, files.folder, progress.announce) + upscalers
         device, free = resolve_device()
         request = LoadRequest(
             folder=files.folder,
             content=" ".join(
                 [
                     fingerprint(files.folder),
-                    *(fingerprint(part) for _, part in parts),
+                    *(_sha256(one) if one.is_file() else fingerprint(one) for _, one in parts),
                     *(_sha256(one.file) for one in loras),
                 ]
             ),
@@ -232,7 +255,8 @@ class DiffusersGenerator:
         facts = {
             "source": model.source,
             "commit": files.commit,
-            **{f"{name}_commit": part.name for name, part in parts},
+            **{f"{name}_commit": part.name for name, part in parts if part.is_dir()},
+            **{f"{name}_sha256": _sha256(part) for name, part in upscalers},
             "lora_sha256": [_sha256(one.file) for one in loras[: len(model.loras)]] or None,
             "pipeline": pipeline_class.__name__,
             "dtype": request.placement.dtype,

@@ -1,4 +1,4 @@
-"""Models that diffusers has as modular pipelines only, with the call of its other pipelines."""
+"""Models that diffusers has in several pieces, with the call of its other pipelines."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError
+from texvent.generation.diffusers_models.temporal import LTX2DFRTemporalRefinePipeline
 
 EXTRA = "generate"
 WORKFLOW = "t2va"
@@ -78,6 +79,15 @@ class MiniMaxH3ModularPipeline:
         """Name → part."""
         return {name: getattr(self._pipe, name) for name in self.parts}
 
+    @property
+    def scheduler(self) -> Any:
+        """Noise schedule of the frames; that of the sound stays."""
+        return self._pipe.scheduler
+
+    @scheduler.setter
+    def scheduler(self, other: Any) -> None:
+        self._pipe.update_components(scheduler=other)
+
     def __call__(
         self,
         prompt: str,
@@ -141,8 +151,11 @@ class MiniMaxH3ModularPipeline:
         self._pipe.set_progress_bar_config(**options)
 
 
-MODULAR: Mapping[str, Any] = {"MiniMaxH3ModularPipeline": MiniMaxH3ModularPipeline}
-"""Class that an index names → the one here that runs it."""
+MODULAR: Mapping[str, Any] = {
+    "MiniMaxH3ModularPipeline": MiniMaxH3ModularPipeline,
+    "LTX2DFRTemporalRefinePipeline": LTX2DFRTemporalRefinePipeline,
+}
+"""Class that an index or a row names → the one here that runs it."""
 
 
 def find_class(name: str) -> Any:

@@ -21,6 +21,7 @@ from texvent.generation.diffusers_models.modular import find_class
 from texvent.generation.video_models.config import DiffusersConfig, VideoModel
 from texvent.generation.video_models.lora import Lora, load_loras
 from texvent.generation.video_models.model_files import loading, read_pipeline_index, without_bars
+from texvent.generation.video_models.upscalers import load_upscaler
 
 EXTRA = "generate"
 Pipeline: TypeAlias = Any
@@ -69,7 +70,7 @@ class LoadRequest:
     scheduler: tuple[tuple[str, Any], ...] = ()
     """Settings of the noise schedule that replace the saved ones."""
     parts: tuple[tuple[str, Path], ...] = ()
-    """Name and folder of networks that lie elsewhere."""
+    """Name and folder, or file, of networks that lie elsewhere."""
 
 
 def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
@@ -170,7 +171,7 @@ def _load(request: LoadRequest) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
-    parts |= {name: _load_network(folder, request) for name, folder in request.parts}
+    parts |= {name: _load_network(path, request) for name, path in request.parts}
     pipe = _from_pretrained(pipeline_class, request, parts)
     _check_embeddings(pipe, request.folder)
     if PART in parts:
@@ -198,9 +199,11 @@ def _load_guardrail_part(pipeline_class: Any, request: LoadRequest) -> dict[str,
 
 
 def _load_network(folder: Path, request: LoadRequest) -> Any:
-    """A network with a folder of its own, such as a ControlNet."""
+    """A network with a folder of its own, such as a ControlNet, or an upscaler's file."""
     kind = require("diffusers", extra=EXTRA).AutoModel
     dtype = getattr(require("torch", extra=EXTRA), request.placement.dtype)
+    if folder.is_file():
+        return load_upscaler(folder, dtype)
     with loading(folder, "a network"):
         return kind.from_pretrained(
             str(folder), dtype=dtype, local_files_only=True, use_safetensors=True

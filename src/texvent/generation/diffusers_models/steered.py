@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS
+from texvent._require import find_missing
 from texvent.errors import InputError
 from texvent.frames import FrameStream, Video
 from texvent.generation.control_video import Pixels, draw_control, times_of
-from texvent.generation.diffusers_models.generator import DiffusersGenerator
+from texvent.generation.diffusers_models.generator import NEEDED, DiffusersGenerator
 from texvent.generation.steered_video import SteeredVideo
 from texvent.generation.subjects import Subject, describe_subject, prompt_of
 from texvent.prompt_report import REPORT_KEY, PromptReport
@@ -61,7 +62,8 @@ class SteeredGenerator(DiffusersGenerator):
 
     def plan(self, prompt: Subject) -> str | None:
         """As the base class; the scene is rendered, for what was made before is found by it."""
-        self._check_here()
+        if find_missing(NEEDED) is None:
+            self._check_here()
         return super().plan(self._steer(prompt, NoProgress()))
 
     def _check_here(self) -> None:

@@ -165,6 +165,10 @@ class VideoModel:
     the network, and for the second one of models that have two."""
     lora_gb: float | None = None
     """Size of these files, GB, as listings of them state it."""
+    upscalers: tuple[str, ...] = ()
+    """Files of the networks that double its latents, named likewise: in space, and in time."""
+    frame_step: int | None = None
+    """Frames are multiples of it and one more; None: not known."""
     of_paper: bool = False
     """Whether the paper uses it."""
 
@@ -198,6 +202,8 @@ class VideoModel:
         if self.loras:
             lora = "not known" if self.lora_gb is None else f"{self.lora_gb:g} GB"
             size += f", and of its LoRA {lora} ({', '.join(self.loras)})"
+        if self.upscalers:
+            size += f" with its upscalers ({', '.join(self.upscalers)})"
         return f"download {size}, time {f'about {told}' if told else 'not known'}"
 
     @property

@@ -28,7 +28,9 @@ def _read_table() -> dict[str, VideoModel]:
         facts = {**table.get(own.pop("like", ""), {}), **own}
         maker = next((one for one in publishers if facts["repo"].startswith(one)), None)
         facts.setdefault("negative_prompt", publishers.get(maker))
-        facts |= {key: tuple(facts.get(key, ())) for key in ("sigmas", "loras", "unused")}
+        facts |= {
+            key: tuple(facts.get(key, ())) for key in ("sigmas", "loras", "upscalers", "unused")
+        }
         if "frame_range" in facts:
             facts["frame_range"] = tuple(facts["frame_range"])
         rows[name] = VideoModel(name=name, **facts | {"fps": Fraction(facts["fps"])})
@@ -77,6 +79,8 @@ def check_shape(model: VideoModel, config: DiffusersConfig) -> None:
         fewest, most = model.frame_range
         if not fewest <= frames <= most:
             raise ConfigError(f"frames is {frames}; {model.name} makes {fewest} to {most} frames")
+    if model.frame_step is not None and frames is not None:
+        _check_step(model, frames, model.frame_step)
     for name in ("width", "height"):
         value = getattr(config, name)
         if model.multiple is not None and value is not None and value % model.multiple:
@@ -105,9 +109,13 @@ def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPi
             f"frames is {frames}; {model.name} follows a scene over at most {longest} frames"
             f"{seconds}"
         )
-    if (frames - 1) % pipeline.step:
-        near = (frames - 1) // pipeline.step * pipeline.step + 1
+    _check_step(model, frames, pipeline.step)
+
+
+def _check_step(model: VideoModel, frames: int, step: int) -> None:
+    if (frames - 1) % step:
+        near = max((frames - 1) // step, 1) * step + 1
         raise ConfigError(
-            f"frames is {frames}; {model.name} takes multiples of {pipeline.step} and one more, "
-            f"such as {max(near, pipeline.step + 1)}"
+            f"frames is {frames}; {model.name} takes multiples of {step} and one more, such as "
+            f"{near}"
         )

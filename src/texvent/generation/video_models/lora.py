@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from texvent._require import require
-from texvent.errors import ConfigError, FileFormatError, InputError, TexventError, one_line, shown
-from texvent.generation.video_models.model_files import loading
+from texvent.errors import ConfigError, FileFormatError, shown
+from texvent.generation.video_models.model_files import find_file, loading, shapes_in
 from texvent.networks import SAFETENSORS
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ PARTS = ("transformer", "transformer_2")
 """Networks that the files of a row's LoRA belong to, in order."""
 WAN_LAYERS = ("blocks.", "head.", "patch_embedding.", "text_embedding.", "time_", "img_emb.")
 """Beginnings of names of layers in Wan's own network."""
-PLAIN_TYPES = ("F32", "F16", "BF16")
-"""Number formats of weights whose shape is that of their layer; packed ones have other shapes."""
 
 
 @dataclass(frozen=True)
@@ -77,33 +75,11 @@ def find_row_loras(
     """
     found = []
     for name, part in zip(model.loras, PARTS, strict=False):
-        path = _find_file(model, name, announce)
+        path = find_file(model, name, "LoRA", announce)
         if path is None:
             return None
         found.append(Lora(path, part=part))
     return tuple(found)
-
-
-def _find_file(model: VideoModel, name: str, announce: Callable[[str], None] | None) -> Path | None:
-    organisation, repo, file = name.split("/", 2)
-    if model.folder is not None:
-        path = model.folder / Path(file).name
-        if not path.is_file():
-            raise InputError(f"the model lacks the LoRA {path}, of {name}; put the file there")
-        return path
-    hub, repo = require("huggingface_hub", extra=EXTRA), f"{organisation}/{repo}"
-    here = hub.try_to_load_from_cache(repo, file)
-    if isinstance(here, str):
-        return Path(here)
-    if announce is None:
-        return None
-    announce(f"fetching the LoRA {name} from the model hub; licence: {model.licence_and_terms}")
-    try:
-        return Path(hub.hf_hub_download(repo, file))
-    except (OSError, ValueError) as error:
-        raise TexventError(
-            f"the LoRA {name} is not on this machine and cannot be fetched: {one_line(error)}"
-        ) from error
 
 
 def check_loras(loras: Sequence[Lora], pipeline_class: Any, folder: Path) -> None:
@@ -170,13 +146,9 @@ def _find_misfit(tensors: dict[str, Any], shapes: dict[str, tuple[int, ...] | No
 
 def _shapes_of(folder: Path) -> dict[str, tuple[int, ...] | None]:
     """Name of each weight of a network → its shape; None where that is packed."""
-    safetensors, found = require("safetensors", extra=EXTRA), {}
+    found: dict[str, tuple[int, ...] | None] = {}
     for file in sorted(folder.glob(f"*{SAFETENSORS}")):
-        with loading(file, "weights"), safetensors.safe_open(file, framework="pt") as weights:
-            for name in weights.keys():  # noqa: SIM118  (the file is no mapping)
-                weight = weights.get_slice(name)
-                is_plain = weight.get_dtype() in PLAIN_TYPES
-                found[name] = tuple(weight.get_shape()) if is_plain else None
+        found |= shapes_in(file)
     return found
 
 

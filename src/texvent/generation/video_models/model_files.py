@@ -34,6 +34,8 @@ HUB = "hub:"
 INDEX = "model_index.json"
 CONFIG = "config.json"
 PICKLES = (".bin", ".pt", ".pth", ".ckpt")
+PLAIN_TYPES = ("F32", "F16", "BF16")
+"""Number formats of weights whose shape is that of their layer; packed ones have other shapes."""
 NOT_READ = "not known to texvent; read the model's page"
 
 
@@ -115,6 +117,59 @@ def find_network(repo: str, revision: str, announce: Callable[[str], None]) -> P
         raise TexventError(
             f"{repo}@{revision} is not on this machine and cannot be fetched: {one_line(error)}"
         ) from error
+
+
+def find_file(
+    model: VideoModel, name: str, role: str, announce: Callable[[str], None] | None
+) -> Path | None:
+    """A single file that a row names; None: it is not here, and may not be fetched.
+
+    A folder of a model holds it beside its parts.
+
+    Args:
+        model: the row.
+        name: `organisation/name/path` on the model hub.
+        role: what it is, for messages.
+        announce: told before a download; None: nothing is fetched.
+
+    Raises:
+        InputError: the model's folder lacks it.
+        TexventError: it is not here and cannot be fetched.
+    """
+    organisation, repo, file = name.split("/", 2)
+    if model.folder is not None:
+        path = model.folder / Path(file).name
+        if not path.is_file():
+            raise InputError(f"the model lacks the {role} {path}, of {name}; put the file there")
+        return path
+    hub, repo = require("huggingface_hub", extra=EXTRA), f"{organisation}/{repo}"
+    here = hub.try_to_load_from_cache(repo, file)
+    if isinstance(here, str):
+        return Path(here)
+    if announce is None:
+        return None
+    announce(f"fetching the {role} {name} from the model hub; licence: {model.licence_and_terms}")
+    try:
+        return Path(hub.hf_hub_download(repo, file))
+    except (OSError, ValueError) as error:
+        raise TexventError(
+            f"the {role} {name} is not on this machine and cannot be fetched: {one_line(error)}"
+        ) from error
+
+
+def shapes_in(file: Path) -> dict[str, tuple[int, ...] | None]:
+    """Name of each weight in a file → its shape; None where that is packed.
+
+    Raises:
+        FileFormatError: it is damaged.
+    """
+    safetensors, found = require("safetensors", extra=EXTRA), {}
+    with loading(file, "weights"), safetensors.safe_open(file, framework="pt") as weights:
+        for name in weights.keys():  # noqa: SIM118  (the file is no mapping)
+            weight = weights.get_slice(name)
+            is_plain = weight.get_dtype() in PLAIN_TYPES
+            found[name] = tuple(weight.get_shape()) if is_plain else None
+    return found
 
 
 def describe_terms(model: VideoModel) -> str:

@@ -106,7 +106,7 @@ class RifeLayout:
     name: str
     """The release that introduced it."""
     scales: tuple[int, ...]
-    """By how much the images are reduced for each block."""
+    """Reduction of the images for each block."""
     widths: tuple[int, ...]
     """Channels inside each block, as published; a file may have others."""
     head_channels: int

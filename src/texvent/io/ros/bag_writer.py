@@ -46,7 +46,8 @@ from texvent.sensor import SensorSize
 
 ROSBAG1, ROSBAG2 = "rosbags.rosbag1", "rosbags.rosbag2"
 EXTRA = "bags"
-FACTS_TOPIC = "/texvent"
+EVENTS_TOPIC, FACTS_TOPIC = "/dvs/events", "/texvent"
+"""Topics of the events and of size and metadata."""
 PACKET_US = 10_000
 STRING = "std_msgs/msg/String"
 IMAGE, CAMERA_INFO = "sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"

@@ -42,6 +42,7 @@ from texvent.io.ros.bag_bounds import (
 )
 from texvent.io.ros.bag_kind import FOLDER_FACTS, ROSBAG1_MAGIC, ROSBAG2_MAGICS
 from texvent.io.ros.bag_writer import (
+    EVENTS_TOPIC,
     EXTRA,
     FACTS_TOPIC,
     ROSBAG1,
@@ -61,7 +62,6 @@ from texvent.io.ros.messages import (
 )
 from texvent.sensor import SensorSize
 
-TOPIC = "/dvs/events"
 TEXT_START = {1: 4, 2: 8}
 """Version of ROS → bytes before the text in a std_msgs/String."""
 
@@ -142,7 +142,7 @@ class BagCodec(BagReader, BlockCodec):
         text = sidecar_text(target.size, target.metadata)
         with open_sensor_bag(part, self.kind) as bag:
             write_text = bag.text_topic(FACTS_TOPIC)
-            write_events = bag.events_topic(TOPIC, target.size)
+            write_events = bag.events_topic(EVENTS_TOPIC, target.size)
             is_begun = False
 
             def write(columns: Columns) -> None:

@@ -19,7 +19,7 @@ from texvent_scenes.models.people.posture import STANDING, find_channels, place_
 from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import ArticulatedModel, Point, point, rod, spike
-from texvent_scenes.models.skeleton import Anchor, Body, Group, Maps, read_anchor, read_skeleton
+from texvent_scenes.models.skeleton import Anchor, Body, Maps, PartGroup, read_anchor, read_skeleton
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.rendered_scene import Colour
 
@@ -60,7 +60,7 @@ def build_body(kind: PersonKind, colour: Colour | None, seed: int) -> Body:
 @cache
 def _read_figure(
     kind: PersonKind,
-) -> tuple[tuple[Group, ...], list[Limb], Mapping[str, Anchor]]:
+) -> tuple[tuple[PartGroup, ...], list[Limb], Mapping[str, Anchor]]:
     """Groups, limbs and anchors of `figure` in `data/outfits.toml`, with what the kind wears."""
     outfits = read_table("outfits")
     sizes = {"size": HEAD_SIZE * kind.head, "hair": 0.80 if kind.hat else 0.92}

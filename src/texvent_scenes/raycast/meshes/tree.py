@@ -191,10 +191,6 @@ def build_nodes(
     return count
 
 
-_FACE_AXES = ((1, 2), (1, 2), (0, 2), (0, 2), (1, 0), (1, 0))
-"""Axes of a box's face that are the image's right and down, without their signs."""
-
-
 def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSurfaces:
     """Write which mesh and image each shape has into their records, and pack both."""
     shapes["image"] = -1
@@ -206,11 +202,9 @@ def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSur
         shapes["root"][index] = packed.roots[meshes[index]]
     for index in np.flatnonzero(images != None):  # noqa: E711
         image = images[index]
-        face = 0 if primitives.image_face is None else int(primitives.image_face[index])
         lengths = np.linalg.norm(primitives.to_world[index, :, :3], axis=0)
-        across, down = (lengths[axis] for axis in _FACE_AXES[face])
-        ratio = across / max(down, 1e-12) / image.aspect
-        shapes["image"][index], shapes["image_face"][index] = packed.numbers[image], face
+        ratio = lengths[1] / max(lengths[2], 1e-12) / image.aspect
+        shapes["image"][index] = packed.numbers[image]
         shapes["image_fit"][index] = max(ratio, 1.0), max(1.0 / max(ratio, 1e-12), 1.0)
     return packed
 

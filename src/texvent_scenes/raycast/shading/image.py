@@ -12,6 +12,8 @@ from texvent_scenes.raycast.shading.value_noise import mix
 from texvent_scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
 from texvent_scenes.rendered_scene import Colour
 
+IMAGE_FACE = 1
+"""The side of a box that shows an image: +x, its right along y."""
 MOST_TAPS = 16
 """A footprint is taken to be at most this many times as long as wide."""
 Footprint = tuple[tuple[float, float], tuple[float, float]]
@@ -58,9 +60,9 @@ def mesh_colour(
 
 @jit(error_model="numpy", inner=True)
 def shown_colour(
-    instant: Record, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+    instant: Record, number: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
-    """Colour of a box's face that shows an image, its own colour around the image.
+    """Colour of a box's side +x that shows an image upright, its own colour around the image.
 
     Arguments as for `mesh_colour`.
     """
@@ -68,36 +70,15 @@ def shown_colour(
     p = mapped(shape.inverse, point)
     right, down = turned(shape.inverse, patch[0]), turned(shape.inverse, patch[1])
     fit = shape.image_fit
-    u, v = _face_place(face, p)
-    u, v = 0.5 + 0.5 * u * fit[0], 0.5 + 0.5 * v * fit[1]
-    first, second = _face_place(face, right), _face_place(face, down)
+    u, v = 0.5 + 0.5 * p[1] * fit[0], 0.5 - 0.5 * p[2] * fit[1]
     footprint = (
-        (0.5 * fit[0] * first[0], 0.5 * fit[1] * first[1]),
-        (0.5 * fit[0] * second[0], 0.5 * fit[1] * second[1]),
+        (0.5 * fit[0] * right[1], -0.5 * fit[1] * right[2]),
+        (0.5 * fit[0] * down[1], -0.5 * fit[1] * down[2]),
     )
     colour = image_colour(instant, shape.image, u, v, footprint)
     share = _overlap(u, abs(footprint[0][0]) + abs(footprint[1][0]))
     share *= _overlap(v, abs(footprint[0][1]) + abs(footprint[1][1]))
     return mix(triple(shape.colour), colour, share)
-
-
-@jit(error_model="numpy", inner=True)
-def _face_place(face: int, p: Vector) -> tuple[float, float]:
-    """The image's right and down, of a point or a vector in a box's coordinates, seen from outside.
-
-    Images stand upright on the sides; on the top and the bottom their foot is towards +x.
-    """
-    if face == 0:
-        return -p[1], -p[2]
-    if face == 1:
-        return p[1], -p[2]
-    if face == 2:
-        return p[0], -p[2]
-    if face == 3:
-        return -p[0], -p[2]
-    if face == 4:
-        return p[1], -p[0]
-    return p[1], p[0]
 
 
 @jit(error_model="numpy", inner=True)

@@ -7,7 +7,7 @@ import math
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.addresses import shape_at
 from texvent_scenes.raycast.records import Record
-from texvent_scenes.raycast.shading.image import mesh_colour, shown_colour
+from texvent_scenes.raycast.shading.image import IMAGE_FACE, mesh_colour, shown_colour
 from texvent_scenes.raycast.shading.material import patch_axes, sample_material
 from texvent_scenes.raycast.shading.value_noise import mix, square_wave
 from texvent_scenes.raycast.trace import MESH
@@ -78,8 +78,8 @@ def surface_look(
     normal, right, down = look
     if shape.kind == MESH:
         return mesh_colour(instant, number, face, point, (right, down)), normal
-    if shape.image >= 0 and face == shape.image_face:
-        return shown_colour(instant, number, face, point, (right, down)), normal
+    if shape.image >= 0 and face == IMAGE_FACE:
+        return shown_colour(instant, number, point, (right, down)), normal
     if shape.texture == _PLAIN:
         return plain, normal
     m = shape.inverse

@@ -12,6 +12,7 @@ from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor, corners_over
+from texvent_scenes.staging.camera.angles import ELEVATIONS, choose_angles, goes_in_depth
 from texvent_scenes.staging.camera.camera_track import (
     CameraTrack,
     Tie,
@@ -28,14 +29,7 @@ from texvent_scenes.staging.camera.framing import (
     seen_through,
 )
 from texvent_scenes.staging.camera.journey import TravelPlan
-from texvent_scenes.staging.camera.subject import (
-    ELEVATIONS,
-    INSTANTS,
-    choose_angles,
-    choose_main,
-    goes_in_depth,
-    list_framing_choices,
-)
+from texvent_scenes.staging.camera.subject import INSTANTS, choose_main, list_framing_choices
 
 _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""

@@ -26,8 +26,8 @@ from texvent_scenes.staging.particles.effect import (
     tumbling,
 )
 from texvent_scenes.staging.surroundings.lighting import point_lamp, wave_level
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 
-GRAVITY = 9.81
 GENERATIONS = 16
 """Lives of a particle that differ; then they repeat."""
 _FLAME_HZ = 6.0
@@ -112,11 +112,11 @@ class Emitter:
 
         It begins at `start_s`, None = long ago.
         """
-        life_s = style.life * math.sqrt(source.size_m / GRAVITY) or _LONG_S
+        life_s = style.life * math.sqrt(source.size_m / GRAVITY_M_S2) or _LONG_S
         if style.body == "drop" and style.life == 0.0:
             height = float(source.at(np.zeros(1))[0, 2])
             height = max(height, 0.02) if math.isfinite(setting.floor_m) else 3.0 * source.size_m
-            life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
+            life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY_M_S2)
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, salvo)
         start = -math.inf if start_s is None else start_s
@@ -140,7 +140,7 @@ class Emitter:
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
         half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
-        rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
+        rate = style.turns * math.sqrt(GRAVITY_M_S2 / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
@@ -184,7 +184,9 @@ class Emitter:
         if style.salvos:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
-            level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
+            level = min(age_s / 0.02, 1.0) * math.exp(
+                -age_s / (0.35 * math.sqrt(size / GRAVITY_M_S2))
+            )
             place += self._offsets(draws)[0]
             hue = self.colours[int(draws[0, 6] * len(self.colours))]
         light = level * style.light * size * size * hue
@@ -193,7 +195,7 @@ class Emitter:
     def _fly(self, time_s: float) -> _Flown:
         """All particles at an instant."""
         style, size = self.style, self.source.size_m
-        unit_s, unit_m_s = math.sqrt(size / GRAVITY), math.sqrt(size * GRAVITY)
+        unit_s, unit_m_s = math.sqrt(size / GRAVITY_M_S2), math.sqrt(size * GRAVITY_M_S2)
         age, draws = self.lives.at(time_s)
         age_s = age * self.lives.life_s
         born_s = time_s - age_s
@@ -202,13 +204,13 @@ class Emitter:
         offset = self._offsets(draws) @ turn.T
         velocity = aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
         velocity *= style.speed * unit_m_s * (0.8 + 0.4 * draws[:, 2:3])
-        pull = GRAVITY * np.array([style.wind, 0.0, -style.gravity])
+        pull = GRAVITY_M_S2 * np.array([style.wind, 0.0, -style.gravity])
         drag_s = math.inf if style.drag is None else style.drag * unit_s
         start = self.source.at(born_s) + offset
         flown_s = age_s
         if style.body == "flake":
             fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
-            up, down = velocity[:, 2], max(GRAVITY * style.gravity, 1e-6)
+            up, down = velocity[:, 2], max(GRAVITY_M_S2 * style.gravity, 1e-6)
             flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
         displacement, heading = flight(flown_s, velocity, drag_s, pull)
         places = start + displacement

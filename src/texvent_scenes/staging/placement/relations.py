@@ -304,7 +304,7 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
     People sit on chairs at a table unless what they do is done standing.
     """
-    kinds = {one.kind for one in group.scene_object.motions if one.kind != "stand"}
+    kinds = {one.kind for one in group.scene_object.motions}
     scale = size_of(group.models[0])
     is_person = group.noun.name in PERSON_NOUNS
     may_sit = is_person and target.noun.name in nouns_with("table")

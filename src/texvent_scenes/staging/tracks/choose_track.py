@@ -13,14 +13,8 @@ from texvent_scenes.models.protocol import Model
 from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
 from texvent_scenes.staging.tracks.oscillations import LEANING, oscillations
-from texvent_scenes.staging.tracks.phases import (
-    BOUNCY,
-    NO_FLOOR_M,
-    PATH_KINDS,
-    activity_of,
-    fallen_m,
-    spin_lift,
-)
+from texvent_scenes.staging.tracks.phase_keys import BOUNCY, NO_FLOOR_M, fallen_m, spin_lift
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
@@ -157,7 +151,7 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
 
 
 def _gain(plan: MotionPlan) -> float:
-    """By how much the pace of what speeds up or slows down in its place grows each second."""
+    """Growth of pace per second, of what speeds up or slows down in its place."""
     pace, end = plan.motion.pace, plan.motion.end_pace
     return 0.0 if end is None else (end - pace) / plan.duration_s
 

@@ -18,12 +18,12 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.tracks.phase_keys import build_path
 from texvent_scenes.staging.tracks.phases import (
     COMING_DOWN,
     GOING,
     PATH_KINDS,
     YAWS,
-    build_path,
     needs_steering,
     usual_speed,
 )

@@ -1,34 +1,27 @@
-"""Phases of an object's motion: their times, and the keys of one continuous track."""
+"""Kinds of motion, and the phases of an object's motion: times and usual speeds."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from texvent_scenes.description import SPIN_RATE_HZ, STANDING
+from texvent_scenes.description import STANDING
 from texvent_scenes.models.activities import (
-    DONE_SEATED,
-    ON_GROUND,
-    PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent_scenes.models.protocol import Model, Noun, Pose
-from texvent_scenes.models.shapes import bounds
+from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
-from texvent_scenes.staging.tracks.oscillations import between, oscillations
-from texvent_scenes.staging.tracks.track import Term, Track, centred
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
 GOING = PATH_KINDS | {"reverse"}
 """Those with a direction of travel."""
-_STEERED = GOING | {"turn"}
-_KEYED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
+STEERED = GOING | {"turn"}
+_KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
     "right": 0.0,
@@ -40,31 +33,10 @@ YAWS = {
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
 _STEERED_DIRECTIONS = frozenset({"backward", "around"})
-NO_FLOOR_M = -1e4
-"""Floor of a path that is not yet placed above the ground, m."""
-QUARTER = 0.5 * math.pi
-_TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
-"""Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
-that the turn to another direction takes."""
-MOST_HASTE = 2.5
-"""Most multiple of its usual speed at which an object does what its time is short for."""
 COMING_DOWN = frozenset({"fall", "bounce", "throw", "sink"})
 """Motions that begin at a height that is said, and lead to the ground."""
-_TIPPING = 0.9
-"""Height over length from which on a body that stands on the ground can fall over."""
-BOUNCY = 0.82
-"""Share of its upward speed that a bounce keeps."""
 _RUNNING = 2.5
 """Running over walking speed of nouns without a number for it."""
-_RAMP_S = 0.3
-_BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
-_CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
-"""Metres up or down per metre along: in general, from a runway, and to it."""
-_LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
-"""Shares of a phase after which wheels leave a runway, or meet it."""
-_CLOCKWISE = frozenset({"clockwise", "right"})
-_REACHED = {"sit down": "sit", "stand up": "stand"}
-"""Getting up and down after something else: the posture that the body goes over to."""
 
 
 @dataclass(frozen=True)
@@ -133,325 +105,6 @@ def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
     is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
     return 0.9 * model.length if is_steered else 0.0
-
-
-def build_path(
-    motions: Sequence[Motion],
-    noun: Noun,
-    model: Model,
-    *,
-    yaw: float,
-    stated_m_s: float | None,
-    duration_s: float,
-    spin_axis: str = "yaw",
-    start_m: float | None = None,
-) -> Track:
-    """The path of several motions, its box centred over (0, 0).
-
-    Args:
-        motions: what it does, in order.
-        noun: the object.
-        model: its model, for its size.
-        yaw: where it heads at first, radians.
-        stated_m_s: speed at pace 1 that takes the place of usual ones, m/s.
-        duration_s: length of the clip, s.
-        spin_axis: channel of a spin.
-        start_m: height above the ground from which it comes down, if it is said, m.
-    """
-    phases = schedule(motions, duration_s)
-    active = (one.kind for one in motions if one.kind != "stand")
-    if start_m is None and next(active, "") == "fall":
-        spans = [one.duration_s for one in phases if one.motion.kind == "fall"]
-        start_m = fallen_m(model, spans[0] if spans else duration_s)
-    builder = _KeyBuilder(
-        noun, model, stated_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
-        start_m=start_m,
-    )  # fmt: skip
-    builder.hurry(phases)
-    for phase in phases:
-        builder.add(phase)
-    first = replace(builder.keys[0], activity=builder.keys[1].activity)
-    path = Track(
-        (0.0, 0.0, builder.initial_height),
-        yaw,
-        (first, *builder.keys[1:]),
-        tuple(builder.terms),
-        usual_speed_m_s=builder.usual(motions[0]),
-        floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
-        pivot_m=builder.pivot_m,
-        edge_m=builder.edge_m,
-    )
-    return centred(path, duration_s)
-
-
-def spin_lift(model: Model) -> float:
-    """Height at which the corners of a flat shape that turns in the picture are above ground, m."""
-    return 0.5 * (math.hypot(model.width, model.height) - model.height)
-
-
-def fallen_m(model: Model, duration_s: float) -> float:
-    """Usual height from which something falls, m."""
-    height = 0.5 * GRAVITY_M_S2 * (0.45 * duration_s) ** 2
-    return min(max(height, model.height), max(1.2 * model.height, 0.5))
-
-
-def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
-    """Turn by an angle, the rate rising and falling smoothly.
-
-    Args:
-        span: how long it takes, s.
-        speed: along the heading, m/s.
-        angle: positive = to the left, radians.
-        least_m: least radius, m; a tighter turn is turned less far.
-    """
-    ramp = min(_RAMP_S, 0.3 * span)
-    turn = angle / (span - ramp)
-    if least_m > 0.0 and speed != 0.0:
-        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
-    return [
-        Key(span - ramp, speed, turn, ramp_s=ramp),
-        Key(ramp, speed, 0.0, ramp_s=ramp),
-    ]
-
-
-class _KeyBuilder:
-    """Collects keys, the first without duration; knows heading and height at the last one."""
-
-    def __init__(
-        self, noun: Noun, model: Model, stated_m_s: float | None, yaw: float, *, is_single: bool,
-        spin_axis: str, start_m: float | None,
-    ) -> None:  # fmt: skip
-        """For a body that heads there at first."""
-        self._noun, self._model = noun, model
-        self._spin_axis, self._start_m = spin_axis, start_m
-        self._stated_m_s, self._haste = stated_m_s, 1.0
-        self._is_single = is_single
-        self._is_free = noun.habitat in ("air", "water")
-        self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
-        self._height = start_m or 0.0
-        self._heading = yaw
-        self.keys = [Key(0.0)]
-        self.terms: list[Term] = []
-        self.pivot_m = self.edge_m = 0.0
-        self.initial_height = self._height
-
-    def add(self, phase: Phase) -> None:
-        """Append the keys of one phase."""
-        motion, span = phase.motion, phase.duration_s
-        if motion.kind in _STEERED:
-            self._travel(motion, span)
-        elif motion.kind in ("rise", "sink"):
-            self._climb(motion, span)
-        elif motion.kind == "spin" and self._spin_axis != "yaw":
-            self._spin_on(phase)
-        elif motion.kind == "spin":
-            turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
-            turn = -turn if motion.direction in _CLOCKWISE else turn
-            self._start(0.0, turn)
-            self._append(Key(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
-        elif motion.kind in ("jump", "bounce"):
-            self._hop(motion, span)
-        elif motion.kind in ("fall", "topple"):
-            self._fall(motion.kind, span)
-        else:
-            waves = oscillations(motion, self._model, 0.0) if motion.kind not in PATH_KINDS else ()
-            self.terms += between(waves, phase.start_s, phase.end_s)
-            self._rest(motion, span)
-
-    def _spin_on(self, phase: Phase) -> None:
-        """Turn a wheel about its axle, or a flat shape in the picture."""
-        model, begin_s, axis = self._model, phase.start_s, self._spin_axis
-        rate = 2.0 * math.pi * SPIN_RATE_HZ * phase.motion.pace
-        rate = -rate if phase.motion.direction in _CLOCKWISE else rate
-        times = {"begin_s": begin_s, "end_s": phase.end_s}
-        self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
-        self.pivot_m = 0.5 * model.height
-        if axis == "roll":  # its corners stay above the ground
-            self.initial_height = max(self.initial_height, spin_lift(model))
-        self._rest(STANDING, phase.duration_s)
-
-    @property
-    def _is_first(self) -> bool:
-        return len(self.keys) == 1
-
-    def _start(self, speed: float, turn: float = 0.0) -> None:
-        """Let the clip begin in full motion."""
-        if self._is_first:
-            self.keys = [Key(0.0, speed, turn)]
-
-    def _append(self, key: Key) -> None:
-        before = self.keys[-1].turn_rad_s
-        span, turn, ramp = key.duration_s, key.turn_rad_s, key.ramp_s
-        self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
-        self._height += key.climb_m_s * span
-        self.keys.append(key)
-
-    def usual(self, motion: Motion) -> float:
-        """Speed at pace 1, m/s."""
-        own = self._stated_m_s
-        return self._haste * usual_speed(self._noun, motion.kind) if own is None else own
-
-    def hurry(self, phases: Sequence[Phase]) -> None:
-        """Raise the speed until every turn is a quarter circle of a plausible radius."""
-        haste, radius = 1.0, max(least_radius(self._model, self._noun), 0.3 * self._model.length)
-        for phase in phases:
-            motion = phase.motion
-            is_turn = motion.kind == "turn" or motion.direction == "around"
-            if is_turn and motion.speed_m_s is None:
-                turning_s = phase.duration_s * (_TURN_SHARE if self._is_single else 0.8)
-                angle = math.pi if motion.direction == "around" else QUARTER
-                haste = max(haste, radius * angle / turning_s / max(self.usual(motion), 0.01))
-        self._haste = min(haste, MOST_HASTE)
-
-    def _speed(self, motion: Motion) -> float:
-        """Signed speed at the beginning of a motion, m/s."""
-        speed = self.usual(motion) * motion.pace if motion.speed_m_s is None else motion.speed_m_s
-        if motion.kind == "turn" and not self._is_mobile:
-            return 0.0
-        is_back = motion.direction == "backward" or motion.kind == "reverse"
-        return -speed if is_back else speed
-
-    def _end_speed(self, motion: Motion, speed: float) -> float | None:
-        if motion.end_pace is None:
-            return None
-        if motion.speed_m_s is not None:
-            return speed * motion.end_pace / max(motion.pace, 1e-6)
-        return math.copysign(self.usual(motion) * motion.end_pace, speed)
-
-    def _travel(self, motion: Motion, span: float) -> None:
-        """Along segments, straight or turning, at the end of which it may change its speed."""
-        speed, activity = self._speed(motion), activity_of(motion.kind)
-        end = self._end_speed(motion, speed)
-        slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
-        climb = slope * abs(speed) if self._is_free else 0.0
-        segments = self._choose_segments(motion)
-        self._start(speed)
-        if end is not None and segments[-1][1]:
-            segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
-        last_s = segments.pop()[0] * span if end is not None else 0.0
-        for share, turn in segments:
-            if turn:
-                for one in arc(share * span, speed, turn, least_radius(self._model, self._noun)):
-                    self._append(replace(one, activity=activity))
-            else:
-                ramp = min(_RAMP_S, 0.35 * share * span)
-                self._append(Key(share * span, speed, 0.0, climb, ramp, activity))
-        if end is not None:
-            # What brakes is seen going, and at rest or slow for a while.
-            lead, ramp = (0.3, 0.4) if abs(end) < abs(speed) else (0.12, 0.88)
-            first_ramp = min(_RAMP_S, 0.35 * lead * last_s)
-            self._append(Key(lead * last_s, speed, 0.0, climb, first_ramp, activity))
-            rest_s = (1.0 - lead) * last_s
-            self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
-
-    def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
-        """Shares of the time, and by what angle each one turns, rad."""
-        direction = motion.direction or ""
-        angle = math.pi if direction == "around" else QUARTER
-        angle = -angle if direction in _CLOCKWISE else angle
-        if motion.kind == "turn" or direction == "around":
-            lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
-            return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
-        target = YAWS.get(direction)
-        if self._is_first or target is None or direction in ("up", "down"):
-            return [(1.0, 0.0)]
-        turn = math.remainder(target - self._heading, 2.0 * math.pi)
-        if abs(turn) < 0.05:
-            return [(1.0, 0.0)]
-        return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
-
-    def _climb(self, motion: Motion, span: float) -> None:
-        """Straight up or down; from a runway, along it first, or last."""
-        is_up = motion.kind == "rise"
-        if self._is_single and self._noun.name in nouns_with("takes off"):
-            speed = self._speed(motion)
-            climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
-            first_s = span * (_LIFT_SHARE if is_up else _LANDING_SHARE)
-            self._start(speed)
-            self._append(Key(first_s, speed, 0.0, 0.0 if is_up else climb, 0.0))
-            self._append(Key(span - first_s, speed, 0.0, climb if is_up else 0.0, 0.6))
-            self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
-            return
-        size = max(self._model.length, self._model.height)
-        climb = self.usual(motion)
-        if motion.kind not in speeds_of(self._noun):
-            climb = min(max(climb, 0.3 * size), size)
-        climb *= motion.pace
-        if motion.speed_m_s is not None:
-            climb = motion.speed_m_s
-        if self._start_m is not None and not is_up:
-            climb = -min(climb, self._height / span)
-        elif not is_up and self._is_single:
-            self.initial_height = climb * 0.85 * span
-            climb = -climb
-        elif not is_up:
-            climb = -climb if self._is_free else -min(climb, self._height / span)
-        # What rises alone starts slowly and gets faster all along.
-        is_slow = is_up and self._is_single and motion.speed_m_s is None
-        ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
-        self._append(Key(span, climb_m_s=factor * climb, ramp_s=ramp))
-
-    def _hop(self, motion: Motion, span: float) -> None:
-        """Jump or bounce; what falls bounces on where it lands."""
-        last = self.keys[-1]
-        is_high = self._start_m is not None and self._height > 0.0
-        if motion.kind == "bounce" and (last.restitution is not None or is_high):
-            self._append(Key(span, last.speed_m_s, restitution=BOUNCY))
-            if last.restitution is not None:
-                both_s = last.duration_s + span
-                self.keys[-2:] = [replace(last, duration_s=both_s, restitution=BOUNCY)]
-            self._height = 0.0
-            return
-        model, speed = self._model, self.keys[-1].speed_m_s
-        height = max(1.5 * model.height, 0.4)
-        if motion.kind == "jump":
-            height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace
-            if self._noun.habitat == "water":
-                height = max(height, 0.7 * model.length)
-            if self._is_first and motion.direction is not None:
-                speed = model.length / (flight_s(height) + HOP_PAUSE_S)
-                self._start(speed)
-        if motion.speed_m_s is not None:
-            speed = motion.speed_m_s
-            self._start(speed)
-        activity = "jump" if motion.kind == "jump" and not speed else "move"
-        ramp = min(_RAMP_S, 0.35 * span)
-        self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
-
-    def _fall(self, kind: str, span: float) -> None:
-        """Drop to the floor; what stands there falls over, unless it is low or round."""
-        is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
-        is_low = self._model.height < _TIPPING * self._model.length or self._noun.motion == "roll"
-        if kind == "fall" and is_standing and is_low:
-            self._rest(STANDING, span)
-            return
-        if kind == "topple" and self._is_first:
-            self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
-            span *= 0.85
-        key = Key(span, activity="stand", restitution=_RESTITUTION)
-        if kind == "topple" or is_standing:
-            if self._noun.name not in nouns_with("falls over"):  # those stand on a small foot
-                standing = self._model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-                self.edge_m = float(bounds(standing)[1][0])
-            key = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
-        self._append(key)
-        self._height = 0.0
-
-    def _rest(self, motion: Motion, span: float) -> None:
-        """Come to rest, and act in place."""
-        last = self.keys[-1]
-        activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
-        if not self._is_first:
-            activity = _REACHED.get(activity, activity)
-            is_low = last.activity.startswith(("sit", "lie")) and activity in DONE_SEATED
-            activity = f"{ON_GROUND['sit']} and {activity}" if is_low else activity
-        if self._noun.name in PERSON_NOUNS:
-            activity = ON_GROUND.get(activity, activity)
-        if not self._is_first and motion.kind == "stand":
-            activity = last.activity  # wheels and legs go on until it stands
-        braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
-        ramp = min(braking, 0.9 * span)
-        self._append(Key(span, ramp_s=ramp, activity=activity, pitch_rad=last.pitch_rad))
 
 
 def activity_of(kind: str) -> str:

@@ -103,9 +103,9 @@ class Term(NamedTuple):
     rate_hz: float = 0.0
     phase: float = 0.0
     drift: float = 0.0
-    """By how much it grows each second."""
+    """Growth per second."""
     gain: float = 0.0
-    """By how much the drift grows each second."""
+    """Growth of the drift per second."""
     offset: float = 0.0
     begin_s: float = -math.inf
     end_s: float = math.inf

@@ -7,12 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
-from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball_mesh, hit_mesh_reference
+from tests.scenes.raycast.meshes.mesh_scenes import (
+    MeshScene,
+    ball,
+    ball_mesh,
+    hit_mesh_reference,
+)
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
 from texvent.sensor import SensorSize
-from texvent_scenes.mesh import make_mesh
+from texvent_scenes.mesh import make_mesh, recoloured, smooth_normals, triangle_normals
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.raycast.meshes.hit import hit_mesh
 from texvent_scenes.raycast.render import world_at
@@ -137,3 +142,47 @@ def test_flow_of_a_mesh_follows_its_triangles():
         moved = project(scene.camera(times[1]), (weights @ stop[one])[None], size)[0]
         expected = moved - [column + 0.5, row + 0.5]
         np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
+
+
+@given(half=st.tuples(*3 * [st.floats(0.2, 5.0)]), across=st.integers(20, 40))
+@examples(12)
+def test_smooth_normals_are_those_of_the_surface_that_triangles_stand_for(half, across):
+    """A sphere's are its places; of one that is stretched they go with the gradient."""
+    vertices, triangles = ball(across, across // 2)
+    normals = smooth_normals(vertices, triangles)
+    assert (normals * vertices[triangles]).sum(axis=2).min() > 0.99
+    mesh, to_file = make_mesh(vertices * half, triangles, normals=normals / np.float32(half))
+    inverse = np.linalg.inv(to_file[:, :3])
+    turned = mesh.normals.astype(np.float64) @ inverse  # a normal goes by the transposed inverse
+    turned /= np.linalg.norm(turned, axis=2, keepdims=True)
+    gradient = normals / np.array(half)
+    gradient /= np.linalg.norm(gradient, axis=2, keepdims=True)
+    np.testing.assert_allclose(turned, gradient, atol=1e-5)
+
+
+@pytest.mark.parametrize("crease", [40.0, 25.0])
+@pytest.mark.parametrize("angle", [20.0, 30.0, 45.0, 100.0])
+def test_an_edge_is_rounded_up_to_the_crease(angle, crease):
+    """Two triangles that meet at an edge; their mean turns away from each by half of the angle."""
+    a, b = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    vertices = np.array([[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [a, 0.5, -b]])
+    triangles = np.array([[0, 1, 2], [1, 0, 3]])
+    normals = smooth_normals(vertices, triangles, crease)
+    flat = triangle_normals(vertices, triangles.astype(np.int32))
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    turned = np.degrees(np.arccos(np.clip((normals * flat[:, None]).sum(axis=2), -1.0, 1.0)))
+    half = 0.5 * angle if 0.5 * angle < crease else 0.0
+    np.testing.assert_allclose(turned, [[half, half, 0.0]] * 2, atol=0.05)
+
+
+@given(st.integers(0, 2**32 - 1))
+@examples(12)
+def test_a_colour_keeps_what_is_brighter_by_luma(seed):
+    rng = np.random.default_rng(seed)
+    vertices, triangles = ball(6, 4)
+    colours = rng.uniform(0.1, 0.6, (len(triangles), 3, 3)).astype(np.float32)
+    mesh, _ = make_mesh(vertices, triangles, colours=colours)
+    tint = (0.2, 0.05, 0.1)
+    luma = 0.2126 * colours[..., 0] + 0.7152 * colours[..., 1] + 0.0722 * colours[..., 2]  # BT.709
+    expected = (luma / luma.mean())[..., None] * tint
+    np.testing.assert_allclose(recoloured(mesh, tint).colours, expected, rtol=1e-5)

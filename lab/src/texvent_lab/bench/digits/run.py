@@ -7,11 +7,7 @@ so that a run that was stopped goes on.
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import json
 import time
-import zipfile
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,7 +45,8 @@ from texvent_lab.bench.digits.results import DigitsReport, SetScore, compare_wit
 from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 from texvent_lab.bench.digits.training import predict, train_network
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.kept_results import digest_of, is_whole, make_missing
 from texvent_lab.train.schedule import EXTRA
 
 PROTOCOL = 4
@@ -84,17 +81,12 @@ def run_digits(
     check_range("jobs", jobs, 1)
     require("torch", extra=EXTRA)
     run = open_run(plan)
-    steps = (
-        (make_set, [cell for cell in plan.cells if not is_whole(run.set_path(cell))]),
-        (
-            train_one,
-            [one for one in plan.every_training if not is_whole(run.prediction_path(one))],
-        ),
-    )
-    for function, missing in steps:
-        done = run_jobs(function, [(run, one) for one in missing], jobs)
-        for number, line in enumerate(done, start=1):
-            progress(f"{number} of {len(missing)}  {line}")
+    for function, todo, path in (
+        (make_set, plan.cells, run.set_path),
+        (train_one, plan.every_training, run.prediction_path),
+    ):
+        steps: list[tuple[Any, ...]] = [(one,) for one in todo]
+        make_missing(function, run, steps, path, jobs=jobs, progress=progress)
     return collect(run, time.perf_counter() - start)
 
 
@@ -137,24 +129,6 @@ class Run:
         how = (plan.steps, schedule.batch_size, schedule.learning_rate, plan.precision)
         facts = (self.recorded, seen, training.representation, training.seed, *how)
         return self.path("predicted", ".npz", *facts)
-
-
-def is_whole(path: Path) -> bool:
-    """Whether a result is there and as it was written; a zip knows sums of its parts."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return archive.testzip() is None
-    except (OSError, zipfile.BadZipFile, zlib.error):
-        return False
-
-
-def digest_of(*values: Any) -> str:
-    """A name for plain values and bytes."""
-    found = hashlib.sha256()
-    for value in values:
-        content = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True).encode()
-        found.update(hashlib.sha256(content).digest())
-    return found.hexdigest()[:20]
 
 
 def open_run(plan: DigitsPlan) -> Run:

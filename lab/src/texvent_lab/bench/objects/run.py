@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -25,13 +25,12 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, InputError, shown, warnings_to
 from texvent.extending import require, suggest
-from texvent.io.atomic import atomic_file
 from texvent.runtime.files.cache_folder import make_folder
 from texvent_lab.bench.detection.run import with_count
-from texvent_lab.bench.digits.run import digest_of, is_whole
 from texvent_lab.bench.digits.training import Precision, predict, train_network
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.kept_results import digest_of, make_missing, write_arrays
 from texvent_lab.bench.objects.arms import Arm, Test, read_factors, with_folder
 from texvent_lab.bench.objects.clips import PILOT, make_windows, match_threshold, render_clip
 from texvent_lab.bench.objects.recorded import (
@@ -79,7 +78,7 @@ class ObjectsPlan:
     work: Path
     """Folder that keeps what was made."""
     arms: tuple[str, ...] = ()
-    """Variants to train on; none: all."""
+    """Variants to train on, each for the tests that have it; none: all."""
     factors: Path | None = None
     """File of arms that differ from one in a property, in place of those; see `read_factors`."""
     clips: int | None = None
@@ -143,7 +142,8 @@ class ObjectsPlan:
     @property
     def reference(self) -> str:
         """Arm that the others are compared with."""
-        return next(iter(self.sets["table"])) if self.factors else REFERENCE
+        names = [name for of_test in self.sets.values() for name in of_test]
+        return names[0] if self.factors else REFERENCE
 
 
 @dataclass(frozen=True)
@@ -239,9 +239,10 @@ def run_objects(
         for arm in plan.sets[test].values()
         for one in arm.items
     }
-    _do(render, run, list(clips.values()), lambda one: run.frames_path(*one), jobs, progress)
+    todo = list(clips.values())
+    make_missing(render, run, todo, run.frames_path, jobs=jobs, progress=progress)
     sets = [(test, name) for test in tests for name in plan.sets[test]]
-    _do(simulate, run, sets, lambda one: run.windows_path(*one), jobs, progress)
+    make_missing(simulate, run, sets, run.windows_path, jobs=jobs, progress=progress)
     # Seed by seed: a run that is stopped has whole rounds.
     networks = sorted(
         (
@@ -252,7 +253,7 @@ def run_objects(
         ),
         key=lambda key: key[0].seed,
     )
-    _do(train, run, networks, lambda one: run.prediction_path(*one), jobs, progress)
+    make_missing(train, run, networks, run.prediction_path, jobs=jobs, progress=progress)
     progress("scores")
     return ObjectsReport(
         environment=describe_environment(),
@@ -266,20 +267,6 @@ def run_objects(
         reference=plan.reference,
         seconds=time.perf_counter() - start,
     )
-
-
-def _do(
-    function: Callable[..., str],
-    run: Run,
-    todo: Sequence[tuple[Any, ...]],
-    path: Callable[[tuple[Any, ...]], Path],
-    jobs: int,
-    progress: Progress,
-) -> None:
-    """Make the files that are missing."""
-    missing = [(run, *one) for one in todo if not is_whole(path(one))]
-    for number, line in enumerate(run_jobs(function, missing, jobs), start=1):
-        progress(f"{number} of {len(missing)}  {line}")
 
 
 def render(run: Run, arm: Arm, item: Item) -> str:
@@ -306,7 +293,7 @@ def simulate(run: Run, test: Test, name: str) -> str:
     if test == "table":
         frames = frames.select(np.isfinite(frames.boxes[:, 0]))
     facts = {"threshold": np.nan if threshold is None else threshold, "events": events}
-    _write(run.windows_path(test, name), **vars(frames), **facts)
+    write_arrays(run.windows_path(test, name), **vars(frames), **facts)
     share = float((frames.images != 0).mean())
     return (
         f"{test}, {name}: threshold {threshold}, {share:.3f} of pixels, {len(frames.images)} "
@@ -338,14 +325,9 @@ def train(run: Run, one: Training) -> str:
         images = np.concatenate([in_cells(learned.images), in_cells(learned.images[:, :, ::-1])])
         network = train_network(images, np.tile(learned.classes, 2), **options)
         found = predict(network, in_cells(recorded.images[test]))
-    _write(run.prediction_path(one), found=found, numbers=np.flatnonzero(test))
+    write_arrays(run.prediction_path(one), found=found, numbers=np.flatnonzero(test))
     seconds = time.perf_counter() - started
     return f"{one.test}, {one.arm or 'recorded'}, seed {one.seed}: {seconds:.0f} s"
-
-
-def _write(path: Path, **arrays: Any) -> None:
-    with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
-        np.savez_compressed(file, **arrays)
 
 
 def read_windows(path: Path) -> Frames:
@@ -386,14 +368,17 @@ def _joined(parts: list[tuple[NDArray[np.int64], NDArray[Any]]], test: Test) -> 
 
 def _protocol(run: Run) -> dict[str, Any]:
     plan = run.plan
-    first = {test: next(iter(arms.values())) for test, arms in plan.sets.items()}
     return {
-        "clips": {test: len(arm.items) for test, arm in first.items()},
+        "clips": {test: len(read_items(one).all) for test, one in plan.specifications.items()},
         "steps of training": plan.steps,
         "batch size": plan.schedule.batch_size,
         "precision": plan.precision,
         "networks per arm": plan.seeds,
         "spread of thresholds": plan.spread,
         "recorded share of pixels with an event": {test: run.target(test) for test in CLASSES},
-        "arms": {name: dict(arm.options) for name, arm in plan.sets["table"].items()},
+        "arms": {
+            name: dict(arm.options)
+            for test in ("turntable", "table")
+            for name, arm in plan.sets[test].items()
+        },
     }

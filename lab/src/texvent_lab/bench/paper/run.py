@@ -17,9 +17,7 @@ from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SENSORS
-from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import (
-    ConfigEntry,
     Entry,
     missing_rife,
 )
@@ -30,7 +28,7 @@ from texvent_lab.bench.paper.augmentation import (
     measure_augmented_reconstruction,
     measure_recognition,
 )
-from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
+from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
 from texvent_lab.bench.real.recording import RealScene, open_scene
 from texvent_lab.bench.real.run import run_real
@@ -42,7 +40,6 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
 from texvent_lab.frame_recordings import recording_name
-from texvent_lab.plug_ins.super_slomo import find_super_slomo
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent_lab.train.classification.config import (
@@ -70,18 +67,9 @@ get motion compensation; the others get the frames alone. `find_columns` has tho
 CLASSIFIER = ClassNetwork(name="resnet34", representation="binary-event-image")
 """N-ImageNet's published classifier."""
 OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
-EQ7_READING = (
-    "E12: Eq. 7's minimum and maximum are over the pixels that fire. The letter takes all pixels: "
-    "STPP .680 for .690 on davis346, .553 for .563 on slider_depth (24 frames, δ = .2, no noise); "
-    "random times .708 and .577"
-)
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
 PROMPT = "a red car drives left past two trees at dusk"
 TIMED_PAIRS, REPEATS = 12, 3
-EQS_NEED = (
-    "EQS itself: it needs RVT's weights, and streams of N-ImageNet and streams simulated from "
-    "their captions, which no one publishes"
-)
 
 
 def measure_table(config: PaperConfig, progress: Progress) -> Measured:
@@ -153,68 +141,6 @@ def interpolation(config: PaperConfig) -> Measured:
     if reason is None:
         return Measured(notes=["Texvent interpolates by RIFE at every instant, as in the paper"])
     return Measured(notes=[f"Texvent interpolates by flow, not by the paper's RIFE: {reason}"])
-
-
-def leave_out_other_tables(number: int, entries: Sequence[ConfigEntry]) -> list[ConfigEntry]:
-    """The rows of Table 4 or 5, and the user's own; not those of the other of the two."""
-    others = {column for table in ABLATIONS for column in TABLES[table].columns}
-    return [one for one in entries if one.name not in others - set(TABLES[number].columns)]
-
-
-def measure_ablations(number: int, report: FidelityReport) -> Measured:
-    """STPP of the rows of Table 4 or 5, and its paired difference to the paper's own setting.
-
-    Args:
-        number: 4 or 5.
-        report: a run of the files in configs/paper, on scenes, on recordings, or both.
-    """
-    rows: dict[str, dict[str, str]] = {}
-    for reference in report.references:
-        scores = {one.entry: one for one in report.ranked(reference.scene, reference.target)}
-        compared = report.comparison(reference)
-        has_baseline = BASELINE in scores
-        against = compared.differences(BASELINE) if has_baseline and compared.is_enough else None
-        stpp: dict[str, str] = {}
-        difference: dict[str, str] = {}
-        for column in TABLES[number].columns:
-            if column not in scores:
-                continue
-            score = scores[column]
-            lost = " (count not reached)" if score.threshold and not score.is_matched else ""
-            stpp[column] = f"{score.summary('stpp').mean:.3f}{lost}"
-            if not has_baseline or column == BASELINE:
-                continue
-            if against is not None:
-                difference[column] = difference_text(against[column], sign="+")
-            else:
-                found = score.difference("stpp", scores[BASELINE])
-                difference[column] = f"{found.mean:+.3f} ± {found.standard_error:.3f}"
-        rows[f"STPP ↑, {reference.title}"] = stpp
-        rows[f"− {BASELINE}, {reference.title}"] = difference
-    notes = [EQ7_READING] if number == 5 else []
-    return Measured(rows, notes, [EQS_NEED])
-
-
-def choose_e8(
-    entries: Sequence[ConfigEntry], weights: Path | None
-) -> tuple[list[ConfigEntry], Measured]:
-    """E8 by Super SloMo where its weights are, else as its file says; and a note of which.
-
-    Raises:
-        InputError: there is no file `weights`.
-    """
-    try:
-        path = find_super_slomo(weights)
-    except InputError:
-        if weights is not None:
-            raise
-        note = "E8: optical flow in place of Super SloMo, with VID2E's number of frames"
-        return list(entries), Measured(
-            notes=[note], needs=["E8 by Super SloMo: --slomo-weights FILE"]
-        )
-    options = (("interpolate", "super-slomo"), ("interpolator_weights", path))
-    chosen = [replace(one, options=options) if one.name == "E8" else one for one in entries]
-    return chosen, Measured(notes=[f"E8: Super SloMo ({path}), with VID2E's number of frames"])
 
 
 def measure_event_frames(

@@ -36,7 +36,7 @@ class ObjectsOptions:
     turntables: Path = REQUIRED
     """Folder of the recordings DataSet2_*.aedat."""
     arms: str | None = None
-    """Names of variants, separated by commas; default: all."""
+    """Names of variants, separated by commas, each for the tests that have it; default: all."""
     factors: Path | None = None
     """File of arms that differ from one of those in a single property, in place of them."""
     clips: int | None = None

@@ -16,6 +16,11 @@ from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, read_ablation
 from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.ablations import (
+    choose_e8,
+    leave_out_other_tables,
+    measure_ablations,
+)
 from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.figures import ABLATED, ABLATION_FIGURE, draw_figure
 from texvent_lab.bench.paper.published_tables import (
@@ -24,14 +29,7 @@ from texvent_lab.bench.paper.published_tables import (
     compare_with_paper,
     join_measured,
 )
-from texvent_lab.bench.paper.run import (
-    choose_e8,
-    find_columns,
-    interpolation,
-    leave_out_other_tables,
-    measure_ablations,
-    measure_table,
-)
+from texvent_lab.bench.paper.run import find_columns, interpolation, measure_table
 from texvent_lab.bench.real.recording import open_scene
 from texvent_lab.bench.real.run import run_real
 from texvent_lab.commands.bench.bench import ResultOptions

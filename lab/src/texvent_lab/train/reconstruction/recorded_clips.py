@@ -35,7 +35,7 @@ TRAINED_SHARE = 0.8
 FRAME: Target = "frame"
 
 
-class Clips(Protocol):
+class NumberedClips(Protocol):
     """Clips that are cut into windows, by number."""
 
     @property
@@ -104,7 +104,7 @@ class RecordedClips:
 
     @property
     def identity(self) -> str:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         return digest([path.name for path in self.files])
 
     @cached_property
@@ -128,16 +128,16 @@ class RecordedClips:
 
     @cached_property
     def size(self) -> SensorSize:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         return self.read(0, 0, 1).events[0].size
 
     def draw(self, number: int, chance: np.random.Generator, count: int | None = None) -> Windows:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         wanted = self.data.length if count is None else count
         return self.read(number, int(chance.integers(self.runs[number][2] - wanted + 1)), wanted)
 
     def read(self, number: int, first: int = 0, count: int | None = None) -> Windows:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         path, start, available = self.runs[number]
         return read_clip(
             path, start + first, available - first if count is None else count, [FRAME]
@@ -157,8 +157,8 @@ class RecordedClips:
 class ExtendedClips:
     """Clips, and the first few of others."""
 
-    clips: Clips
-    more: Clips
+    clips: NumberedClips
+    more: NumberedClips
     count: int
     """Number of the others."""
 
@@ -173,23 +173,23 @@ class ExtendedClips:
 
     @property
     def identity(self) -> str:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         return digest([self.clips.identity, self.more.identity, self.count])
 
     @property
     def size(self) -> SensorSize:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         return self.clips.size
 
     def draw(self, number: int, chance: np.random.Generator, count: int | None = None) -> Windows:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         before = len(self.clips)
         if number < before:
             return self.clips.draw(number, chance, count)
         return self.more.draw(number - before, chance, count)
 
     def read(self, number: int, first: int = 0, count: int | None = None) -> Windows:
-        """See `Clips`."""
+        """See `NumberedClips`."""
         before = len(self.clips)
         if number < before:
             return self.clips.read(number, first, count)

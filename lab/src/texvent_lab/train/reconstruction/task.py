@@ -38,7 +38,11 @@ from texvent_lab.train.reconstruction.config import (
     ReconstructionConfig,
 )
 from texvent_lab.train.reconstruction.losses import SequenceLoss
-from texvent_lab.train.reconstruction.recorded_clips import Clips, ExtendedClips, RecordedClips
+from texvent_lab.train.reconstruction.recorded_clips import (
+    ExtendedClips,
+    NumberedClips,
+    RecordedClips,
+)
 from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.task import Batches
@@ -110,7 +114,7 @@ class ReconstructionTask:
             workers=workers,
         )
 
-    def _check_sides(self, clips: Clips, multiple: int) -> None:
+    def _check_sides(self, clips: NumberedClips, multiple: int) -> None:
         """Refuse a crop that the network or its loss cannot take."""
         crop = clips.data.crop
         sides = tuple(clips.size) if crop is None else (crop, crop)
@@ -163,14 +167,14 @@ class ReconstructionTask:
         return {name: one.detach() for name, one in network.tensors.items()}
 
 
-def _open(data: SequenceData, split: str, targets: list[Target]) -> Clips:
+def _open(data: SequenceData, split: str, targets: list[Target]) -> NumberedClips:
     """The clips of a split; recordings have frames alone."""
     if data.recordings:
         return RecordedClips.open(data, split)
     return WindowedClips.open(data, split, targets)
 
 
-def _extended(clips: Clips, extra: ExtraClips) -> ExtendedClips:
+def _extended(clips: NumberedClips, extra: ExtraClips) -> ExtendedClips:
     """The clips, and a share of simulated ones.
 
     Raises:
@@ -206,7 +210,7 @@ def _as_scored(image: Intensity, frame: NDArray[np.float32]) -> tuple[Float64Arr
 class ReconstructionExamples:
     """Voxel grids, true images and flow of training sequences, by number of the clip."""
 
-    clips: Clips
+    clips: NumberedClips
     augmentation: ReconstructionAugmentation
     bins: int
     is_normalised: bool

@@ -1,0 +1,67 @@
+"""Angles from which the camera looks at its subject: azimuth and elevation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.places import is_room
+from texvent_scenes.staging.actors import Actor, seeded
+from texvent_scenes.staging.camera.camera_track import TimedMove
+
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
+"""View → elevation of the camera, rad."""
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
+_ROOM_ELEVATION = 0.24
+_ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
+"""Length over height, and length in m, from which on a subject is seen at an angle to its side."""
+
+
+def goes_in_depth(actor: Actor) -> bool:
+    """Whether it goes away from the camera or towards it, rather than across the picture."""
+    step = np.subtract(actor.track.at(0.5).position, actor.track.at(0.0).position)
+    return bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+
+
+def choose_angles(
+    description: SceneDescription,
+    main: Actor,
+    moves: Sequence[TimedMove],
+    place: str,
+    seed: int,
+) -> tuple[float, float]:
+    """Azimuth and elevation of the camera, radians."""
+    wander = float(seeded(seed, "camera").uniform(-0.14, 0.14))
+    yaw, is_in_depth = main.track.at(0.0).yaw, goes_in_depth(main)
+    length = main.model.length  # all of a train or a ship from the side would be a thin line
+    is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
+    follows = any(one.move.kind == "follow" for one in moves)
+    if is_in_depth:
+        azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
+    elif is_long and main.noun.motion in ("drive", "sail"):
+        azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
+    else:
+        azimuth = wander
+    elevation = ELEVATIONS.get(description.camera.view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, place, is_in_depth)
+    return azimuth, elevation
+
+
+def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
+    """Height of the camera above what it looks at, radians."""
+    model = main.model
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if is_room(place):
+        return _ROOM_ELEVATION
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and model.height > 5.0:
+        return 0.03
+    if model.height < 0.7:
+        return 0.24
+    return 0.2 if is_in_depth else 0.12
