@@ -130,7 +130,7 @@ class ObjectsPlan:
         every = read_factors(self.factors, found) if self.factors else found
         self._check_arms({name for of_test in every.values() for name in of_test})
         return {
-            test: {name: arm for name, arm in of_test.items() if name in (self.arms or of_test)}
+            test: {name: of_test[name] for name in self.arms or of_test if name in of_test}
             for test, of_test in every.items()
         }
 
