@@ -256,6 +256,17 @@ def test_a_belt_carries_what_is_on_it_up_to_its_end(pace):
         assert all(abs(one.track.at(t).position[0]) <= half for t in np.linspace(0.0, 3.0, 7))
 
 
+@pytest.mark.parametrize("kind", [None, "stand", "hang", "spin", "bounce", "walk", "run in place"])
+def test_a_belt_carries_what_stands_on_it_and_nothing_that_moves_by_itself(kind):
+    motions = () if kind is None else (Motion(kind),)
+    relations = (Relation("on", ("conveyor belt",)),)
+    for noun in ("dog", "man"):
+        rider = SceneObject(noun, motions=motions, relations=relations)
+        _, one = place(SceneObject("conveyor belt", motions=(Motion("work"),)), rider)
+        is_carried = one.track.at(1.0).position[0] - one.track.at(0.5).position[0] > 0.15
+        assert is_carried == (kind in (None, "stand")), noun
+
+
 def test_a_board_tilts_then_rotates_at_the_rate_that_is_said():
     motions = (Motion("tilt", rate_hz=1.0), Motion("rotate", rate_hz=0.5))
     (board,) = place(SceneObject("checkerboard", motions=motions))
