@@ -278,7 +278,7 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
 class _InnerLibrary(JITCodeLibrary):
     """Code of an inner function as it was lowered: the kernels that it is linked into optimise it.
 
-    To optimise it here too, with all that it calls, took an eighth of the time that kernels compile.
+    To optimise it here too, with all that it calls, takes an eighth of the time to compile.
     """
 
     def add_llvm_module(self, ll_module: Any) -> None:
