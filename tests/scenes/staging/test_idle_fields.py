@@ -276,7 +276,9 @@ def test_what_waits_before_it_falls_is_said_to_hang_in_the_air():
     assert note not in understand("a ball falls", NOUNS).notes
 
 
-@pytest.mark.parametrize(("noun", "is_held"), [("ball", True), ("box", True), ("street lamp", False)])
+@pytest.mark.parametrize(
+    ("noun", "is_held"), [("ball", True), ("box", True), ("street lamp", False)]
+)
 def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
     late, once = (
         stage(thing(noun, *motions)) for motions in ((("stand",), ("fall",)), (("fall",),))
