@@ -191,11 +191,11 @@ class _SentenceReader:
     # Noun groups
 
     def _pick(self, group: Group) -> list[int]:
-        """One of several things, or the others: "two dogs, a brown one and a white one"."""
+        """Some of several things, or the others: "two dogs, a brown one and a white one"."""
         draft = self._draft
-        if group.of is not None and group.picks:  # "one of the dogs"
+        if group.of is not None and group.picks:  # "two of the dogs"
             self._name(group.of.groups[0])
-        picked = draft.pick(group.picks) if group.picks else []
+        picked = draft.pick(group.picks, group.count) if group.picks else []
         for token in group.unknown if picked else ():
             self._say(token, picked)
             draft.show(*([token] if token.text == group.picks else []))
@@ -351,8 +351,8 @@ class _SentenceReader:
             is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
             others, targets = (subjects, self._earlier) if is_own else (self._nearest, subjects)
             others = others if kind and targets else []
-            if not any([self._relate_one(kind, one, targets) for one in others]):
-                draft.mark(token, "lost")
+            is_so = any([self._relate_one(kind, one, targets) for one in others])
+            draft.mark(token, "shown" if is_so else "lost")
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"

@@ -8,7 +8,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import stage
+from tests.scenes.staged import stage, thing
 
 from texvent.errors import ConfigError
 from texvent_scenes.defaults import complete
@@ -282,6 +282,23 @@ def test_a_rest_that_changes_nothing_is_left_out_of_a_sentence():
 
 
 def test_what_waits_before_it_falls_is_said_to_hang_in_the_air():
-    note = "the ball is held in the air until it falls"
+    note = "the ball hangs on a thread until it falls"
     assert note in understand("a ball falls after 0.5 seconds", NOUNS).notes
     assert note not in understand("a ball falls", NOUNS).notes
+
+
+@pytest.mark.parametrize(
+    ("noun", "is_held"), [("ball", True), ("box", True), ("street lamp", False)]
+)
+def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
+    late, once = (
+        stage(thing(noun, *motions)) for motions in ((("stand",), ("fall",)), (("fall",),))
+    )
+    threads = len(late.still.shape) - len(once.still.shape)
+    assert threads == is_held
+    body = late.actors[0].corners(0.0)
+    middle = 0.5 * (body.min(axis=0) + body.max(axis=0))
+    for to_world in late.still.to_world[len(late.still.shape) - threads :]:
+        ends = to_world[:, 3] + np.outer((-1.0, 1.0), to_world[:, 2])
+        assert np.allclose(ends[:, :2], middle[:2], atol=1e-6)
+        assert middle[2] < ends[:, 2].min() < body[:, 2].max() < ends[:, 2].max() - 10.0
