@@ -139,8 +139,8 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     device: str = "cpu"
     """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
     randomize: str | ClipRanges | PhysicalRanges = "v2v"
-    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings, on a CPU; "none"
-    (the place in the video alone); or ranges."""
+    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings; "none" (the
+    place in the video alone); or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0
@@ -168,11 +168,6 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             counts="counts" in chosen, latest="surfaces" in chosen, events="events" in chosen,
         )  # fmt: skip
         self._device = _checked_device(self.device)
-        if isinstance(self._ranges, PhysicalRanges) and self._device.type != "cpu":
-            raise ConfigError(
-                f"device is {shown(self.device)}, and pixels of the physical model are drawn per "
-                "clip on a CPU; give device='cpu', or randomize='v2v'"
-            )
         self._plan = CutPlan(
             as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
