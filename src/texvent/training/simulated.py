@@ -23,6 +23,8 @@ def simulate_clips(
     ranges: Ranges,
     drawn: tuple[NDArray[np.float64], NDArray[np.uint64]],
     outputs: ClipOutputs,
+    *,
+    on_gpu: bool,
 ) -> ClipArrays:
     """Arrays of the clips, on the device of the frames.
 
@@ -32,14 +34,14 @@ def simulate_clips(
         ranges: what was drawn from, which decides the pixel model.
         drawn: numbers and key of each clip, see `draws.ClipDraw`.
         outputs: what is made.
+        on_gpu: whether the kernels of GPUs make it, or those of the CPU.
 
     Returns:
         Tensors.
     """
-    is_on_gpu = frames.device.type != "cpu"
     if isinstance(ranges, PhysicalRanges):
         configs = [ranges.config(one) for one in drawn[0]]
-        if is_on_gpu:
+        if on_gpu:
             from texvent.simulation.clips.physical_gpu import simulate_physical_on_gpu
 
             return simulate_physical_on_gpu(frames, times_us, configs, drawn[1], outputs)
@@ -48,7 +50,7 @@ def simulate_clips(
         made = simulate_physical(frames.numpy(), times_us, configs, drawn[1], outputs)
         return _as_tensors(made)
     pixels = ClipPixels(*drawn, byte_brightness(ranges.gamma, ranges.log_eps))
-    if is_on_gpu:
+    if on_gpu:
         from texvent.simulation.clips.scan_triton import simulate_on_gpu
 
         return simulate_on_gpu(frames, times_us, pixels, outputs)

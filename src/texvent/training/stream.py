@@ -168,6 +168,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             counts="counts" in chosen, latest="surfaces" in chosen, events="events" in chosen,
         )  # fmt: skip
         self._device = _checked_device(self.device)
+        self._is_on_gpu = self._device.type != "cpu"
         self._plan = CutPlan(
             as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
@@ -213,7 +214,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         rank, world = self._place()
         info = _data.get_worker_info()
         worker, workers = (info.id, info.num_workers) if info is not None else (0, 1)
-        if info is not None and self._device.type != "cpu":
+        if info is not None and self._is_on_gpu:
             raise ConfigError(
                 f"workers cannot simulate on {self.device}; take a DataLoader without workers: "
                 "frames are cut ahead in a thread"
@@ -308,7 +309,9 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         frames = _torch.from_numpy(np.stack([cut.frames for cut in ready.cuts])).to(self._device)
         times_us = np.stack([cut.times_us for cut in ready.cuts])
         check_clips(frames, times_us, self._outputs)
-        made = simulate_clips(frames, times_us, ranges, (numbers, keys), self._outputs)
+        made = simulate_clips(
+            frames, times_us, ranges, (numbers, keys), self._outputs, on_gpu=self._is_on_gpu
+        )
         windows = _torch.from_numpy(times_us[:, ::per].copy()).to(self._device)
         places = np.array([cut.place for cut in ready.cuts])
         draws = dict(zip((*THRESHOLDS, *ranges.drawn), numbers.T, strict=False))

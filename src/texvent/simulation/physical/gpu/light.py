@@ -51,12 +51,13 @@ def make_rules(configs: Sequence[PhysicalConfig], device: Any) -> PhysicalRules:
     Raises:
         ConfigError: clips differ in what a launch has once.
     """
-    for name, value in (
-        ("noise_curve", lambda config: config.noise_curve),
-        ("gamma, 1 or not,", lambda config: config.gamma == 1.0),
-        ("cutoff_hz, 0 or not,", lambda config: config.cutoff_hz == 0),
-    ):
-        if len({value(config) for config in configs}) > 1:
+    alike: dict[str, set[object]] = {
+        "noise_curve": {config.noise_curve for config in configs},
+        "gamma, 1 or not,": {config.gamma == 1 for config in configs},
+        "cutoff_hz, 0 or not,": {config.cutoff_hz == 0 for config in configs},
+    }
+    for name, values in alike.items():
+        if len(values) > 1:
             raise ConfigError(f"{name} must be the same for all clips of a batch")
     curve = parse_noise_curve(configs[0].noise_curve)
     logs = np.log(curve.rates_hz)

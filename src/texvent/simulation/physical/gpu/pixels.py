@@ -32,8 +32,9 @@ class PhysicalGpuPixels(GpuPixels[PhysicalConfig | Sequence[PhysicalConfig]]):
             seeds: one per clip.
         """
         super().__init__(config, CIRCUIT_LAUNCH)
-        is_one = isinstance(config, PhysicalConfig)
-        self._configs = [config] * len(seeds) if is_one else list(config)
+        if isinstance(config, PhysicalConfig):
+            config = (config,) * len(seeds)
+        self._configs = config
         self._seeds = seeds
 
     def begin(self, frames: Tensor) -> None:
