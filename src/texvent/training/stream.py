@@ -178,7 +178,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
                 "flow is from frame to frame; it needs frames_per_grid 1, speed (1, 1)"
             )
         self._place()
-        self._source = find_source(self.source, self._plan.size, self.fps)
+        self._source = find_source(self.source, self._plan.size, self.fps, str(self._device))
         lacking = [name for name in self._names if name not in self._source.known_truth]
         if lacking:
             known = ", ".join(self._source.known_truth) or "none: take PromptClips or a data set"
