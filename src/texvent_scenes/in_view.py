@@ -93,7 +93,7 @@ def find_unseen(
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
-    gone = {*list_orphans(description)}
+    unseen = {*list_orphans(description)}
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]
@@ -115,15 +115,15 @@ def find_unseen(
             outside.append(f"{thing.noun} (cut off)")
         else:
             continue
-        gone.add(index)
-    violations = [*_list_words_of(description, gone)]
+        unseen.add(index)
+    violations = [*_list_words_of(description, unseen)]
     violations += [one for one in find_violations(description, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
-    gone = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
+    notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
-        tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(gone)),
+        tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
     )  # fmt: skip
 
 
