@@ -72,6 +72,28 @@ def test_turned_and_deep_videos_are_those_of_pyav(options, tmp_path):
     assert found is None or np.abs(found.pixels - expected.frames.astype(int)).mean() <= 1
 
 
+BLACK_FIRST = "fade=in:0:4"
+HDR = "log-level=none:transfer=smpte2084:colorprim=bt2020:colormatrix=bt2020nc"
+
+
+def test_a_black_first_frame_vouches_for_nothing(tmp_path):
+    videos = {
+        "film.mp4": ["-vf", BLACK_FIRST],
+        "mirrored.mp4": ["-vf", f"hflip,{BLACK_FIRST}"],
+        "hdr.mp4": ["-vf", f"{BLACK_FIRST},format=yuv420p10le", "-c:v", "libx265"]
+        + ["-x265-params", HDR],
+        "black.mp4": ["-vf", "lutyuv=y=16:u=128:v=128"],
+    }
+    for name, options in videos.items():
+        words = ["ffmpeg", "-loglevel", "error", "-i", FILM, *options, tmp_path / name]
+        subprocess.run(words, check=True)
+    assert decoded(tmp_path / "film.mp4") is not None
+    for name in ("hdr.mp4", "black.mp4"):
+        assert decoded(tmp_path / name) is None, name
+    other = open_frames(tmp_path / "mirrored.mp4", CaptureConfig())
+    assert decode_video(tmp_path / "film.mp4", other, DEVICE, ROOM) is None
+
+
 def test_image_folders_are_no_videos(tmp_path):
     np.save(tmp_path / "film.npy", np.zeros((4, 8, 8), np.uint8))
     path = tmp_path / "film.npy"

@@ -16,13 +16,16 @@ from texvent._require import require
 from texvent.brightness import LUMA_WEIGHTS
 from texvent.capture.frame_source import ChangedFrames, known_times_us
 from texvent.errors import one_line, warn
-from texvent.frames import FrameStream, Video
+from texvent.frames import FrameStream, Video, transfer_of
+from texvent.transfer import Transfer
 
 CHUNK = 32
 """Frames that are decoded at a time."""
 MOST_DIFFERENCE = 1.0
-"""Mean difference of a first frame from PyAV's, levels: more is another range, matrix, turn or
-depth. NVDEC rounds colours otherwise; on a CPU there is none."""
+"""Mean difference of a frame from PyAV's, levels: more is another range, matrix, turn or depth.
+NVDEC rounds colours otherwise; on a CPU there is none."""
+LEAST_CONTRAST = 8.0
+"""Standard deviation of the frame that is compared, levels: black ones are alike in all videos."""
 
 
 @cache
@@ -60,20 +63,25 @@ def decode_video(
         file = file.source
     if decoder is None or not isinstance(file, VideoFile) or not times_us or file.is_cut_off:
         return None
-    first = next(iter(video)).luma
+    if transfer_of(video) is Transfer.LINEAR:
+        return None
+    lumas = enumerate(frame.luma for frame in video)
+    place, shown = next((one for one in lumas if one[1].std() > LEAST_CONTRAST), (0, None))
+    if shown is None:
+        return None
     try:
         decoded = decoder(str(path), device=device)
-        if len(decoded) != len(times_us):
+        most = max(2, most_bytes // shown.size)
+        if len(decoded) != len(times_us) or place >= most:
             return None
-        most = max(2, most_bytes // first.size)
-        luma = np.empty((min(most, len(decoded)), *first.shape), np.uint8)
+        luma = np.empty((min(most, len(decoded)), *shown.shape), np.uint8)
         for at in range(0, len(luma), CHUNK):
             end = min(at + CHUNK, len(luma))
             luma[at:end] = _luma_of(decoded.get_frames_in_range(at, end).data)
     except (RuntimeError, ValueError, IndexError):
         return None
     # A rounded level is half a level from PyAV's at most.
-    is_alike = np.abs(luma[0] - np.asarray(first, np.float32)).mean() <= MOST_DIFFERENCE
+    is_alike = np.abs(luma[place] - np.asarray(shown, np.float32)).mean() <= MOST_DIFFERENCE
     return Video(luma, times_us[: len(luma)]) if is_alike else None
 
 
