@@ -80,8 +80,10 @@ def test_a_black_first_frame_vouches_for_nothing(tmp_path):
     videos = {
         "film.mp4": ["-vf", BLACK_FIRST],
         "mirrored.mp4": ["-vf", f"hflip,{BLACK_FIRST}"],
-        "hdr.mp4": ["-vf", f"{BLACK_FIRST},format=yuv420p10le", "-c:v", "libx265"]
-        + ["-x265-params", HDR],
+        "hdr.mp4": [
+            *("-vf", f"{BLACK_FIRST},format=yuv420p10le"),
+            *("-c:v", "libx265", "-x265-params", HDR),
+        ],
         "black.mp4": ["-vf", "lutyuv=y=16:u=128:v=128"],
     }
     for name, options in videos.items():

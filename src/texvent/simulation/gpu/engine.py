@@ -145,8 +145,8 @@ class GpuSimulator:
 
         Args:
             config: options of the model, whose type says which it is; of `physical` also one per
-                clip, alike in noise curve, `gamma` 1 or not, `cutoff_hz` 0 or not. Default: Texvent's
-                default preset.
+                clip, alike in noise curve, `gamma` 1 or not, `cutoff_hz` 0 or not.
+                Default: Texvent's default preset.
             seed: one per clip; or one number, and clip b has `seed + b`. 0..2⁶³−1.
             is_scale_known: False: a warning where float frames are probably 0..1, for which the
                 host waits once.
