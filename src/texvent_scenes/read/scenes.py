@@ -360,11 +360,12 @@ class _SentenceReader:
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
             is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
-            others, targets = subjects, self._earlier if is_own else self._nearest
+            others: Sequence[int] = subjects
+            about: Sequence[int] = self._earlier if is_own else self._nearest
             if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
-                others, targets = self._nearest, subjects
-            others = others if kind and targets else []
-            is_so = any([self._relate_one(kind, one, targets) for one in others])
+                others, about = self._nearest, subjects
+            others = others if kind and about else []
+            is_so = any([self._relate_one(kind, one, about) for one in others])
             draft.mark(token, "shown" if is_so else "lost")
             return []
         targets = list[int]()
