@@ -142,6 +142,9 @@ class GroupReader:
         of = None
         if self._token().text == "of" and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
+        elif head is None and self._token().text == "of" and self._token(1).text == "them":
+            of = Phrase(self._take(), ())
+            self._take()
         lost = [*lost, *unknown, *tail[:-1]]
         return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
 
