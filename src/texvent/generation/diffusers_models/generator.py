@@ -141,8 +141,8 @@ class DiffusersGenerator:
         else:
             if row.folder is not None:
                 check_weight_files(row.folder, elsewhere_parts(row))
-            if row.pipeline in MODULAR:
-                check_options(MODULAR[row.pipeline], self.config)
+            if (known := MODULAR.get(row.pipeline or "")) is not None:
+                check_options(known, self.config)
             install = install_command(f"texvent[{EXTRA}]")
             here = f"files, their sizes and a GPU are not known without {missing} ({install})"
         config, cost = self.config, row.cost

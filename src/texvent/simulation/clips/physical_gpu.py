@@ -45,7 +45,7 @@ def simulate_physical_on_gpu(
 def _as_arrays(
     torch: Any, events: EventBatch, times_us: NDArray[np.int64], outputs: ClipOutputs
 ) -> ClipArrays:
-    """What is made of the events of all windows, which follow each other."""
+    """Arrays of the events of all windows, which follow each other."""
     device, per = events.t.device, outputs.intervals_per_window
     (count, frames), size = times_us.shape, events.size
     windows, area = (frames - 1) // per, size.width * size.height
