@@ -56,14 +56,19 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
     for one in description.objects:
-        first = next((each.kind for each in one.motions if each.kind != "stand"), "")
-        is_late = bool(one.motions) and (one.motions[0].kind == "stand" or one.motions[0].start_s)
-        if first == "fall" and is_late and one.noun not in nouns_with("falls over"):
-            description = _note(description, f"the {one.noun} is held in the air until it falls")
+        if waits_to_fall(one):
+            description = _note(description, f"the {one.noun} hangs on a thread until it falls")
     if not _has_motion(description, nouns):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def waits_to_fall(one: SceneObject) -> bool:
+    """Whether it is in the air at first, and falls later."""
+    first = next((each.kind for each in one.motions if each.kind != "stand"), "")
+    is_late = bool(one.motions) and (one.motions[0].kind == "stand" or one.motions[0].start_s)
+    return first == "fall" and bool(is_late) and one.noun not in nouns_with("falls over")
 
 
 def _note(description: SceneDescription, note: str) -> SceneDescription:

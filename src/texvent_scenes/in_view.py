@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -32,6 +32,7 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING
+from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
@@ -59,6 +60,8 @@ _TURNS, _RESTS = ("spin", "work", "rotate"), ("stand", "hang", "work", "sit", "l
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
 """Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
 both, no usual rate makes whole turns."""
+_ADJECTIVES = ("count", "size", "colour", "material", "placement")
+"""Fields of an object that adjectives say."""
 _SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
 """Fields of a place that pictures must show."""
 
@@ -90,6 +93,7 @@ def find_unseen(
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
+    unseen = {*list_orphans(description)}
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]
@@ -106,18 +110,34 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")
+            continue
         elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
-    lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
-    violations = [Violation("noun", noun, "") for noun, *_ in lines]
+        else:
+            continue
+        unseen.add(index)
+    violations = [*_list_words_of(description, unseen)]
     violations += [one for one in find_violations(description, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
-    gone = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
+    notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
-        tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(gone)),
+        tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
     )  # fmt: skip
+
+
+def _list_words_of(description: SceneDescription, gone: Collection[int]) -> Iterator[Violation]:
+    """Nouns of objects that nobody sees, and what is said of no others."""
+    told = [
+        [*((name, getattr(one, name)) for name in _ADJECTIVES),
+         *(("motion", motion.kind) for motion in one.motions)]
+        for one in description.objects
+    ]  # fmt: skip
+    seen = {pair for index, pairs in enumerate(told) if index not in gone for pair in pairs}
+    for index in sorted(gone):
+        yield Violation("noun", description.objects[index].noun, "")
+        yield from (Violation(*pair, "") for pair in told[index] if pair not in seen)
 
 
 def _list_departures(

@@ -70,12 +70,21 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
         read = few(reading.shown, MOST_WORDS)
         what = f"the prompt names no thing or place to show; understood: {read}"
         what += f"; not understood: {words}" if words else ""
+        what = what if read else f"nothing in the prompt was understood: {words}"
         raise InputError(
-            f"{what if read else f'nothing in the prompt was understood: {words}'}; texvent scenes "
-            "lists the words of the embedded generator, texvent generators lists models that take "
-            "any text"
+            f"{what}; {_hint(reading)}"
+            "texvent scenes lists the words of the embedded generator, texvent generators lists "
+            "models that take any text"
         )
     return _without_idle(reading, nouns)
+
+
+def _hint(reading: Reading) -> str:
+    """A hint for a prompt whose words are known, but not as they are put together."""
+    from texvent_scenes.meanings import list_meanings
+
+    known = [one for one in reading.not_understood if "noun" in dict(list_meanings(one))]
+    return f"known alone: {few(known, MOST_WORDS)}; say it in a plainer sentence; " if known else ""
 
 
 def _without_idle(

@@ -42,6 +42,11 @@ def test_options_that_need_later_frames_are_refused(options, words):
         texvent.EventCamera("16x12", **options)
 
 
+def test_a_camera_without_a_size_is_refused():
+    with pytest.raises(ConfigError, match="name the size of the frames"):
+        texvent.EventCamera(sensor="davis346")
+
+
 def test_events_held_back_come_at_the_end(held_back):
     whole = texvent.simulate(FRAMES, t_us=TIMES, progress=False, simulator="esim")
     camera = texvent.EventCamera((16, 12), simulator=held_back)

@@ -11,7 +11,7 @@ import pytest
 
 import texvent
 
-TEXVENT = f"{sys.executable} -m texvent.cli.app"
+TEXVENT = f"{sys.executable} -m texvent"
 ROWS = "".join(f"{index / 1000:.6f} {index % 240} {index % 180} 1\n" for index in range(3000))
 
 

@@ -76,6 +76,10 @@ def test_boxes_are_counted_checked_and_drawn(
     none = make_set(tmp_path, **{**TRUTH, "truth": ["boxes"], "classes": ["dragonfly"]})
     assert main(["dataset", "stats", str(none)]) == 0
     assert "\nwarning  no sample shows: dragonfly\n" in capsys.readouterr().out
+    plan = tmp_path / "plan.yaml"
+    plan.write_text(json.dumps({**CARS, **TRUTH, "truth": ["boxes"], "classes": ["dragonfly"]}))
+    assert main(["dataset", "plan", str(plan), "--trial", "1", "--workers", "1"]) == 0
+    assert "\nwarning  no sample shows: dragonfly\n" in capsys.readouterr().out
     with pytest.raises(InputError, match="layout coco holds boxes, and no sample shows dragonfly"):
         export(StoredDataset.open(none), "coco", tmp_path / "out", variant="esim")
     samples = texvent.dataset.open(labelled)
@@ -190,6 +194,7 @@ def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
     [
         ({"truth": ["box"]}, "truth names 'box'; allowed: boxes, .* did you mean 'boxes'"),
         ({"classes": ["car", "trcuk"]}, "'trcuk', which no source shows; did you mean 'truck'"),
+        ({"classes": ["pedestrian"]}, "which boxes call 'person'; .* person = 'pedestrian' }"),
         ({"classes": ["car", "car"]}, "name each object once"),
         ({"classes": ["car", 3]}, "give a list of objects"),
         ({"truth": ["flow"]}, "truth does not name boxes"),

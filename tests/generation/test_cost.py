@@ -43,7 +43,11 @@ def test_without_the_packages_a_dry_run_says_what_the_row_says(name, monkeypatch
         (["--generator", "./nothere", "--fps", "10"], "there is no model folder nothere"),
         (["--generator", "wan-vace-1.3b", "--frames", "82"], "--frames is 82; wan-vace-1.3b"),
         (["--generator", "minimax-h3", "--frames", "8"], "--frames is 8; minimax-h3 makes 120"),
-        (["--generator", "ltx2.5-temporal", "--frames", "240"], "takes multiples of 16 and one"),
+        (
+            ["--generator", "ltx2.5-temporal", "--frames", "240"],
+            "takes multiples of 16 and one more, such as 241",
+        ),
+        (["--generator", "ltx2.5-temporal", "--steps", "8"], "--steps is set, but LTX2DFR"),
     ],
 )
 def test_without_the_packages_a_dry_run_refuses_what_the_row_refuses(

@@ -46,6 +46,16 @@ def test_every_stream_comes_back_unchanged(tmp_path: Path, case: FormatCase, nam
     assert back.t.dtype == np.int64
 
 
+@pytest.mark.parametrize("name", ["other", "other.dat", "other.xyz"])
+def test_content_decides_whatever_the_name(tmp_path: Path, case: FormatCase, name: str) -> None:
+    stream = random_events(20, case.sensor)
+    path = save(tmp_path / case.file, stream, format=case.name)
+    codec = codec_for(path, case.name)
+    if path.is_dir() or codec.recognises(path) is None:
+        pytest.skip("a folder, or a format without a mark of its own")
+    assert load(path.rename(tmp_path / name)).equals(stream)
+
+
 def test_metadata_known_only_at_the_end_is_stored(tmp_path: Path, case: FormatCase) -> None:
     stream = random_events(3000, case.sensor)
     path = tmp_path / case.file

@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
+from texvent.cli.event_files.event_file_options import END_OF_TIME_US, parse_time_range
 from texvent.errors import TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -13,6 +14,11 @@ from texvent.io.files import open_events
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(8, 6)
+
+
+def test_times_are_rounded_to_the_nearest_us_at_both_ends():
+    assert parse_time_range("0.0000009,0.0000016") == (1, 2)
+    assert parse_time_range("-0.0000016,") == (-2, END_OF_TIME_US)
 
 
 def recording(start_us=0, end_us=400_001, step_us=100):

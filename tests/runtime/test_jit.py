@@ -1,5 +1,6 @@
 """Compiled kernels are kept on disk, and compiled again when anything they use changes."""
 
+import gc
 import os
 import re
 import subprocess
@@ -140,3 +141,24 @@ def test_numba_is_bounded():
     )
     assert any(part.operator == "<" for part in requirement.specifier)
     assert requirement.specifier.contains(numba.__version__)
+
+
+@pytest.mark.parametrize("is_on", [True, False])
+def test_compiling_leaves_garbage_collection_as_it_was(is_on):
+    @jit(inner=True)
+    def below(x):
+        return x + 1
+
+    @jit
+    def add(x):
+        return below(x)
+
+    (gc.enable if is_on else gc.disable)()
+    try:
+        assert add(1) == 2
+        assert gc.isenabled() is is_on
+        with pytest.raises(numba.TypingError):
+            add("1")
+        assert gc.isenabled() is is_on
+    finally:
+        gc.enable()

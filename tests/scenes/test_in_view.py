@@ -248,3 +248,14 @@ def test_a_word_is_reported_unless_the_picture_shows_it(prompt, word, line):
     report = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).report(prompt)
     assert (word in report.shown) == (line is None)
     assert any(line in one for one in report.not_shown) if line else not report.not_shown
+
+
+@pytest.mark.parametrize(("table", "is_red"), [("blue", False), ("red", True)])
+def test_what_is_said_of_a_body_that_nobody_sees_is_not_shown(table, is_red):
+    """As "a man takes off his red hat": red is shown where another thing is red."""
+    prompt = f"a man takes off his red hat. a {table} table"
+    report = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).report(prompt)
+    assert [line.partition(" (")[0] for line in report.not_shown] == ["the hat"]
+    assert {"man", "table", table} <= {*report.shown}
+    assert ("red" in report.shown) is is_red
+    assert "hat" not in report.shown

@@ -99,6 +99,10 @@ def test_what_is_kept_of_a_scene_is_what_would_be_rendered() -> None:
                          truth.depth, truth.flow, *motions])  # fmt: skip
         for fresh, stored in zip(*seen, strict=True):
             np.testing.assert_array_equal(fresh, stored)
+    kinds = [key[0] for key in kept.values]
+    assert {kind: kinds.count(kind) for kind in kinds} == {
+        "frame": 4 * 4, "motion": 4 * 3, "between": 4, "truth": 4
+    }  # fmt: skip
 
 
 def test_frames_from_one_on_are_those_of_the_whole_video() -> None:

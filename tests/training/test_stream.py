@@ -413,6 +413,11 @@ def test_what_cannot_be_streamed_is_refused_at_construction(folder, options, err
         EventStream(**{"source": folder, **SMALL, **options})
 
 
+def test_a_bandwidth_between_unlimited_and_slow_is_refused():
+    with pytest.raises(ConfigError, match=r"cutoff_hz is \(0, 100\), and 0 is unlimited"):
+        PhysicalRanges(cutoff_hz=(0, 100))
+
+
 @pytest.mark.parametrize(
     ("ranges", "message"),
     [
@@ -445,7 +450,7 @@ def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
         assert large in recipe
         recipe = recipe.replace(large, tiny)
     monkeypatch.chdir(tmp_path)
-    exec(compile(recipe, "recipe", "exec"), {"SMALL": SMALL})
+    exec(compile(recipe, "recipe", "exec"), {"SMALL": {**SMALL, "size": (16, 16)}})
     state = torch.load("checkpoint.pt")["stream"]
     EventStream(folder, **SMALL).load_state_dict(state)
     assert state["next"] == 2

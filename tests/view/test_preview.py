@@ -41,6 +41,14 @@ def test_video_image_and_page_appear_beside_the_stem(tmp_path: Path, steps: Step
     assert f"{sum(len(packet) for _, packet in steps):,} events" in page
 
 
+def test_of_one_frame_that_frame_is_shown(tmp_path: Path, steps: Steps) -> None:
+    preview = write_preview(tmp_path / "one", steps[:1])
+    for path in preview.paths:
+        assert path.stat().st_size > 0
+    with av.open(str(tmp_path / "one.mp4")) as video:
+        assert len(list(video.decode(video=0))) == 1
+
+
 def test_no_frame_is_an_input_error_and_leaves_nothing(
     tmp_path: Path, folder_is_clean: Callable[[], bool]
 ) -> None:

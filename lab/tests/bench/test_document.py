@@ -4,10 +4,22 @@ import gzip
 import json
 import math
 
+import cv2
+import h5py
+import numba
+import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent_lab.bench.document import DIGITS, read_document, write_document
+from texvent_lab.bench.document import DIGITS, describe_environment, read_document, write_document
+
+
+def test_a_document_states_the_packages_that_made_it():
+    packages = describe_environment()["packages"]
+    modules = {"numpy": np, "numba": numba, "opencv-python-headless": cv2, "h5py": h5py}
+    for name, module in modules.items():  # OpenCV's wheels have a fourth number
+        assert packages[name].startswith(module.__version__)
+
 
 DOCUMENT = {"schema": "any-1", "value": math.pi, "undefined": math.nan, "seeds": (7, 21)}
 

@@ -25,7 +25,10 @@ def test_every_figure_is_measured_and_stored():
     plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
         copy_bytes=2**20, pair_sizes=(), wan=None, seconds=1e6,
-        stream=gpu.stream.StreamPlan(batch=1, frames=2, side=8, bins=2, repeats=1, plain=1),
+        streams=tuple(
+            gpu.stream.StreamPlan(1, 2, 8, 2, randomize, repeats=1, plain=1)
+            for randomize in ("v2v", "physical")
+        ),
     )  # fmt: skip
     saved: list[int] = []
     device = "cuda" if torch.cuda.is_available() else "cpu"
@@ -33,7 +36,9 @@ def test_every_figure_is_measured_and_stored():
     document = json.loads(json.dumps(document))
     assert saved == sorted(set(saved))
     assert len(saved) == len(document["simulation"]) + len(document["stream"])
-    assert document["stream"][0]["stream_clips_per_hour"] > 0
+    assert [row["randomize"] for row in document["stream"]] == ["v2v", "physical"]
+    assert all(row["stream_clips_per_hour"] > 0 for row in document["stream"])
+    assert document["failed"] == {}
     assert document["copy_gb_per_s"]["median"] > 0
     cases = [(row["model"], row["pixels"], row["batch"]) for row in document["simulation"]]
     assert ("paper", "uint8", 1) in cases
@@ -84,7 +89,11 @@ def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):
     weights = save_published(torch, RIFE_4_0, tmp_path / "rife.pkl")
     plan = gpu.Plan(pair_sizes=(TINY,), pairs=2)
     is_gpu = torch.cuda.is_available()
-    rows = list(gpu.measure_pairs(plan, "cuda" if is_gpu else "cpu", weights))
+    device = "cuda" if is_gpu else "cpu"
+    (row, _) = gpu.measure_pairs(plan, device)
+    assert row["weights"] in ("random", "published")
+    assert row["ms_per_pair"] > 0
+    rows = list(gpu.measure_pairs(plan, device, weights))
     assert [(row["size"], row["preset"]) for row in rows] == [
         (str(TINY), "paper"),
         (str(TINY), "accurate"),
@@ -93,3 +102,19 @@ def test_pairs_with_rife_are_measured_by_size_and_preset(tmp_path):
         assert row["ms_per_pair"] > 0
         assert row["frames_between"] > 0
         assert row["levels_from_float32"] <= (1.0 if is_gpu else 0.0)
+
+
+def test_a_part_that_fails_is_noted_and_the_next_begins(tmp_path, capsys):
+    one = gpu.stream.StreamPlan(1, 2, 8, 2, repeats=1, plain=1)
+    plan = gpu.Plan(
+        size=TINY, densities=(), batches=(1,), frames=2, repeats=1, calls=1, copy_bytes=2**20,
+        pair_sizes=(TINY,), pairs=2, wan=None, streams=(one,), seconds=1e6,
+    )  # fmt: skip
+    device = "cuda" if torch.cuda.is_available() else "cpu"
+    saved = []
+    document = gpu.measure(plan, device, saved.append, tmp_path / "missing.pkl")
+    assert list(document["failed"]) == ["pairs"]
+    assert "missing.pkl" in document["failed"]["pairs"]
+    assert len(document["stream"]) == 1
+    assert "missing.pkl" in gpu.as_markdown(saved[-1])
+    assert "Traceback" in capsys.readouterr().err

@@ -40,14 +40,16 @@ class EventCamera:
     The events of all steps are those of `texvent.simulate` for the same frames and options.
 
     Args:
-        size: size of the frames, as (width, height), "346x260" or the name of a sensor.
+        size: size of the frames, as (width, height), "346x260" or the name of a sensor; it must
+            be given.
         config: a TOML or YAML file with options.
         **options: those of `texvent.simulate`, such as `seed=3` or `contrast_threshold=0.2`, but
             for those that need a whole recording. `sensor` gives the camera another size than the
             frames.
 
     Raises:
-        ConfigError: an unknown option, a value out of range, or an option that needs later frames.
+        ConfigError: no size, an unknown option, a value out of range, or an option that needs later
+            frames.
         InputError: weights are missing, or the pixels do not fit into memory.
 
     Example:
@@ -63,11 +65,15 @@ class EventCamera:
     @naming_options(SimulateOptions)
     def __init__(
         self,
-        size: SizeLike,
+        size: SizeLike | None = None,
         *,
         config: str | Path | None = None,
         **options: Unpack[SimulateOptions],
     ) -> None:
+        if size is None:
+            raise ConfigError(
+                "name the size of the frames: EventCamera((640, 480)), EventCamera('davis346')"
+            )
         self.frame_size: SensorSize = as_size(size)
         """Size of the frames, pixels."""
         self.settings: Settings = resolve("simulate", options, config=config)

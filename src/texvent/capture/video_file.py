@@ -146,6 +146,20 @@ class VideoFile(FrameSource):
         return self._packets
 
     @property
+    def is_cut_off(self) -> bool:
+        """Whether its packets end before its header says."""
+        times_us = self._read_packets().times_us
+        with _opened(self._path) as (_, stream):
+            first_us = Fraction(stream.start_time or 0) * (stream.time_base or 0) * MICROSECONDS
+            promised_us = _promised_end_us(stream, first_us)
+        if promised_us is None or times_us is None:
+            return False
+        return int(times_us[-1]) + max(SLACK_US, self._step_us(4)) < promised_us
+
+    def _step_us(self, frames: int) -> int:
+        return frames * round(MICROSECONDS / self._rate) if self._rate else 0
+
+    @property
     def times_us(self) -> Sequence[int] | None:
         """Times of all frames, as the packets have them, µs; None where they have none."""
         found = self._read_packets()
@@ -204,8 +218,7 @@ class VideoFile(FrameSource):
 
     def _check_end(self, stream: VideoStream, clock: PresentationClock) -> None:
         end_us = _promised_end_us(stream, clock.first_pts_us)
-        step_us = round(MICROSECONDS / self._rate) if self._rate else 0
-        if end_us is not None and clock.end_us + max(SLACK_US, 3 * step_us) < end_us:
+        if end_us is not None and clock.end_us + max(SLACK_US, self._step_us(3)) < end_us:
             problem = f"is cut off: its header promises {end_us / MICROSECONDS:g} s"
             raise _damaged(self._path, clock, problem)
         if self._times is not None:

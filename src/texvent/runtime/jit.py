@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import hashlib
 import importlib.util
 import itertools
@@ -237,7 +238,7 @@ def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
     """
     if inner:
         options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        options["pipeline_class"] = _InnerCompiler
+    options["pipeline_class"] = _InnerCompiler if inner else _KernelCompiler
 
     def decorate(function: Any) -> Any:
         kernel: Any = numba.njit(nogil=True, **options)(function)
@@ -290,12 +291,25 @@ class _InnerLibrary(JITCodeLibrary):
         self._finalized = True
 
 
-class _InnerCompiler(Compiler):
+class _KernelCompiler(Compiler):
+    """Compiler that does not search for cyclic garbage, a seventh of its time."""
+
+    def compile_extra(self, func: Any) -> Any:
+        was_on = gc.isenabled()
+        gc.disable()
+        try:
+            return super().compile_extra(func)  # type: ignore[no-untyped-call]
+        finally:
+            if was_on:
+                gc.enable()
+
+
+class _InnerCompiler(_KernelCompiler):
     def compile_extra(self, func: Any) -> Any:
         library: Any = _InnerLibrary
         self.state.library = library(self.state.targetctx.codegen(), func.__qualname__)
         self.state.targetctx.get_executable = _without_entry
-        return super().compile_extra(func)  # type: ignore[no-untyped-call]
+        return super().compile_extra(func)
 
 
 def _without_entry(library: Any, *_: Any) -> Any:

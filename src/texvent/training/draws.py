@@ -115,7 +115,7 @@ class ClipRanges(MotionRanges):
 
 @dataclass(frozen=True, kw_only=True)
 class PhysicalRanges(MotionRanges):
-    """Ranges for the `physical` pixel model, around the presets of its cameras; on a CPU.
+    """Ranges for the `physical` pixel model, around the presets of its cameras.
 
     Example:
         >>> from texvent.training import PhysicalRanges
@@ -149,7 +149,15 @@ class PhysicalRanges(MotionRanges):
     refractory_us: Limits = (0, 1000)
     """Refractory period, µs."""
     cutoff_hz: Limits = (100.0, 500.0)
-    """Bandwidth of the photoreceptor at white."""
+    """Bandwidth of the photoreceptor at white; (0, 0) is unlimited."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.cutoff_hz[0] == 0 < self.cutoff_hz[1]:
+            raise ConfigError(
+                f"cutoff_hz is {shown(self.cutoff_hz)}, and 0 is unlimited, the opposite of slow; "
+                "give a lowest value above 0, or (0, 0)"
+            )
 
     def config(self, numbers: NDArray[np.float64]) -> PhysicalConfig:
         """Options of the pixels of a clip, by what `draw_clip` drew."""

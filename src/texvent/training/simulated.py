@@ -23,27 +23,34 @@ def simulate_clips(
     ranges: Ranges,
     drawn: tuple[NDArray[np.float64], NDArray[np.uint64]],
     outputs: ClipOutputs,
+    *,
+    on_gpu: bool,
 ) -> ClipArrays:
     """Arrays of the clips, on the device of the frames.
 
     Args:
-        frames: [B, T + 1, H, W] uint8; on a CPU for `PhysicalRanges`.
+        frames: [B, T + 1, H, W] uint8.
         times_us: [B, T + 1] since the first frame of each clip.
         ranges: what was drawn from, which decides the pixel model.
         drawn: numbers and key of each clip, see `draws.ClipDraw`.
         outputs: what is made.
+        on_gpu: whether the kernels of GPUs make it, or those of the CPU.
 
     Returns:
         Tensors.
     """
     if isinstance(ranges, PhysicalRanges):
+        configs = [ranges.config(one) for one in drawn[0]]
+        if on_gpu:
+            from texvent.simulation.clips.physical_gpu import simulate_physical_on_gpu
+
+            return simulate_physical_on_gpu(frames, times_us, configs, drawn[1], outputs)
         from texvent.simulation.clips.physical_cpu import simulate_physical
 
-        configs = [ranges.config(one) for one in drawn[0]]
         made = simulate_physical(frames.numpy(), times_us, configs, drawn[1], outputs)
         return _as_tensors(made)
     pixels = ClipPixels(*drawn, byte_brightness(ranges.gamma, ranges.log_eps))
-    if frames.device.type != "cpu":
+    if on_gpu:
         from texvent.simulation.clips.scan_triton import simulate_on_gpu
 
         return simulate_on_gpu(frames, times_us, pixels, outputs)

@@ -25,6 +25,7 @@ from texvent.frames import FrameStream, transfer_of
 from texvent.generation.subjects import Subject
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
+from texvent.training.codec import decode_video
 from texvent.transfer import Transfer
 from texvent.truth.boxes import BOX_RECORD, box_records
 from texvent.truth.class_ids import class_ids_of
@@ -119,7 +120,9 @@ class ClipSource(Protocol):
         ...
 
 
-def find_source(source: Any, size: SensorSize, fps: float | None = None) -> ClipSource:
+def find_source(
+    source: Any, size: SensorSize, fps: float | None = None, device: str = "cpu"
+) -> ClipSource:
     """Clips of whatever names them.
 
     Args:
@@ -128,6 +131,7 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
             videos.
         size: of the crops, and of the frames of prompts.
         fps: of videos, in place of their own times.
+        device: that decodes videos, see `VideoClips`.
 
     Raises:
         InputError: there is nothing there.
@@ -154,7 +158,7 @@ def find_source(source: Any, size: SensorSize, fps: float | None = None) -> Clip
     if 0 < len(videos) < len(entries):
         raise ConfigError("a stream is of prompts or of videos; make one of each")
     if videos:
-        return VideoClips(videos, fps)
+        return VideoClips(videos, fps, device)
     return PromptClips([entry.subject for entry in entries], sensor=f"{size.width}x{size.height}")
 
 
@@ -169,17 +173,20 @@ class VideoClips:
 
     known_truth: Sequence[str] = ()
 
-    def __init__(self, paths: Sequence[str | Path], fps: float | None = None) -> None:
+    def __init__(
+        self, paths: Sequence[str | Path], fps: float | None = None, device: str = "cpu"
+    ) -> None:
         """Clips of these paths.
 
         Args:
             paths: files and folders.
             fps: frame rate, in place of their own times.
+            device: a GPU, whose NVDEC decodes where torchcodec is installed; or cpu.
 
         Raises:
             ConfigError: the rate is out of range.
         """
-        self._paths = paths
+        self._paths, self._device = paths, device
         self._config = CaptureConfig(fps=None if fps is None else Fraction(fps))
 
     def __len__(self) -> int:
@@ -192,7 +199,10 @@ class VideoClips:
 
     def read(self, index: int, truth: Sequence[str], most_bytes: int) -> Clip:
         """See `ClipSource`."""
-        return read_clip(open_frames(self._paths[index], self._config), truth, most_bytes, None)
+        video = open_frames(self._paths[index], self._config)
+        if self._device != "cpu":
+            video = decode_video(self._paths[index], video, self._device, most_bytes) or video
+        return read_clip(video, truth, most_bytes, None)
 
 
 class PromptClips:

@@ -139,8 +139,8 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     device: str = "cpu"
     """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
     randomize: str | ClipRanges | PhysicalRanges = "v2v"
-    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings, on a CPU; "none"
-    (the place in the video alone); or ranges."""
+    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings; "none" (the
+    place in the video alone); or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0
@@ -168,11 +168,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             counts="counts" in chosen, latest="surfaces" in chosen, events="events" in chosen,
         )  # fmt: skip
         self._device = _checked_device(self.device)
-        if isinstance(self._ranges, PhysicalRanges) and self._device.type != "cpu":
-            raise ConfigError(
-                f"device is {shown(self.device)}, and pixels of the physical model are drawn per "
-                "clip on a CPU; give device='cpu', or randomize='v2v'"
-            )
+        self._is_on_gpu = self._device.type != "cpu"
         self._plan = CutPlan(
             as_size(self.size), self.frames * self.frames_per_grid, self.frames_per_grid,
             self._ranges, self._names,
@@ -182,7 +178,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
                 "flow is from frame to frame; it needs frames_per_grid 1, speed (1, 1)"
             )
         self._place()
-        self._source = find_source(self.source, self._plan.size, self.fps)
+        self._source = find_source(self.source, self._plan.size, self.fps, str(self._device))
         lacking = [name for name in self._names if name not in self._source.known_truth]
         if lacking:
             known = ", ".join(self._source.known_truth) or "none: take PromptClips or a data set"
@@ -218,7 +214,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         rank, world = self._place()
         info = _data.get_worker_info()
         worker, workers = (info.id, info.num_workers) if info is not None else (0, 1)
-        if info is not None and self._device.type != "cpu":
+        if info is not None and self._is_on_gpu:
             raise ConfigError(
                 f"workers cannot simulate on {self.device}; take a DataLoader without workers: "
                 "frames are cut ahead in a thread"
@@ -313,7 +309,9 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         frames = _torch.from_numpy(np.stack([cut.frames for cut in ready.cuts])).to(self._device)
         times_us = np.stack([cut.times_us for cut in ready.cuts])
         check_clips(frames, times_us, self._outputs)
-        made = simulate_clips(frames, times_us, ranges, (numbers, keys), self._outputs)
+        made = simulate_clips(
+            frames, times_us, ranges, (numbers, keys), self._outputs, on_gpu=self._is_on_gpu
+        )
         windows = _torch.from_numpy(times_us[:, ::per].copy()).to(self._device)
         places = np.array([cut.place for cut in ready.cuts])
         draws = dict(zip((*THRESHOLDS, *ranges.drawn), numbers.T, strict=False))

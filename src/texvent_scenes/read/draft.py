@@ -247,18 +247,18 @@ class SceneDraft:
             for motion in thing["motions"]:
                 motion |= {"direction": side} if motion.get("direction") == _OPPOSITE else {}
 
-    def pick(self, word: str) -> list[int]:
-        """Part one from the last object of several copies; or what was left of them."""
+    def pick(self, word: str, count: int) -> list[int]:
+        """Part some from the last object of more copies; or what was left of them."""
         many = [n for n, one in enumerate(self.things) if one["count"] > 1][-1:]
-        if word not in ("one", "another") or not many:
+        if word in ("other", "others") or not many:
             return self._left
         self._left, (own,) = many, many
         if any(one.get("direction") == _OPPOSITE for one in self.things[own]["motions"]):
             self._halve(own)
             own = len(self.things) - 1
-        if self.things[own]["count"] > 1:
-            self._part(own, 1)
-        return [len(self.things) - 1]
+        if self.things[own]["count"] > count:
+            self._part(own, count)
+        return [len(self.things) - 1] if count in (1, self.things[-1]["count"]) else []
 
     def fits(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool

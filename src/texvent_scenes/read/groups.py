@@ -45,10 +45,17 @@ class Group:
 
     @property
     def picks(self) -> str:
-        """As "one" of several things that are named before, "other", or ""."""
-        is_count = any(count > 1 for one in self.unknown for count in _counts(one))
-        words = [one.text for one in self.unknown if self.head is None and not is_count]
+        """As "one" or "two" of several things that are named, "other", or ""."""
+        words = [one.text for one in self.unknown if self.head is None]
+        if self.count > 1:
+            is_part = self.of is not None and len(words) == 1 and words != ["both"]
+            return words[0] if is_part else ""
         return next((one for one in ("other", "others", "one", "another") if one in words), "")
+
+    @property
+    def count(self) -> int:
+        """Number of things that words without a noun say: "two" of three."""
+        return int(max((count for one in self.unknown for count in _counts(one)), default=1))
 
     @property
     def is_bare(self) -> bool:
@@ -61,7 +68,7 @@ class Group:
         """Whether it names several things: "two dogs", "fish"."""
         counts = [count for one in self.modifiers for count in _counts(one)]
         if counts or self.head is None:
-            return any(count > 1 for count in counts)
+            return any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
         if self.head.has("effect") and not self.head.has("noun"):
             return self.head.text.endswith("s")
         senses = [one.value for one in self.head.all("noun")]
@@ -135,6 +142,9 @@ class GroupReader:
         of = None
         if self._token().text == "of" and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
+        elif head is None and self._token().text == "of" and self._token(1).text == "them":
+            of = Phrase(self._take(), ())
+            self._take()
         lost = [*lost, *unknown, *tail[:-1]]
         return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
 

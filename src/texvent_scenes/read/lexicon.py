@@ -227,7 +227,10 @@ MAX_COUNT = 24
 _RANGES = {"speed_m_s": (0.0, 1000.0)}
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
-_NUMBER = r"(?:(?<!\S)[-−])?(?:(?:\d+ )?\d+ ?[/⁄] ?[1-9]\d*|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+_NUMBER = (
+    r"(?:(?<!\S)[-−])?(?:(?:\d+ )?\d+(?:\.\d+)?(?:(?: ?[/⁄] ?|[-–])\d+(?:\.\d+)?)+(?![\w-])"
+    r"|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+)
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
 _SIGNS = str.maketrans("−⁄", "-/")
@@ -366,9 +369,15 @@ def _without_chance(
 
 
 def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
-    """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range."""
+    """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range.
+
+    Of "0.5/2 m/s" and "2-3 Hz" nobody knows which number is meant.
+    """
     text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
-    number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
+    try:
+        number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
+    except (ValueError, ZeroDivisionError):
+        return 1, ()
     number = -number if text.startswith("-") else number
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])

@@ -54,6 +54,8 @@ class _SentenceReader:
         """Objects that the clause before that one was about: "behind her"."""
         self._nearest: list[int] = []
         """Objects of the last noun group."""
+        self._before = self._nearest
+        """Those before the rest of the clause: "passes a bench and sits on it"."""
         self._was_camera = False
         self._verb: Token | None = None
         """The last verb: "then right", "then a truck" say no other."""
@@ -84,6 +86,7 @@ class _SentenceReader:
     def _apply_to_things(self, clause: Clause) -> None:
         known = len(self._draft.things)
         told = subjects = self._find_subjects(clause)
+        self._before = self._nearest
         first = clause.verb.at if clause.verb is not None else 0
         before = [one for one in clause.after
                   if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
@@ -177,6 +180,7 @@ class _SentenceReader:
         if clause.subjects:
             named = [self._pick(group) or self._name(group) for group in clause.subjects]
             picked = [one for one, group in zip(named, clause.subjects, strict=True) if group.picks]
+            self._leave_places([index for one in picked for index in one], clause.after[:1])
             return [index for one in (picked if any(picked) else named) for index in one]
         return self._nearest if clause.about == "nearest" else self._subjects
 
@@ -191,15 +195,22 @@ class _SentenceReader:
     # Noun groups
 
     def _pick(self, group: Group) -> list[int]:
-        """One of several things, or the others: "two dogs, a brown one and a white one"."""
+        """Some of several things, or the others: "two dogs, a brown one and a white one"."""
         draft = self._draft
-        if group.of is not None and group.picks:  # "one of the dogs"
-            self._name(group.of.groups[0])
-        picked = draft.pick(group.picks) if group.picks else []
+        for whole in group.of.groups if group.of is not None and group.picks else ():
+            self._name(whole)  # "two of the dogs"
+        picked = draft.pick(group.picks, group.count) if group.picks else []
         for token in group.unknown if picked else ():
             self._say(token, picked)
             draft.show(*([token] if token.text == group.picks else []))
         return picked
+
+    def _leave_places(self, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
+        """Take some of several away from where all were: "two on a desk, one on the floor"."""
+        words = (one.preposition for one in after if isinstance(one, Phrase))
+        kinds = {sense.value for word in words for sense in word.all("relation")}
+        for thing in (self._draft.things[index] for index in picked if kinds & PLACING):
+            thing["relations"] = [one for one in thing["relations"] if one["kind"] not in PLACING]
 
     def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
         """Add what a group names; the indices of its objects, at most one."""
@@ -217,8 +228,8 @@ class _SentenceReader:
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
                     self._draft.add_effect(token, effect.value, owners)
-        if group.of is not None:
-            self._fill(found, group.of.groups[0])
+        for content in group.of.groups if group.of is not None else ():
+            self._fill(found, content)
         return found
 
     def _fill(self, vessels: Sequence[int], content: Group) -> None:
@@ -349,10 +360,13 @@ class _SentenceReader:
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
             is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
-            others, targets = (subjects, self._earlier) if is_own else (self._nearest, subjects)
-            others = others if kind and targets else []
-            if not any([self._relate_one(kind, one, targets) for one in others]):
-                draft.mark(token, "lost")
+            others: Sequence[int] = subjects
+            about: Sequence[int] = self._earlier if is_own else self._nearest
+            if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
+                others, about = self._nearest, subjects
+            others = others if kind and about else []
+            is_so = any([self._relate_one(kind, one, about) for one in others])
+            draft.mark(token, "shown" if is_so else "lost")
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"

@@ -10,14 +10,17 @@ import numpy as np
 
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
+from texvent_scenes.defaults import waits_to_fall
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.shapes import rod
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
 from texvent_scenes.spec.scene import CameraMove, Motion
-from texvent_scenes.staging.actors import Actor, assemble, join_primitives, seeded
+from texvent_scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
 from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
@@ -45,6 +48,8 @@ VIEW_INSTANTS = 7
 
 
 _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
+_THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
+"""Thread on which hangs what is in the air until it falls; its length, m."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK, _WADING = -0.18, -0.55
@@ -150,13 +155,25 @@ def compose_scene(
     )  # fmt: skip
     setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
-    still = assemble([item.place() for item in items])
+    held = [one for one in actors if waits_to_fall(description.objects[one.object_index])]
+    still = assemble([*(item.place() for item in items), *map(_hang, held)])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         tuple(f"the roads cross at ({x:.3g}, {y:.3g}) m" for x, y, _ in view.road.crossings)
         if ground.has_road else (),
     )  # fmt: skip
+
+
+def _hang(actor: Actor) -> PlacedModel:
+    """The thread on which a body hangs at first: from its top to beyond the picture."""
+    x, y, top = actor.corners(0.0).max(axis=0) - [
+        *0.5 * np.ptp(actor.corners(0.0)[:, :2], axis=0),
+        0,
+    ]
+    thread = rod(_THREAD, (x, y, top - 0.1 * actor.model.height), (x, y, top + _THREAD_M),
+                 max(0.004, 0.01 * actor.size_m))  # fmt: skip
+    return PlacedModel([thread], np.eye(3, 4), 0)
 
 
 def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str]:

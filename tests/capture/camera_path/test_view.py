@@ -67,9 +67,10 @@ def test_fractional_shifts_and_scales_are_means_over_the_area(scale, place):
     np.testing.assert_allclose(view.render(IMAGE, place), expected, atol=255 * 4 / 80)
 
 
-def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
-    image, sensor = SensorSize(400, 300), SensorSize(40, 30)
-    places = [CameraPose2D(-5.0), CameraPose2D(5.0, 2.0)]
+@pytest.mark.parametrize("turn", [1, -1])
+def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough(turn):
+    image, sensor = SensorSize(*(400, 300)[::turn]), SensorSize(*(40, 30)[::turn])
+    places = [CameraPose2D(*place[::turn]) for place in ((-5.0, 0.0), (5.0, 2.0))]
     view = fitted_view(SensorView(image, sensor), places, is_pixelwise=False)
     assert view.scale == pytest.approx(400 / 50)
     assert view.reach(places) == pytest.approx(1.0)

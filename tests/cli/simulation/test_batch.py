@@ -152,6 +152,15 @@ def test_the_folder_of_another_version_is_refused_whatever_its_rows_hold(folder,
     assert "made with other options: the version of texvent was not set" in capsys.readouterr().err
 
 
+def test_options_of_a_batch_that_made_nothing_may_be_mended(folder, capsys):
+    write_video(folder / "v.npy", 0)
+    assert run("batch", "v.npy", "-o", "out", "--duration", 1, *FLAT) == 2
+    assert "leave duration out" in capsys.readouterr().err
+    assert run("batch", "v.npy", "-o", "out", "--stop", 0.1, *FLAT) == 0
+    assert run("batch", "v.npy", "-o", "out", *FLAT) == 2
+    assert "made with other options: --stop was 0.1" in capsys.readouterr().err
+
+
 @pytest.mark.long
 def test_several_processes_make_the_same_files(folder, monkeypatch):
     (folder / "p.txt").write_text("a red car drives left\na dog runs\na ball bounces\n")

@@ -83,6 +83,19 @@ def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
     assert not are_videos([listed(tmp_path, "a dog")])
 
 
+@pytest.mark.parametrize("source", ["", "*", "**/*.mp4"])
+def test_names_say_which_folder_below_the_source_a_video_is_of(tmp_path: Path, source: str) -> None:
+    for place in ("left", "right"):
+        (tmp_path / place).mkdir()
+        (tmp_path / place / "a.mp4").touch()
+    found = read_samples([tmp_path / source], seed=0)
+    assert [one.name for one in found] == [
+        f"{place}-a-{one.key[:8]}" for place, one in zip(("left", "right"), found, strict=True)
+    ]
+    (left,) = read_samples([tmp_path / "left"], seed=0)
+    assert left.name == f"a-{found[0].key[:8]}"
+
+
 VIDEOS, STILLS = ["a.mp4", "b.NPY"], ["a.JPG", "b.png"]
 
 

@@ -86,3 +86,15 @@ def test_a_prompt_without_a_known_word_is_refused(prompt):
 @pytest.mark.parametrize(("prompt", "expected"), sentences())
 def test_sentences_say(prompt, expected):
     assert say(reader.read(prompt, NOUNS)) == expected
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [
+        ("a chair falls over, then a man walks past it", "past"),
+        ("a lamp flickers, a dog runs behind it", "behind"),
+        ("two trees. a car drives towards them", "towards"),
+    ],
+)
+def test_a_preposition_before_a_pronoun_is_shown(prompt, word):
+    assert word in reader.read(prompt, NOUNS).shown

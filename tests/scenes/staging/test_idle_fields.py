@@ -8,7 +8,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import stage
+from tests.scenes.staged import stage, thing
 
 from texvent.errors import ConfigError
 from texvent_scenes.defaults import complete
@@ -256,6 +256,17 @@ def test_a_belt_carries_what_is_on_it_up_to_its_end(pace):
         assert all(abs(one.track.at(t).position[0]) <= half for t in np.linspace(0.0, 3.0, 7))
 
 
+@pytest.mark.parametrize("kind", [None, "stand", "hang", "spin", "bounce", "walk", "run in place"])
+def test_a_belt_carries_what_stands_on_it_and_nothing_that_moves_by_itself(kind):
+    motions = () if kind is None else (Motion(kind),)
+    relations = (Relation("on", ("conveyor belt",)),)
+    for noun in ("dog", "man"):
+        rider = SceneObject(noun, motions=motions, relations=relations)
+        _, one = place(SceneObject("conveyor belt", motions=(Motion("work"),)), rider)
+        is_carried = one.track.at(1.0).position[0] - one.track.at(0.5).position[0] > 0.15
+        assert is_carried == (kind in (None, "stand")), noun
+
+
 def test_a_board_tilts_then_rotates_at_the_rate_that_is_said():
     motions = (Motion("tilt", rate_hz=1.0), Motion("rotate", rate_hz=0.5))
     (board,) = place(SceneObject("checkerboard", motions=motions))
@@ -271,6 +282,23 @@ def test_a_rest_that_changes_nothing_is_left_out_of_a_sentence():
 
 
 def test_what_waits_before_it_falls_is_said_to_hang_in_the_air():
-    note = "the ball is held in the air until it falls"
+    note = "the ball hangs on a thread until it falls"
     assert note in understand("a ball falls after 0.5 seconds", NOUNS).notes
     assert note not in understand("a ball falls", NOUNS).notes
+
+
+@pytest.mark.parametrize(
+    ("noun", "is_held"), [("ball", True), ("box", True), ("street lamp", False)]
+)
+def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
+    late, once = (
+        stage(thing(noun, *motions)) for motions in ((("stand",), ("fall",)), (("fall",),))
+    )
+    threads = len(late.still.shape) - len(once.still.shape)
+    assert threads == is_held
+    body = late.actors[0].corners(0.0)
+    middle = 0.5 * (body.min(axis=0) + body.max(axis=0))
+    for to_world in late.still.to_world[len(late.still.shape) - threads :]:
+        ends = to_world[:, 3] + np.outer((-1.0, 1.0), to_world[:, 2])
+        assert np.allclose(ends[:, :2], middle[:2], atol=1e-6)
+        assert middle[2] < ends[:, 2].min() < body[:, 2].max() < ends[:, 2].max() - 10.0

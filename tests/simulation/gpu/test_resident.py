@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from dataclasses import replace
 
@@ -173,6 +174,16 @@ def test_the_host_waits_as_often_for_many_intermediate_frames_as_for_one(
     assert counts[1] == counts[6]
     # Of a pair: Eq. 4 with thumbnails, the number of events, the events.
     assert counts[1] == ["cpu"] * 3 * pairs
+
+
+def test_tensors_are_let_go_of_as_frames_pass(device):
+    run, live = on(device, simulation(clip(frames=9), preset="paper", interpolate="none")), []
+    for frame, _ in run.steps():
+        assert frame.is_source
+        gc.collect()
+        live.append(sum(one.nbytes for one in gc.get_objects() if isinstance(one, torch.Tensor)))
+    # The last frame is another picture, of more events.
+    assert live[-2] <= max(live[1:4])
 
 
 def test_bad_frames_are_refused_as_on_the_cpu(device):

@@ -1,14 +1,15 @@
 """Time of the GPU backend, beside the copy bandwidth of the same GPU in the same run.
 
-    python -m texvent_lab.measure.gpu [--json FILE] [--real-size MODEL]
+    python -m texvent_lab.measure.gpu [--json FILE] [--rife FILE] [--real-size MODEL]
 
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
 wait for their number included. A few calls follow each other without another wait, as in a loop
 over batches. Warm-up calls, which compile the kernels, are not timed. The CPU's kernels see the
 first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole runs: frames in the
-host's memory → packets; they need its weights, else their rows are left out. Videos of a model go
-from its decoder to the last packet (`generated_video.py`), and training batches are those of
-`stream.py`. The file is written after every row; none is begun after `Plan.seconds`.
+host's memory → packets; without its weights random ones take their place, which take as long.
+Videos of a model go from its decoder to the last packet (`generated_video.py`), and training
+batches are those of `stream.py`. The file is written after every row; none is begun after
+`Plan.seconds`. A part that fails is noted under "failed", and the next one begins.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ import argparse
 import itertools
 import json
 import sys
+import tempfile
 import time
+import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -26,10 +29,11 @@ from typing import Any
 import numpy as np
 
 from texvent.config import InterpolateConfig
-from texvent.errors import InputError
+from texvent.errors import InputError, one_line
 from texvent.extending import INTERPOLATORS, SIMULATORS, require
 from texvent.frames import Frame, Video
-from texvent.interpolate.rife.weights import find_rife_weights
+from texvent.interpolate.rife.network import RIFE_4_0, RifeNetwork
+from texvent.interpolate.rife.weights import find_rife_weights, write_rife_weights
 from texvent.pipeline import video_to_events
 from texvent.runtime.devices import find_gpu
 from texvent.sensor import SensorSize
@@ -70,14 +74,20 @@ class Plan:
     """Pairs of a run with RIFE; the first half is not timed."""
     wan: Wan | None = field(default_factory=Wan)
     """Pipeline of a video model; None: none."""
-    stream: stream.StreamPlan | None = field(default_factory=stream.StreamPlan)
-    """Training batches; None: none."""
+    streams: tuple[stream.StreamPlan, ...] = (
+        stream.StreamPlan(),
+        stream.StreamPlan(randomize="physical"),
+    )
+    """Training batches."""
     seconds: float = 300.0
     """Time after which no row is begun."""
 
 
 def measure(
-    plan: Plan, device: str, save: Callable[[dict[str, Any]], None] = lambda document: None
+    plan: Plan,
+    device: str,
+    save: Callable[[dict[str, Any]], None] = lambda document: None,
+    weights: Path | None = None,
 ) -> dict[str, Any]:
     """All figures, ready for JSON, those that matter most first.
 
@@ -85,13 +95,16 @@ def measure(
         plan: sizes and repeats.
         device: of everything but decoding and files.
         save: called with what there is after every row.
+        weights: those of RIFE; None: those that were pulled.
     """
     end_s = time.monotonic() + plan.seconds
     copy = measure_copy(plan, device)
     parts = {
-        "pairs": measure_pairs(plan, device),
-        "generated": () if plan.wan is None else measure_generated(plan.wan, _chosen(device)),
-        "stream": (stream.measure(one, device) for one in (plan.stream,) if one is not None),
+        "pairs": measure_pairs(plan, device, weights),
+        "stream": (stream.measure(one, device) for one in plan.streams),
+        "generated": ()
+        if plan.wan is None
+        else measure_generated(plan.wan, _chosen(device), weights),
         "simulation": measure_simulation(plan, device, copy["median"]),
     }
     document: dict[str, Any] = {
@@ -99,11 +112,17 @@ def measure(
         "environment": describe(device),
         "copy_gb_per_s": copy,
         **{name: [] for name in parts},
+        "failed": {},
     }
     for name, rows in parts.items():
         waiting = iter(rows)
-        while time.monotonic() < end_s and (row := next(waiting, None)) is not None:
-            document[name].append(row)
+        try:
+            while time.monotonic() < end_s and (row := next(waiting, None)) is not None:
+                document[name].append(row)
+                save(document)
+        except Exception as error:  # noqa: BLE001  (the next part may run)
+            traceback.print_exc()
+            document["failed"][name] = one_line(error)
             save(document)
     return document
 
@@ -118,13 +137,21 @@ def measure_pairs(plan: Plan, device: str, weights: Path | None = None) -> Itera
     Args:
         plan: sizes and number of pairs.
         device: of everything but decoding and files.
-        weights: those of RIFE; None: those that were pulled. Without any there is no row.
+        weights: those of RIFE; None: those that were pulled, or random ones.
     """
-    try:
-        find_rife_weights(weights)
-    except InputError as error:
-        print(f"pairs with RIFE were left out: {error}", file=sys.stderr)
-        return
+    with tempfile.TemporaryDirectory() as scratch:
+        try:
+            found, kind = find_rife_weights(weights), "published"
+        except InputError:
+            if weights is not None:
+                raise
+            found, kind = Path(scratch) / "random.safetensors", "random"
+            write_rife_weights(RifeNetwork(RIFE_4_0), found)
+        for row in _measure_pairs(plan, device, found):
+            yield {**row, "weights": kind}
+
+
+def _measure_pairs(plan: Plan, device: str, weights: Path) -> Iterator[dict[str, Any]]:
     chosen = _chosen(device)
     for size, preset in itertools.product(plan.pair_sizes, ("paper", "accurate")):
         video = moving_texture(size, plan.pairs + 1)
@@ -305,7 +332,7 @@ def as_markdown(document: dict[str, Any]) -> str:
     lines = [f"{name}: {value}" for name, value in document["environment"].items()]
     lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s\n")
     lines.append(markdown_table(head, simulation))
-    names = ("preset", "size", "frames_between", "ms_per_pair", "levels_from_float32")
+    names = ("preset", "size", "weights", "frames_between", "ms_per_pair", "levels_from_float32")
     pairs = [tuple(str(row[name]) for name in names) for row in document["pairs"]]
     lines.append(markdown_table(names, pairs))
     of_videos = ("video", "interpolate", "frames_between", "events", "last_event_s", "file_s")
@@ -313,6 +340,7 @@ def as_markdown(document: dict[str, Any]) -> str:
     lines.append(markdown_table(of_videos, made))
     for row in document["stream"]:
         lines += [f"{name}: {value}" for name, value in row.items()]
+    lines += [f"failed: {name}: {reason}" for name, reason in document["failed"].items()]
     return "\n".join(lines)
 
 
@@ -324,6 +352,7 @@ def main() -> int:
     """Measure, print, write; 2 without a GPU."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.gpu")
     parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument("--rife", type=Path, help="weights of RIFE; default: those pulled")
     parser.add_argument(
         "--real-size", choices=PUBLISHED, help="a model of published size, random weights, alone"
     )
@@ -342,9 +371,9 @@ def main() -> int:
         save(row)
         print(json.dumps(row, indent=1))
         return 0
-    document = measure(Plan(), "cuda", save)
+    document = measure(Plan(), "cuda", save, chosen.rife)
     print(as_markdown(document))
-    return 0
+    return 1 if document["failed"] else 0
 
 
 if __name__ == "__main__":

@@ -40,6 +40,8 @@ class StreamPlan:
     frames: int = 40
     side: int = 128
     bins: int = 5
+    randomize: str = "v2v"
+    """Pixels of the stream; those of the plain simulator are V2V's."""
     repeats: int = 5
     """Batches that are timed; one before them is not."""
     plain: int = 3
@@ -84,10 +86,10 @@ def simulate_plainly(
     brightness = np.log(1e-3 + (frames / 255.0) ** 2.2)
     potential = rng.random(shape) * (on + off) - off
     is_hot = rng.random(shape) < drawn["hot_fraction"]
-    hot = np.where(is_hot, drawn["hot_noise"] * rng.standard_normal(shape), 0.0)
+    hot = np.where(is_hot, drawn.get("hot_noise", 0.0) * rng.standard_normal(shape), 0.0)
     counts = []
     for before, now in pairwise(brightness):
-        noise = drawn["noise"] * rng.standard_normal(shape)
+        noise = drawn.get("noise", 0.0) * rng.standard_normal(shape)
         potential = potential + (now - before) + noise + hot
         up = np.where(potential >= on, np.floor(potential / on), 0.0)
         down = np.where(potential <= -off, np.floor(-potential / off), 0.0)
@@ -109,6 +111,7 @@ def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
     stream = EventStream(
         Textures(plan), batch=plan.batch, frames=plan.frames, size=(plan.side, plan.side),
         bins=plan.bins, frames_per_grid=plan.bins, outputs=("grids", "counts"), device=device,
+        randomize=plan.randomize,
     )  # fmt: skip
     batches = iter(stream)
     first = next(batches)
@@ -135,6 +138,7 @@ def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
         "environment": describe_environment(),
         "device": device if is_cpu else torch.cuda.get_device_name(),
         "load_average": rounded(os.getloadavg()[0]),
+        "randomize": plan.randomize,
         "clip": {"frames": plan.frames, "side": plan.side, "bins": plan.bins},
         "events_per_clip": rounded(float(np.mean(events))),
         "stream_s_per_clip": per_clip,

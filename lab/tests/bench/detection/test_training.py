@@ -175,6 +175,15 @@ def test_eqs_computes_with_the_stored_weights_as_evlib_does(tmp_path: Path, binn
         assert np.abs(one).max() > 0.05
 
 
+@pytest.mark.torch
+def test_without_the_recorded_street_there_is_no_score_of_it(tmp_path: Path, monkeypatch):
+    pytest.importorskip("torch")
+    from texvent_lab.bench.detection.run import score_street
+
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    assert score_street(None, ("car",), "cpu", 1) is None
+
+
 @pytest.mark.detect
 def test_arms_are_made_trained_and_tested_and_kept(tmp_path: Path):
     from texvent_lab.bench.detection.run import CLASSES

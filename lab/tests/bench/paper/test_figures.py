@@ -40,8 +40,12 @@ def test_a_figure_shows_the_frame_the_recording_and_each_simulator(
     pan_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], number: int
 ) -> None:
     assert main(words(pan_folder, number, tmp_path / "a.png")) == 0
-    printed, size = capsys.readouterr().out, open_scene(str(pan_folder)).video.size
-    assert FIGURES[number] in printed
+    printed, scene = capsys.readouterr().out, open_scene(str(pan_folder))
+    size, since_us = scene.video.size, scene.whole.start_us
+    times_us = np.concatenate([one.t for one in scene.references]) - since_us
+    most = int(np.bincount(times_us // figures.SLICE_US).argmax())
+    starts_us = [since_us + figures.SLICE_US * (most + step) for step in (0, 1)]
+    assert f"{FIGURES[number]}; {starts_us[0]} to {starts_us[1]} µs" in printed
     assert ("not drawn: e2" in printed) == (number in figures.NETWORKS)
     image = read(tmp_path / "a.png")
     width, head = size.width + figures.GAP_PX, 3 * figures.TITLE_PX

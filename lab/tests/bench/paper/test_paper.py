@@ -36,12 +36,21 @@ from texvent_lab.bench.paper.run import (
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 from texvent_lab.bench.real.run import run_real
+from texvent_lab.commands.bench.paper import _read_ablations as ablation_rows
 
 from ...nt_imagenet.tiny_data import write_stream
 from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
 from ..synthetic_report import synthetic_report
 
 PAPER = Path(__file__).parents[4] / "configs" / "paper"
+
+
+def test_the_paper_s_rows_are_found_wherever_the_command_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = ablation_rows(PaperConfig(rife=False))
+    assert [one.name for one in found] == [one.name for one in read_ablations(PAPER)]
+    with pytest.raises(InputError, match="no config file in none"):
+        ablation_rows(PaperConfig(configs=Path("none")))
 
 
 def test_the_paper_has_twelve_ablations_in_their_order():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -71,7 +71,7 @@ def run_plan(arguments: Sequence[str]) -> int:
     if trial:
         with ConsoleProgress() as progress:
             stages = try_samples(recipe, trial, progress, workers=workers)
-        _print_trial(stages, workers)
+        _print_trial(stages, workers, dict.fromkeys(recipe.specification.class_of.values()))
     else:
         write_out(
             "no trial: give --trial 1 to measure size and time of a sample, and what is left out\n"
@@ -132,7 +132,7 @@ def describe_contents(recipe: Recipe) -> list[str]:
     return lines
 
 
-def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
+def _print_trial(stages: Sequence[StageEstimate], workers: int, classes: Iterable[str]) -> None:
     table = Table(box=None, pad_edge=False)
     noun = "worker" if workers == 1 else "workers"
     for name in ("", "samples", "left out", "events each", "size", "s each",
@@ -155,7 +155,7 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     write_out(f"in all   {size_text(total)}, from a trial with {stages[0].tried} of each:\n")
     of_events = (stage for stage in stages if stage.name != VIDEOS)
     tried = Statistics.of(record for stage in of_events for record in stage.records)
-    write_out("".join(f"{line}\n" for line in summary_lines(tried)))
+    write_out("".join(f"{line}\n" for line in summary_lines(tried, classes)))
 
 
 def time_text(seconds: float) -> str:

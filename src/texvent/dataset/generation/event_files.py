@@ -21,7 +21,7 @@ from texvent.frames import Frame
 from texvent.pipeline import Simulation
 from texvent.prompt_report import REPORT_KEY, PromptReport, ReportTally
 from texvent.run.files import RunFiles, write_run
-from texvent.run.ledger import Ledger, describe_differences, read_note, write_note
+from texvent.run.ledger import FILES, Ledger, describe_differences, read_note, write_note
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.runtime.identity import digest
 from texvent.runtime.work.engines import Work
@@ -184,7 +184,7 @@ class EventFiles:
         """Find what is to do, and note it; durable before it returns.
 
         Raises:
-            ConfigError: the folder was made with other options.
+            ConfigError: samples of the folder were made with other options.
             OutputError: a file of a sample is there that no batch in this folder has begun.
         """
         plan = self._plan
@@ -198,7 +198,8 @@ class EventFiles:
         return work
 
     def _refuse(self, options: Mapping[str, Any], work: Work) -> None:
-        known = options if self._noted is None else self._noted
+        is_made = any(FILES in self._ledger.row(key) for key in self._ledger)
+        known = self._noted if is_made and self._noted is not None else options
         differences = describe_differences(known, options, name_of=_flag)
         if differences:
             raise ConfigError(

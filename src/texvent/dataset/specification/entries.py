@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import itertools
 import json
 import os
 import re
@@ -67,12 +68,14 @@ def read_samples(
         FileFormatError: a line of a list cannot be read.
         ConfigError: prompts and videos are mixed.
     """
-    entries = [entry for source in sources for entry in entries_of(str(source), of_stills)]
+    found = {str(source): list(entries_of(str(source), of_stills)) for source in sources}
+    entries = [entry for source in sources for entry in found[str(source)]]
     if not entries:
         raise InputError("there is nothing to do; name a list of prompts, videos or a folder")
     if len({entry.video is None for entry in entries}) > 1:
         raise ConfigError("a batch is made of prompts or of videos; run one batch for each")
-    samples = tuple(_with_keys(entries, seed))
+    roots = [_root(str(source)) for source in sources for _ in found[str(source)]]
+    samples = tuple(_with_keys(entries, roots, seed))
     _refuse_equal_names(samples)
     return samples
 
@@ -187,9 +190,19 @@ def _holds_images(paths: Iterable[Path]) -> bool:
     return any(path.suffix.lower() in IMAGE_EXTENSIONS for path in paths)
 
 
-def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
+def _root(source: str) -> Path:
+    """The folder that a folder or a pattern looks into: names say which one below it a video is of.
+
+    Of a file, itself.
+    """
+    parts = Path(source).parts
+    plain = itertools.takewhile(lambda part: not glob.has_magic(part), parts)
+    return Path(source) if Path(source).exists() else Path(*plain)
+
+
+def _with_keys(entries: Iterable[ListEntry], roots: Iterable[Path], seed: int) -> Iterator[Sample]:
     seen: Counter[str] = Counter()
-    for entry in entries:
+    for entry, root in zip(entries, roots, strict=True):
         video = moved_together(entry.video)
         what: list[object] = [entry.prompt, video, entry.name, entry.seed]
         if entry.scene is not None:
@@ -199,7 +212,7 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
         key = digest([*what, seen[same]])
         own = {
             "key": key,
-            "name": entry.name or _made_name(entry, key),
+            "name": entry.name or _made_name(entry, root, key),
             "seed": derived_seed(seed, key) if entry.seed is None else entry.seed,
         }
         yield Sample(**{**vars(entry), **own})
@@ -210,10 +223,12 @@ def moved_together(path: Path | None) -> str | None:
     return "/".join(path.absolute().parts[-2:]) if path else None
 
 
-def _made_name(entry: ListEntry, key: str) -> str:
-    """First words of a prompt or name of a video, and the beginning of the key."""
+def _made_name(entry: ListEntry, root: Path, key: str) -> str:
+    """First words of a prompt, or folder below `root` and name of a video; the key's beginning."""
     subject = entry.video.stem if entry.video else (entry.prompt or "")
     words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
+    if entry.video is not None and root in entry.video.parent.parents:
+        words = re.findall(r"[a-z0-9]+", entry.video.parent.name.lower())[:8] + words
     return "-".join([*words, key[:ID_DIGITS]])[-120:]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -58,14 +58,26 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
                 "truth is known while a scene is rendered, and store_videos simulates from stored "
                 "videos; leave one of them out"
             )
-        known = (
-            *scenes().list_nouns(specification.options.get("assets")),
-            *_check_models(specification, items),
-        )
+        nouns = scenes().list_nouns(specification.options.get("assets"))
+        known = (*nouns, *_check_models(specification, items))
+        _check_synonyms(specification, nouns, known)
     for name in specification.class_of:
         if name not in known:
             raise ConfigError(
                 f"classes names {shown(name)}, which no source shows; {suggest(name, known)}"
+            )
+
+
+def _check_synonyms(
+    specification: Specification, nouns: Mapping[str, Any], known: Iterable[str]
+) -> None:
+    """Refuse another word of a noun, such as pedestrian, and say how the class is written."""
+    for name in specification.class_of:
+        meant = next((noun for noun, one in nouns.items() if name in one.synonyms), None)
+        if meant is not None and name not in known:
+            raise ConfigError(
+                f"classes names {shown(name)}, which boxes call {shown(meant)}; write a table of "
+                f"object = class, such as {{ car = 'car', {meant} = '{name}' }}"
             )
 
 

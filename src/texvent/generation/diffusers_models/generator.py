@@ -24,7 +24,7 @@ from texvent.generation.diffusers_models.guardrail import (
     guardrail_version,
     needs_guardrail,
 )
-from texvent.generation.diffusers_models.modular import find_class
+from texvent.generation.diffusers_models.modular import MODULAR, find_class
 from texvent.generation.diffusers_models.pipeline_call import (
     call_pipeline,
     check_options,
@@ -141,6 +141,8 @@ class DiffusersGenerator:
         else:
             if row.folder is not None:
                 check_weight_files(row.folder, elsewhere_parts(row))
+            if (known := MODULAR.get(row.pipeline or "")) is not None:
+                check_options(known, self.config)
             install = install_command(f"texvent[{EXTRA}]")
             here = f"files, their sizes and a GPU are not known without {missing} ({install})"
         config, cost = self.config, row.cost

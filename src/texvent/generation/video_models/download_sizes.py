@@ -23,7 +23,7 @@ GB = 1e9
 
 
 def with_sizes(model: VideoModel, control: str | None) -> VideoModel:
-    """The row, with the sizes of its files in place of None where the model hub tells them.
+    """The row, with the sizes of its files that the model hub tells in place of its own.
 
     Args:
         model: a row, or a repository of the model hub.

@@ -114,7 +114,7 @@ def _check_shape(model: VideoModel, config: DiffusersConfig, pipeline: ControlPi
 
 def _check_step(model: VideoModel, frames: int, step: int) -> None:
     if (frames - 1) % step:
-        near = max((frames - 1) // step, 1) * step + 1
+        near = max(round((frames - 1) / step), 1) * step + 1
         raise ConfigError(
             f"frames is {frames}; {model.name} takes multiples of {step} and one more, such as "
             f"{near}"

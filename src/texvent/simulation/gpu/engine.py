@@ -132,7 +132,11 @@ class GpuSimulator:
 
     def __init__(
         self,
-        config: TexventConfig | EsimConfig | PhysicalConfig | None = None,
+        config: TexventConfig
+        | EsimConfig
+        | PhysicalConfig
+        | Sequence[PhysicalConfig]
+        | None = None,
         *,
         seed: int | Sequence[int] = 0,
         is_scale_known: bool = False,
@@ -140,8 +144,9 @@ class GpuSimulator:
         """Prepare a simulator that has seen no frame.
 
         Args:
-            config: options of the model, whose type says which it is; default: Texvent's default
-                preset.
+            config: options of the model, whose type says which it is; of `physical` also one per
+                clip, alike in noise curve, `gamma` 1 or not, `cutoff_hz` 0 or not.
+                Default: Texvent's default preset.
             seed: one per clip; or one number, and clip b has `seed + b`. 0..2⁶³−1.
             is_scale_known: False: a warning where float frames are probably 0..1, for which the
                 host waits once.
@@ -153,7 +158,11 @@ class GpuSimulator:
         self.config = config if config is not None else TexventConfig()
         self._seed, self._is_scale_known = seed, is_scale_known
         _seeds_of(seed, None)  # refuses what is out of range
-        self._model = SIMULATORS.load(find_model(self.config))(self.config)
+        each = self.config if isinstance(self.config, Sequence) else (self.config,)
+        names = [find_model(one) for one in each]
+        if isinstance(self.config, Sequence) and set(names) != {"physical"}:
+            raise ConfigError("a list of options must be of physical, one per clip")
+        self._name, self._model = names[0], SIMULATORS.load(names[0])(each[0])
         self.reset()
 
     @property
@@ -222,7 +231,11 @@ class GpuSimulator:
         check_device(frames.device)
         count, _, height, width = frames.shape
         seeds = _seeds_of(self._seed, count)
-        pixels = _make_pixels(self.config, seeds)
+        if isinstance(self.config, Sequence) and len(self.config) != count:
+            raise ConfigError(
+                f"config lists options of {len(self.config)} clips, and there are {count}"
+            )
+        pixels = _make_pixels(self._name, self.config, seeds)
         pixels.begin(frames[:, 0])
         return _ClipStates(checked_size(width, height), Clock(count), seeds, pixels, None)
 
@@ -284,8 +297,7 @@ class GpuSimulator:
         return Call(layout, Intervals(*plan), alignment(area, strides[0], strides[1])), rules
 
 
-def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
-    name = find_model(config)
+def _make_pixels(name: str, config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
     module = import_module(f"texvent.simulation.{name}.gpu.pixels")
     return cast("GpuPixels[Any]", getattr(module, MODELS[name].pixels)(config, seeds))
 

@@ -274,12 +274,15 @@ def glossy_share(instant: Record, point: Vector, foot: float) -> tuple[float, fl
     return share * instant.wetness * (0.3 + 0.7 * puddle), 0.28 - 0.24 * puddle
 
 
-_PLASTER, _STONE, _CLOTH = 33, 31, 43
+_BOARDS, _PLASTER, _STONE, _CLOTH = 28, 33, 31, 43
 HANGING_EVERY_M = 2.3
 _FRAME_M = 0.05
 _FRAME = (0.70, 0.69, 0.66)
 _DARK_FRAME = (0.10, 0.06, 0.035)
 _SKIRTING = (0.3, 0.24, 0.2)
+_MOUNT_M = 0.04
+_PANEL, _PANEL_M, _RAIL_M = (0.34, 0.2, 0.1), 0.16, 0.86
+"""Wood of panelled walls, width of a panel, and height of the rail above them, m."""
 _CEILING = (1.7, 1.69, 1.64)
 """White, and lit from below by what floor and walls send back, which is not traced."""
 
@@ -324,33 +327,79 @@ def has_window(instant: Record, cell: int, side: int) -> bool:
 
 
 @jit(error_model="numpy", inner=True)
+def _window(
+    instant: Record, wall: Colour, at: tuple[float, float], feet: Colour, shape: float
+) -> Colour:
+    """A wall with a window, in plaster with curtains; `at` is metres from its middle."""
+    sky = scaled(mix(triple(instant.sky_top), triple(instant.sky_horizon), 0.5), 2.0)
+    crowns = 0.12 * noise_2d(5.0 * at[0] + 40.0 * shape, 0.0, 34) - 0.12 - at[1]
+    inside = mix(sky, scaled(sky, 0.3), min(max(crowns / max(feet[1], 0.01) + 0.5, 0.0), 1.0))
+    cross = max(
+        box_coverage(at[0], -0.02, 0.02, feet[0]), box_coverage(at[1], -0.02, 0.02, feet[1])
+    )
+    colour = mix(wall, _FRAME, _box_share(at, (0.62 + _FRAME_M, 0.65 + _FRAME_M), feet))
+    colour = mix(colour, mix(inside, _FRAME, cross), _box_share(at, (0.62, 0.65), feet))
+    if instant.wall_surface != _PLASTER:
+        return colour
+    fold = (abs(at[0]) - 0.46) / 0.075 + 0.3 * math.sin(5.0 * at[1])
+    fade = detail_fade(feet[0] / 0.075)
+    cloth = (0.15 + 0.4 * shape, 0.12 + 0.2 * shape, 0.45 - 0.4 * shape)
+    cloth = scaled(cloth, 1.0 + 0.45 * fade * math.sin(math.tau * fold))
+    hem = (abs(at[0]) - 0.64, at[1] + 0.05)
+    colour = mix(colour, cloth, _box_share(hem, (0.18, 0.85), feet))
+    return mix(colour, _DARK_FRAME, _box_share((at[0], at[1] - 0.82), (0.92, 0.018), feet))
+
+
+@jit(error_model="numpy", inner=True)
+def _picture(
+    wall: Colour, at: tuple[float, float], feet: Colour, half: tuple[float, float], shape: float
+) -> Colour:
+    """A wall with a framed landscape; `half` are its width and height, m."""
+    hue = (0.15 + 0.4 * shape, 0.35 - 0.1 * shape, 0.5 - 0.4 * shape)
+    x, y, inside = at[0] / half[0] + 9.0 * shape, at[1] / half[1], hue
+    for layer in range(3):
+        ridge = 0.45 - 0.5 * layer + 0.35 * noise_2d((2.0 + 2.0 * layer) * x, 0.0, 35 + layer) - y
+        low = min(max(ridge * half[1] / max(feet[1], 0.004) + 0.5, 0.0), 1.0)
+        inside = mix(inside, scaled(hue, (0.45, 1.25, 0.2)[layer]), low)
+    outer = (half[0] + _MOUNT_M + _FRAME_M, half[1] + _MOUNT_M + _FRAME_M)
+    colour = mix(wall, _DARK_FRAME, _box_share(at, outer, feet))
+    mount = (half[0] + _MOUNT_M, half[1] + _MOUNT_M)
+    colour = mix(colour, _FRAME, _box_share(at, mount, feet))
+    return mix(colour, inside, _box_share(at, half, feet))
+
+
+@jit(error_model="numpy", inner=True)
 def _hang(
     instant: Record, wall: Colour, place: tuple[float, float], feet: Colour, side: int
 ) -> Colour:
-    """A wall with windows and pictures on it; `place` is metres along and up."""
-    cell = math.floor(place[0] / HANGING_EVERY_M)
-    chance = _hanging(int(cell), side)
-    if chance > 0.75:
-        return wall
+    """A wall with windows and pictures on it; `place` is metres along and up.
+
+    Each stretch has a window or a picture in its middle, and in plaster two small ones at its end.
+    """
+    stretch = place[0] / HANGING_EVERY_M
+    cell = math.floor(stretch)
     at = (place[0] - HANGING_EVERY_M * (cell + 0.5), place[1] - 1.6)
-    shape = lattice(int(cell), side, 32)
-    if chance < 0.4:
-        half = (0.62, 0.65)
-        glass = scaled(mix(triple(instant.sky_top), triple(instant.sky_horizon), 0.5), 2.0)
-        inside = mix(glass, scaled(glass, 0.75), box_coverage(at[1], -0.65, -0.1, feet[1]))
-        cross = max(
-            box_coverage(at[0], -0.02, 0.02, feet[0]), box_coverage(at[1], -0.02, 0.02, feet[1])
-        )
-        inside, frame = mix(inside, _FRAME, cross), _FRAME
+    shape = lattice(cell, side, 32)
+    if has_window(instant, cell, side):
+        wall = _window(instant, wall, at, feet, shape)
     else:
-        half = (0.22 + 0.2 * shape, 0.2 + 0.18 * lattice(int(cell), side, 33))
-        hue = (0.15 + 0.4 * shape, 0.2 + 0.2 * chance, 0.5 - 0.4 * shape)
-        hill = 0.3 * half[1] * math.sin(9.0 * at[0] / half[0] * (0.2 + 0.3 * shape)) - at[1]
-        low = min(max(hill / max(feet[1], 0.01) + 0.5, 0.0), 1.0)
-        inside, frame = mix(hue, scaled(hue, 0.35), low), _DARK_FRAME
-    outer = (half[0] + _FRAME_M, half[1] + _FRAME_M)
-    colour = mix(wall, frame, _box_share(at, outer, feet))
-    return mix(colour, inside, _box_share(at, half, feet))
+        half = (0.28 + 0.2 * shape, 0.24 + 0.14 * lattice(cell, side, 33))
+        wall = _picture(wall, at, feet, half, shape)
+    if instant.wall_surface != _PLASTER:
+        return wall
+    end = math.floor(stretch + 0.5)
+    aside, shape = place[0] - HANGING_EVERY_M * end, lattice(end, side, 38)
+    wall = _picture(wall, (aside, place[1] - 1.88), feet, (0.1, 0.11), shape)
+    return _picture(wall, (aside, place[1] - 1.45), feet, (0.08, 0.12), 1.0 - shape)
+
+
+@jit(error_model="numpy", inner=True)
+def _panelled(colour: Colour, place: tuple[float, float], feet: Colour) -> Colour:
+    """The lower part of a wall in panels with grooves, below a rail."""
+    groove = box_coverage(place[0] % _PANEL_M, 0.0, 0.014, feet[0])
+    panel = scaled(mix(_PANEL, colour, 0.25), 1.0 - 0.7 * groove)
+    colour = mix(colour, panel, box_coverage(place[1], 0.0, _RAIL_M, feet[1]))
+    return mix(colour, _SKIRTING, box_coverage(place[1], _RAIL_M, _RAIL_M + 0.06, feet[1]))
 
 
 @jit(error_model="numpy", inner=True)
@@ -359,7 +408,8 @@ def wall_look(
 ) -> tuple[Colour, Vector]:
     """Reflectance and normal of a room's wall or ceiling.
 
-    Walls have a skirting board, windows and pictures; those of rock or drapery have no windows.
+    Walls have a skirting board, windows and pictures, over a floor of boards panels too; those of
+    rock or drapery have none.
     """
     right, down = patch
     a, b = (1, 2) if face == 0 else (0, 2)
@@ -377,7 +427,10 @@ def wall_look(
     feet = (abs(right[a]) + abs(down[a]), abs(right[2]) + abs(down[2]), 0.0)
     colour = look[0]
     if instant.wall_surface not in (_STONE, _CLOTH):
-        colour = _hang(instant, colour, (point[a], point[2]), feet, 2 * face + int(side > 0.0))
+        place = (point[a], point[2])
+        colour = _hang(instant, colour, place, feet, 2 * face + int(side > 0.0))
+        if instant.ground_surface == _BOARDS:
+            colour = _panelled(colour, place, feet)
     colour = mix(colour, _SKIRTING, box_coverage(point[2], 0.0, 0.14, feet[1]))
     if face == 0:
         return colour, (side, -look[1], -look[2])

@@ -225,7 +225,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         return _seat_on(group, target, neighbours)
     support = find_support(target.models[0])
     _line_up(group, target, support, neighbours)
-    if not group.scene_object.motions or kind == "stand":
+    if kind == "stand":
         _carry_along(group, target, support)
     if is_person and kind in ("lie", "stand"):
         body = target.models[0]

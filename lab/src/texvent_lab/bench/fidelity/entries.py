@@ -267,8 +267,8 @@ def read_ablations(
     paths = sorted(folder.glob("*.toml"), key=_by_number)
     if not paths:
         raise InputError(
-            f"no config file in {folder}; give the folder configs/paper of the source "
-            "distribution, or one with TOML files of your own"
+            f"no config file in {folder}; give a folder with TOML files, such as the "
+            "repository's configs/paper"
         )
     rows = (ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths)
     return [one.or_flow(rife=rife) for one in rows]

@@ -26,6 +26,8 @@ from texvent_lab.registries import RECONSTRUCTORS
 BASELINE = "Texvent"
 ABLATIONS = (4, 5)
 """Tables of configs/paper."""
+CONFIGS = Path(__file__).with_name("configs")
+"""A link to configs/paper, whose files are in the wheel of the laboratory."""
 CLASSIFIED = 9
 """Table of N-ImageNet's classifier."""
 FROM_FILES = (1, 2, 8, 9)
@@ -62,8 +64,9 @@ class PaperConfig:
     match_rate: bool = True
     """Fit each contrast threshold to the number of true events. With --no-match-rate every row
     keeps its own, as in the paper: then the number of events decides."""
-    configs: Path = Path("configs/paper")
-    """Tables 4 and 5: folder with one TOML file per row."""
+    configs: Path | None = None
+    """Tables 4 and 5: folder with one TOML file per row; default: the paper's rows, which are
+    configs/paper of the repository."""
     rife: bool = True
     """Interpolate Texvent's rows by RIFE at every instant, as in the paper. --no-rife takes optical
     flow, and minutes in place of hours on a processor."""

@@ -21,7 +21,7 @@ from texvent_lab.bench.paper.ablations import (
     leave_out_other_tables,
     measure_ablations,
 )
-from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
+from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, CONFIGS, PaperConfig
 from texvent_lab.bench.paper.figures import ABLATED, ABLATION_FIGURE, draw_figure
 from texvent_lab.bench.paper.published_tables import (
     SCHEMA,
@@ -84,7 +84,8 @@ def _run_figure(config: PaperConfig, output: ResultOptions) -> None:
 
 
 def _read_ablations(config: PaperConfig) -> list[ConfigEntry]:
-    return read_ablations(config.configs, is_rate_matched=config.match_rate, rife=config.rife)
+    folder = config.configs or CONFIGS
+    return read_ablations(folder, is_rate_matched=config.match_rate, rife=config.rife)
 
 
 def _run_ablations(config: PaperConfig, progress: Progress) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from texvent.simulation.gpu.elementary_triton import natural_log
 from texvent.simulation.gpu.kernel_types import Call, Tensor
 from texvent.simulation.gpu.launch import EXTRA, LAUNCH
 from texvent.simulation.physical.gpu import light
-from texvent.simulation.physical.gpu.light import PhysicalRules, noise_rate_of
+from texvent.simulation.physical.gpu.light import PhysicalRules, noise_rate_of, rules_of
 from texvent.simulation.random import poisson_noise
 
 ROWS = 32
@@ -90,6 +90,7 @@ def draw_arrivals(
     y = tl.program_id(0) * ROWS + tl.arange(0, ROWS)
     going = y < frames.area // frames.width
     clip = segment // frames.intervals
+    rules = rules_of(rules, clip)
     row = process[0] + clip * frames.area + y * frames.width
     total = tl.load(row + frames.width - 1, mask=going, other=0.0)
     key = tl.load(intervals.key + segment).to(tl.uint64, bitcast=True)

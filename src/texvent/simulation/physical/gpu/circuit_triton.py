@@ -27,10 +27,11 @@ from texvent.simulation.physical import lane_steps, lanes
 from texvent.simulation.physical.gpu import light
 from texvent.simulation.physical.gpu.arrivals import FILLER, PackedArrivals
 from texvent.simulation.physical.gpu.crossing_triton import NEGLIGIBLE, find_crossings
-from texvent.simulation.physical.gpu.light import brightness_of
+from texvent.simulation.physical.gpu.light import brightness_of, rules_of
 
 _CUTOFF_PER_LEVEL = tl.constexpr(light.CUTOFF_PER_LEVEL)
 _MOST_CURRENT = tl.constexpr(light.MOST_CURRENT)
+_REFRACTORY_US = tl.constexpr(light.REFRACTORY_US)
 _SETTLED, _STRAIGHT = tl.constexpr(lanes.SETTLED), tl.constexpr(lane_steps.STRAIGHT)
 _FEWEST_PER_LOG = tl.constexpr(lane_steps.FEWEST_PER_LOG)
 _MOST_PER_LOG = tl.constexpr(lane_steps.MOST_PER_LOG)
@@ -80,6 +81,8 @@ def scan_circuit(
         BLOCK: pixels of a program.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
+    rules = rules_of(rules, clip)
+    refractory_us = tl.load(rules.numbers + _REFRACTORY_US)
     on, off, leak, output, level, since_us, number = _load_pixels(state, home, inside)
     arrival = _read_arrival(state.noise, number, at, inside)
     last = read(frames.previous + home, inside)
@@ -101,7 +104,7 @@ def scan_circuit(
         output, level, since, number, arrival, place = _advance_interval(
             (at, inside, frames.area),
             (before, now, cutoff, cutoff_now),
-            (on, off, leak),
+            (on, off, leak, refractory_us),
             (output, level, (since_us - start_us).to(tl.float64), number, arrival, place),
             (axis_us, duration_us),
             (rules, state.noise, words),
@@ -149,7 +152,7 @@ def _read_arrival(noise: tl.tuple, number: tl.tensor, at: tl.tensor, where: tl.t
 def _is_quiet(light: tl.tuple, pixel: tl.tuple, state: tl.tuple, duration: tl.tensor) -> tl.tensor:
     """Whether pixels cannot fire but by noise; see `..circuit_kernel`."""
     before, now, _, _ = light
-    on, off, leak = pixel
+    on, off, leak, _ = pixel
     output, level, since = state
     high = tl.maximum(output, tl.maximum(before, now))
     low = tl.minimum(output, tl.minimum(before, now))
@@ -183,7 +186,7 @@ def _advance_interval(
     Args:
         own: numbers of the pixels, which of them exist, and the area.
         light: brightness at both ends, cutoff at both.
-        pixel: thresholds and leak.
+        pixel: thresholds, leak and refractory period.
         state: output; level; release since the start of the interval; number and `_read_arrival`
             of the next noise event; place of the next event.
         span: start on the common axis, and duration, µs.
@@ -237,7 +240,7 @@ def _advance_segment(
     Args:
         own: numbers of the pixels, which of them are on the segment, and the area.
         line: output of their photoreceptors, see `_enter_segment`.
-        pixel: thresholds and leak.
+        pixel: as of `_advance_interval`.
         state: that of `_advance_interval` without the output.
         span: that of `_advance_interval`, and begin and end of the segment.
         shared: rules, noise, words.
@@ -245,7 +248,7 @@ def _advance_segment(
     at, going, area = own
     level, since, number, arrival, place = state
     axis_us, duration_us, begin, end = span
-    rules, noise, words = shared
+    _, noise, words = shared
     now = begin
     while tl.max(going.to(tl.int32)) > 0:
         lost = going & (since > now) & _comes_before(arrival, since, axis_us)
@@ -276,7 +279,7 @@ def _advance_segment(
         arrival = tl.where(used, _read_arrival(noise, number, at, used), arrival)
         # Held in reset for the refractory period.
         level = tl.where(going, float("nan"), level)
-        since = tl.where(going, after + rules.refractory_us, since)
+        since = tl.where(going, after + pixel[3], since)
     return level, since, number, arrival, place
 
 
@@ -336,7 +339,7 @@ def _start_step(
     """The change from now on, as `find_crossings` takes it, and the level."""
     base, slope, transient, omega, kept = line
     level, since = state
-    on, off, leak = pixel
+    on, off, leak, _ = pixel
     now, begin, end = times
     left = exponential(-omega * (now - begin))
     transient = transient * left

@@ -19,24 +19,32 @@ from texvent.simulation.physical.gpu.circuit_triton import CircuitState, scan_ci
 from texvent.simulation.physical.gpu.light import make_rules
 
 
-class PhysicalGpuPixels(GpuPixels[PhysicalConfig]):
+class PhysicalGpuPixels(GpuPixels[PhysicalConfig | Sequence[PhysicalConfig]]):
     """The pixels of a batch of clips under the `physical` model."""
 
-    def __init__(self, config: PhysicalConfig, seeds: Sequence[int]) -> None:
+    def __init__(
+        self, config: PhysicalConfig | Sequence[PhysicalConfig], seeds: Sequence[int]
+    ) -> None:
         """Pixels that have seen no frame.
 
         Args:
-            config: the options.
+            config: the options, of all clips or of each.
             seeds: one per clip.
         """
         super().__init__(config, CIRCUIT_LAUNCH)
+        if isinstance(config, PhysicalConfig):
+            config = (config,) * len(seeds)
+        self._configs = config
         self._seeds = seeds
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
         shape, device = frames.shape, frames.device
-        self._sensors = [draw_sensor(self.config, seed, shape[1:]) for seed in self._seeds]
+        self._sensors = [
+            draw_sensor(config, seed, shape[1:])
+            for config, seed in zip(self._configs, self._seeds, strict=True)
+        ]
         on, off, leak = (
             to_device(np.stack(column), device)
             for column in zip(*(one.mismatch for one in self._sensors), strict=True)
@@ -51,7 +59,7 @@ class PhysicalGpuPixels(GpuPixels[PhysicalConfig]):
             torch.zeros(shape, dtype=torch.int64, device=device),
             None,
         )
-        self._rules = make_rules(self.config, device)
+        self._rules = make_rules(self._configs, device)
         self._processes = [
             NoiseProcess(
                 to_device(np.stack([one.cumulative_hz for one in process]), device),
