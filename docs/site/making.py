@@ -23,6 +23,7 @@ BENCHMARKS = {
     "digits-all": (),
     "digits-ablation": (),
     "objects": (),
+    "objects-factors": (),
     "selftest": (),
 }
 """Results that `texvent bench page` turns into a page of the same name, and its options."""
