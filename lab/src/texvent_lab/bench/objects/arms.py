@@ -27,7 +27,7 @@ class Arm:
 
     specification: Specification
     options: Mapping[str, Any]
-    """Of the simulator."""
+    """Options of the simulator."""
     threshold: tuple[float, ...] = ()
     """Contrast threshold, log units: one for all clips; two between which each clip draws its own,
     evenly on a logarithmic scale; none: matched to the recorded share of pixels with an event."""
