@@ -128,7 +128,7 @@ def find_unseen(
 
 
 def _list_words_of(description: SceneDescription, gone: Collection[int]) -> Iterator[Violation]:
-    """Nouns of objects that nobody sees, and what is said of no others."""
+    """Nouns of unseen objects, and what is said of no others."""
     told = [
         [*((name, getattr(one, name)) for name in _ADJECTIVES),
          *(("motion", motion.kind) for motion in one.motions)]

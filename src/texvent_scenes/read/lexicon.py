@@ -371,7 +371,7 @@ def _without_chance(
 def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
     """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range.
 
-    Of "0.5/2 m/s" and "2-3 Hz" nobody knows which number is meant.
+    Of "0.5/2 m/s" and "2-3 Hz" it is open which number is meant.
     """
     text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
     try:

@@ -396,7 +396,9 @@ def _hang(
 @jit(error_model="numpy", inner=True)
 def _panelled(colour: Colour, place: tuple[float, float], feet: Colour) -> Colour:
     """The lower part of a wall in panels with grooves, below a rail."""
-    groove = box_coverage(place[0] % _PANEL_M, 0.0, 0.014, feet[0])
+    middle = 0.5 * _PANEL_M  # of a period, so that no pixel across a groove misses half of it
+    along = (place[0] - 0.007 + middle) % _PANEL_M
+    groove = box_coverage(along, middle - 0.007, middle + 0.007, feet[0])
     panel = scaled(mix(_PANEL, colour, 0.25), 1.0 - 0.7 * groove)
     colour = mix(colour, panel, box_coverage(place[1], 0.0, _RAIL_M, feet[1]))
     return mix(colour, _SKIRTING, box_coverage(place[1], _RAIL_M, _RAIL_M + 0.06, feet[1]))
