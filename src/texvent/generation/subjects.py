@@ -31,7 +31,7 @@ Subject: TypeAlias = str | SceneValue
 """A prompt, or the scene itself."""
 
 
-class Reading(Protocol):
+class ReadPrompt(Protocol):
     """A sentence that was read."""
 
     @property
@@ -97,7 +97,7 @@ class ScenePackage(Protocol):
         """The words of prompts: family → words, each with its other names."""
         ...
 
-    def read(self, prompt: str, *, assets: str | Path | None = None) -> Reading:
+    def read(self, prompt: str, *, assets: str | Path | None = None) -> ReadPrompt:
         """The scene that a sentence describes."""
         ...
 

@@ -45,7 +45,7 @@ def simulate_clips(
             from texvent.simulation.clips.physical_gpu import simulate_physical_on_gpu
 
             return simulate_physical_on_gpu(frames, times_us, configs, drawn[1], outputs)
-        from texvent.simulation.clips.physical_cpu import simulate_physical
+        from texvent.simulation.clips.physical import simulate_physical
 
         made = simulate_physical(frames.numpy(), times_us, configs, drawn[1], outputs)
         return _as_tensors(made)
@@ -54,7 +54,7 @@ def simulate_clips(
         from texvent.simulation.clips.scan_triton import simulate_on_gpu
 
         return simulate_on_gpu(frames, times_us, pixels, outputs)
-    from texvent.simulation.clips.scan_cpu import simulate_on_cpu
+    from texvent.simulation.clips.scan import simulate_on_cpu
 
     return _as_tensors(simulate_on_cpu(frames.numpy(), times_us, pixels, outputs))
 

@@ -52,9 +52,9 @@ class Batch:
     """B clips of W frames each, on the device of the stream.
 
     Example:
-        >>> from texvent.training import EventStream, PromptClips
+        >>> from texvent.training import ClipStream, PromptClips
         >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
-        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> stream = ClipStream(clips, batch=1, frames=4, size="32x24", device="cpu")
         >>> batch = next(iter(stream))
         >>> batch.number, batch.frames.shape
         (0, torch.Size([1, 4, 24, 32]))
@@ -95,7 +95,7 @@ class _Prepared(NamedTuple):
 
 
 @dataclass(kw_only=True, eq=False)
-class EventStream(_IterableDataset):  # type: ignore[misc]
+class ClipStream(_IterableDataset):  # type: ignore[misc]
     """Batches of simulated clips without end; equal seeds give equal batches on any ranks.
 
     Batch i holds the clips i · B .. i · B + B − 1 of the stream, whose draws depend on the seed and
@@ -109,9 +109,9 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         MissingDependencyError: torch is not installed; on a GPU, Triton.
 
     Example:
-        >>> from texvent.training import EventStream, PromptClips
+        >>> from texvent.training import ClipStream, PromptClips
         >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
-        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> stream = ClipStream(clips, batch=1, frames=4, size="32x24", device="cpu")
         >>> next(iter(stream)).grids.shape
         torch.Size([1, 4, 5, 24, 32])
     """

@@ -16,7 +16,7 @@ from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 from texvent.simulation.clips import pixels as columns_of
 from texvent.simulation.clips.pixels import ClipOutputs, ClipPixels, byte_brightness, check_clips
-from texvent.simulation.clips.scan_cpu import simulate_on_cpu
+from texvent.simulation.clips.scan import simulate_on_cpu
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.simulator import EsimSimulator
 from texvent.simulation.random.draws import frame_keys

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.simulation.clips.pixels import ClipOutputs, ClipPixels
-from texvent.simulation.clips.scan_cpu import simulate_on_cpu
+from texvent.simulation.clips.scan import simulate_on_cpu
 
 from .test_clips import ALL, EVERYTHING, pixels_of, some_clips
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.simulation.clips.physical_cpu import simulate_physical
+from texvent.simulation.clips.physical import simulate_physical
 from texvent.simulation.clips.pixels import ClipOutputs
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.random.draws import frame_key

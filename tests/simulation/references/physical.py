@@ -24,13 +24,13 @@ from texvent.simulation.physical.circuit import (
     brightness_and_cutoff,
 )
 from texvent.simulation.physical.crossing_time import LAST_STEP, MOST_STEPS, NEGLIGIBLE, NEVER
-from texvent.simulation.physical.lane_steps import (
+from texvent.simulation.physical.simd_lanes import SETTLED
+from texvent.simulation.physical.simd_steps import (
     FEWEST_PER_LOG,
     LEAK_SHARE,
     MOST_PER_LOG,
     STRAIGHT,
 )
-from texvent.simulation.physical.lanes import SETTLED
 from texvent.simulation.random.mismatch import PixelMismatch
 
 

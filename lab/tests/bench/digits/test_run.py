@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent_lab.bench.digits.plan import ABLATION, ARMS, Cell, DigitsPlan, Training
+from texvent_lab.bench.digits.plan import ABLATION, ARMS, Cell, DigitsPlan, DigitsTraining
 from texvent_lab.bench.digits.results import digits_table, read_report
-from texvent_lab.bench.digits.run import Run, run_digits
+from texvent_lab.bench.digits.run import DigitsRun, run_digits
 from texvent_lab.bench.digits.training import shift_images
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.page import page_files
@@ -110,7 +110,7 @@ def test_images_move_by_whole_pixels_with_zeros_behind():
 
 def run(**changes):
     plan = DigitsPlan(mnist=Path("m"), nmnist=Path("n"), work=Path("w"), **changes)
-    return Run(plan, mnist="a", recorded="b", target=4000.0, polarity=0.9)
+    return DigitsRun(plan, mnist="a", recorded="b", target=4000.0, polarity=0.9)
 
 
 @pytest.mark.parametrize("arm", [*ARMS, *ABLATION], ids=lambda arm: arm.name)
@@ -137,7 +137,7 @@ def test_pairs_and_training_digits_are_disjoint():
 
 
 def test_files_depend_on_what_they_hold_and_on_nothing_else():
-    training = Training(None, "histogram", 0, fold=1)
+    training = DigitsTraining(None, "histogram", 0, fold=1)
     first = run().prediction_path(training)
     assert run(arms=("v2e",), seeds=9).prediction_path(training) == first
     others = [
@@ -147,7 +147,7 @@ def test_files_depend_on_what_they_hold_and_on_nothing_else():
         run().prediction_path(dataclasses.replace(training, fold=2)),
         run(folds=5).prediction_path(training),
         run(precision="bfloat16").prediction_path(training),
-        run().prediction_path(Training(Cell("esim", "exact"), "histogram", 0)),
+        run().prediction_path(DigitsTraining(Cell("esim", "exact"), "histogram", 0)),
     ]
     assert len({first, *others}) == 1 + len(others)
     cell = Cell("esim", "exact")

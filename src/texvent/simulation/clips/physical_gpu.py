@@ -1,6 +1,6 @@
 """Clips of the `physical` pixel model on a GPU: its kernels, and their events as arrays.
 
-The twin of `physical_cpu`. Every clip has options of its own in one launch. Whole numbers are
+The twin of `physical`. Every clip has options of its own in one launch. Whole numbers are
 added, so that the order in which a GPU adds them changes nothing.
 """
 
@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.simulation.clips.physical_cpu import seed_of
+from texvent.simulation.clips.physical import seed_of
 from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs
-from texvent.simulation.gpu.engine import EventBatch, GpuSimulator
+from texvent.simulation.gpu.engine import ClipEvents, GpuSimulator
 from texvent.simulation.gpu.launch import EXTRA, to_device
 from texvent.simulation.physical.config import PhysicalConfig
 
@@ -27,7 +27,7 @@ def simulate_physical_on_gpu(
     keys: NDArray[np.uint64],
     outputs: ClipOutputs,
 ) -> ClipArrays:
-    """As `physical_cpu.simulate_physical`, of a tensor on a GPU, or in Triton's interpreter.
+    """As `physical.simulate_physical`, of a tensor on a GPU, or in Triton's interpreter.
 
     The host waits once, for the number of events.
 
@@ -43,7 +43,7 @@ def simulate_physical_on_gpu(
 
 
 def _as_arrays(
-    torch: Any, events: EventBatch, times_us: NDArray[np.int64], outputs: ClipOutputs
+    torch: Any, events: ClipEvents, times_us: NDArray[np.int64], outputs: ClipOutputs
 ) -> ClipArrays:
     """Arrays of the events of all windows, which follow each other."""
     device, per = events.t.device, outputs.intervals_per_window
@@ -77,12 +77,12 @@ def _as_arrays(
 
 def _voxels(
     torch: Any,
-    events: EventBatch,
+    events: ClipEvents,
     edges: tuple[NDArray[np.int64], NDArray[np.int64]],
     place: tuple[Any, Any],
     bins: int,
 ) -> Any:
-    """[W, bins, area] grids, as `scan_cpu.spread_events` makes them.
+    """[W, bins, area] grids, as `scan.spread_events` makes them.
 
     Args:
         torch: the module.

@@ -1,4 +1,4 @@
-"""Clips on a GPU, as Triton kernels: the twin of `scan_cpu`, event for event.
+"""Clips on a GPU, as Triton kernels: the twin of `scan`, event for event.
 
 A program owns a block of pixels of a clip and goes through all its frames with their state in
 registers: once to count the events and find the bounds of each window, once more to add them to the
@@ -232,7 +232,7 @@ def scan_clips(
 def simulate_on_gpu(
     frames: Any, times_us: NDArray[np.int64], clips: ClipPixels, outputs: ClipOutputs
 ) -> ClipArrays:
-    """As `scan_cpu.simulate_on_cpu`, of a tensor on a GPU, or on a CPU in Triton's interpreter.
+    """As `scan.simulate_on_cpu`, of a tensor on a GPU, or on a CPU in Triton's interpreter.
 
     Raises:
         ConfigError: the frames are not on a GPU.

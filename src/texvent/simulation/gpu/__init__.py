@@ -6,7 +6,7 @@ from typing import Any
 
 from texvent._require import require
 
-__all__ = ["EventBatch", "GpuSimulator"]
+__all__ = ["ClipEvents", "GpuSimulator"]
 
 
 def __getattr__(name: str) -> Any:
@@ -18,7 +18,7 @@ def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     require("triton", extra="gpu")
-    from texvent.simulation.gpu.engine import EventBatch, GpuSimulator
+    from texvent.simulation.gpu.engine import ClipEvents, GpuSimulator
 
-    public = {"EventBatch": EventBatch, "GpuSimulator": GpuSimulator}
+    public = {"ClipEvents": ClipEvents, "GpuSimulator": GpuSimulator}
     return public[name]

@@ -21,7 +21,7 @@ from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.gpu.intervals import Clock, Span
-from texvent.simulation.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
+from texvent.simulation.gpu.kernel_types import Call, FrameLayout, Intervals, NoiseRules, Tensor
 from texvent.simulation.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
 from texvent.simulation.gpu.ordering import order_events
 from texvent.simulation.gpu.passes import GpuPixels, run_passes
@@ -33,7 +33,7 @@ from texvent.simulation.texvent.gpu.noise import noise_rules
 
 
 @dataclass(frozen=True, eq=False)
-class EventBatch:
+class ClipEvents:
     """The events of all clips, clip by clip, each sorted by (t, y, x, p, label)."""
 
     x: Tensor
@@ -180,7 +180,7 @@ class GpuSimulator:
         self._clips: _ClipStates | None = None
         self._is_broken = False
 
-    def step(self, frames: Tensor, times_us: Any, is_source: Any = None) -> EventBatch:
+    def step(self, frames: Tensor, times_us: Any, is_source: Any = None) -> ClipEvents:
         """Events between the last frame of the call before and the last of these.
 
         The host waits for the device once, for the number of events.
@@ -239,7 +239,7 @@ class GpuSimulator:
         pixels.begin(frames[:, 0])
         return _ClipStates(checked_size(width, height), Clock(count), seeds, pixels, None)
 
-    def _advance(self, clips: _ClipStates, frames: Tensor, span: Span) -> EventBatch:
+    def _advance(self, clips: _ClipStates, frames: Tensor, span: Span) -> ClipEvents:
         frames = _rows_in_place(frames)
         if clips.previous is None:
             first, frames = frames[:, 0].clone(), frames[:, 1:]
@@ -264,7 +264,7 @@ class GpuSimulator:
         )
         clips.previous = frames[:, -1].clone()
         rows = np.arange(count)[:, None] * intervals + np.arange(intervals + 1)
-        return EventBatch(x, y, t, p, label, clip_offsets, clips.size, found.host_ends[rows])
+        return ClipEvents(x, y, t, p, label, clip_offsets, clips.size, found.host_ends[rows])
 
     def _call(
         self, clips: _ClipStates, first: Tensor, frames: Tensor, span: Span
@@ -293,7 +293,9 @@ class GpuSimulator:
             table,
         )
         plan = to_device(np.stack(columns).reshape(len(columns), -1), frames.device)
-        layout = Frames(frames, first, strides[0], strides[1], frames.shape[1], area, size.width)
+        layout = FrameLayout(
+            frames, first, strides[0], strides[1], frames.shape[1], area, size.width
+        )
         return Call(layout, Intervals(*plan), alignment(area, strides[0], strides[1])), rules
 
 
@@ -365,7 +367,7 @@ def _of_one_type(first: Tensor, frames: Tensor) -> tuple[Tensor, Tensor]:
     return first, frames
 
 
-def _no_events(clips: _ClipStates, frames: Tensor) -> EventBatch:
+def _no_events(clips: _ClipStates, frames: Tensor) -> ClipEvents:
     """The empty batch of the first frame of clips."""
     torch = require("torch", extra=EXTRA)
     count, device = len(frames), frames.device
@@ -373,4 +375,4 @@ def _no_events(clips: _ClipStates, frames: Tensor) -> EventBatch:
         torch.empty(0, dtype=torch.int64, device=device), None, None, area=1, width=1
     )
     offsets = torch.zeros(count + 1, dtype=torch.int64, device=device)
-    return EventBatch(*columns, offsets, clips.size, np.zeros((count, 1), np.int64))
+    return ClipEvents(*columns, offsets, clips.size, np.zeros((count, 1), np.int64))

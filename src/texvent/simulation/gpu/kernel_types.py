@@ -13,7 +13,7 @@ Tensor: TypeAlias = Any
 """torch.Tensor; inside a kernel a Triton pointer."""
 
 
-class Frames(NamedTuple):
+class FrameLayout(NamedTuple):
     """The frames of one call: T intervals per clip, each ending at a frame of `pixels`."""
 
     pixels: Tensor
@@ -94,7 +94,7 @@ ON_FRACTION, DARK_BELOW = range(2)
 class Call(NamedTuple):
     """One call of the engine, as every kernel sees it."""
 
-    frames: Frames
+    frames: FrameLayout
     intervals: Intervals
     align: int
     """Largest power of two, up to 16, that divides the distance of any two frames, pixels."""

@@ -2,7 +2,7 @@
 
 A block whose luma did not change and in which no pixel can fire is skipped. Otherwise all its
 pixels are first advanced as if none fired, in loops that fill vector registers. Those that may fire
-are then advanced again in lanes, event by event; see `lanes`.
+are then advanced again in lanes, event by event; see `simd_lanes`.
 """
 
 from __future__ import annotations
@@ -28,8 +28,7 @@ from texvent.simulation.physical.circuit import (
     PhotoreceptorConstants,
     PhotoreceptorInput,
 )
-from texvent.simulation.physical.lane_steps import EventRules, advance_lanes
-from texvent.simulation.physical.lanes import (
+from texvent.simulation.physical.simd_lanes import (
     LANES,
     SETTLED,
     PixelBlock,
@@ -37,6 +36,7 @@ from texvent.simulation.physical.lanes import (
     new_block,
     new_work,
 )
+from texvent.simulation.physical.simd_steps import EventRules, advance_lanes
 from texvent.simulation.random.mismatch import PixelMismatch
 
 PIXELS_PER_THREAD = 64 * BLOCK

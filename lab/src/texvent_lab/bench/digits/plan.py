@@ -141,7 +141,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Training:
+class DigitsTraining:
     """One network."""
 
     cell: Cell | None
@@ -218,16 +218,16 @@ class DigitsPlan:
         """Images that are simulated for training, from 1."""
         return self.pairs + 1 + np.arange(self.digits)
 
-    def trainings(self, cell: Cell, representation: str) -> list[Training]:
+    def trainings(self, cell: Cell, representation: str) -> list[DigitsTraining]:
         """Networks of a set."""
-        return [Training(cell, representation, seed) for seed in range(self.seeds)]
+        return [DigitsTraining(cell, representation, seed) for seed in range(self.seeds)]
 
-    def folds_of(self, representation: str, seed: int) -> list[Training]:
+    def folds_of(self, representation: str, seed: int) -> list[DigitsTraining]:
         """Networks of a seed that are trained on recordings."""
-        return [Training(None, representation, seed, fold) for fold in range(self.folds)]
+        return [DigitsTraining(None, representation, seed, fold) for fold in range(self.folds)]
 
     @property
-    def every_training(self) -> list[Training]:
+    def every_training(self) -> list[DigitsTraining]:
         """All networks."""
         return [
             training

@@ -40,7 +40,7 @@ from texvent_lab.bench.digits.inputs import (
     represent_all,
     represent_recordings,
 )
-from texvent_lab.bench.digits.plan import Cell, DigitsArm, DigitsPlan, Training, Way, find_arm
+from texvent_lab.bench.digits.plan import Cell, DigitsArm, DigitsPlan, DigitsTraining, Way, find_arm
 from texvent_lab.bench.digits.results import DigitsReport, SetScore, compare_with_best
 from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 from texvent_lab.bench.digits.training import predict, train_network
@@ -91,7 +91,7 @@ def run_digits(
 
 
 @dataclass(frozen=True)
-class Run:
+class DigitsRun:
     """A plan and facts of its data; small, so that processes can be given it."""
 
     plan: DigitsPlan
@@ -122,7 +122,7 @@ class Run:
         facts = (settings, *chance, plan.pairs, self.target, plan.digits, self.mnist)
         return self.path("set", ".npz", *facts)
 
-    def prediction_path(self, training: Training) -> Path:
+    def prediction_path(self, training: DigitsTraining) -> Path:
         """The predictions of a network."""
         plan, schedule = self.plan, self.plan.schedule
         seen = self.set_path(training.cell).stem if training.cell else (training.fold, plan.folds)
@@ -131,7 +131,7 @@ class Run:
         return self.path("predicted", ".npz", *facts)
 
 
-def open_run(plan: DigitsPlan) -> Run:
+def open_run(plan: DigitsPlan) -> DigitsRun:
     """Read the data, check it, and keep the images of the recordings.
 
     Raises:
@@ -156,7 +156,7 @@ def open_run(plan: DigitsPlan) -> Run:
             "of brightness; N-MNIST's files as published have 1 where it falls, so do not flip it"
         )
     recorded = read_recordings(plan.nmnist, range(1, plan.recorded + 1))
-    run = Run(
+    run = DigitsRun(
         plan=plan,
         mnist=digest_of(mnist.images.tobytes(), mnist.labels.tobytes()),
         recorded=digest_of(*map(_bytes, recorded)),
@@ -175,7 +175,7 @@ def _bytes(recording: DigitRecording) -> bytes:
     return b"".join(one.tobytes() for one in columns) + bytes([recording.label])
 
 
-def make_set(run: Run, cell: Cell) -> str:
+def make_set(run: DigitsRun, cell: Cell) -> str:
     """Fit the threshold of a set to the pairs and simulate it; returns a line for progress.
 
     Where no threshold gives the count, the preset's own is kept.
@@ -239,7 +239,7 @@ def simulate_digits(
     return join_inputs(parts)
 
 
-def train_one(run: Run, training: Training) -> str:
+def train_one(run: DigitsRun, training: DigitsTraining) -> str:
     """Train a network and store its predictions; returns a line for progress."""
     plan, start = run.plan, time.perf_counter()
     recorded = InputSet.read(run.recordings_path)
@@ -267,12 +267,12 @@ def train_one(run: Run, training: Training) -> str:
     return f"{training.name}: {right:.3f} ({time.perf_counter() - start:.0f} s)"
 
 
-def collect(run: Run, seconds: float) -> DigitsReport:
+def collect(run: DigitsRun, seconds: float) -> DigitsReport:
     """The report of a run whose files are all there."""
     plan = run.plan
     recorded = InputSet.read(run.recordings_path)
 
-    def predicted(trainings: Sequence[Training]) -> NDArray[np.int64]:
+    def predicted(trainings: Sequence[DigitsTraining]) -> NDArray[np.int64]:
         """[trainings, recordings]; −1 for a recording that a network saw."""
         return np.stack([np.load(run.prediction_path(one))["predicted"] for one in trainings])
 
@@ -319,7 +319,7 @@ def collect(run: Run, seconds: float) -> DigitsReport:
     )
 
 
-def _protocol(run: Run) -> dict[str, Any]:
+def _protocol(run: DigitsRun) -> dict[str, Any]:
     plan = run.plan
     return {
         "training images": f"{plan.numbers[0]} to {plan.numbers[-1]}",

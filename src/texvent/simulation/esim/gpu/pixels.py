@@ -133,7 +133,7 @@ def stamp_crossings(
     """Give every crossing its time, and write it down as one word.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `rules.EsimRules`.
         records: `kernel_types.Records`.

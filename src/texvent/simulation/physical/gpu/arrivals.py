@@ -76,7 +76,7 @@ def draw_arrivals(
     """Draw the arrivals of some rows in one interval.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `light.PhysicalRules`.
         process: `cumulative_hz` and `stream` of a `NoiseProcess`.

@@ -2,7 +2,7 @@
 
 A program owns a block of pixels of one clip and goes through all intervals of a call with their
 state in registers: once to count the events, once more to write them. Pixels that may fire advance
-in linear segments, event by event, as lanes of the CPU's kernel do; see `..lane_steps`.
+in linear segments, event by event, as lanes of the CPU's kernel do; see `..simd_steps`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from texvent.simulation.gpu.blocks_triton import (
 )
 from texvent.simulation.gpu.elementary_triton import decay_and_gain, exponential
 from texvent.simulation.gpu.kernel_types import Tensor
-from texvent.simulation.physical import lane_steps, lanes
+from texvent.simulation.physical import simd_lanes, simd_steps
 from texvent.simulation.physical.gpu import light
 from texvent.simulation.physical.gpu.arrivals import FILLER, PackedArrivals
 from texvent.simulation.physical.gpu.crossing_triton import NEGLIGIBLE, find_crossings
@@ -32,14 +32,14 @@ from texvent.simulation.physical.gpu.light import brightness_of, rules_of
 _CUTOFF_PER_LEVEL = tl.constexpr(light.CUTOFF_PER_LEVEL)
 _MOST_CURRENT = tl.constexpr(light.MOST_CURRENT)
 _REFRACTORY_US = tl.constexpr(light.REFRACTORY_US)
-_SETTLED, _STRAIGHT = tl.constexpr(lanes.SETTLED), tl.constexpr(lane_steps.STRAIGHT)
-_FEWEST_PER_LOG = tl.constexpr(lane_steps.FEWEST_PER_LOG)
-_MOST_PER_LOG = tl.constexpr(lane_steps.MOST_PER_LOG)
-_LEAK_SHARE = tl.constexpr(lane_steps.LEAK_SHARE)
+_SETTLED, _STRAIGHT = tl.constexpr(simd_lanes.SETTLED), tl.constexpr(simd_steps.STRAIGHT)
+_FEWEST_PER_LOG = tl.constexpr(simd_steps.FEWEST_PER_LOG)
+_MOST_PER_LOG = tl.constexpr(simd_steps.MOST_PER_LOG)
+_LEAK_SHARE = tl.constexpr(simd_steps.LEAK_SHARE)
 _FILLER = tl.constexpr(FILLER)
 
 
-class CircuitState(NamedTuple):
+class CircuitTensors(NamedTuple):
     """The pixels of all clips; [B, area] each."""
 
     threshold_on: Tensor
@@ -71,10 +71,10 @@ def scan_circuit(
     """Find the events of every interval.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `light.PhysicalRules`.
-        state: `CircuitState`; brought up to date in pass 2.
+        state: `CircuitTensors`; brought up to date in pass 2.
         tally: `kernel_types.PassCounts`.
         words: [n] int64, see `blocks_triton.pack_event`; None for pass 1, which counts.
         ALIGN: see `kernel_types.Call`.
@@ -124,7 +124,7 @@ def scan_circuit(
 
 @triton.jit
 def _load_pixels(state: tl.tuple, home: tl.tensor, inside: tl.tensor) -> tl.tuple:
-    """The items of `CircuitState`, and the numbers of the first noise events."""
+    """The items of `CircuitTensors`, and the numbers of the first noise events."""
     on = tl.load(state.threshold_on + home, mask=inside, other=1.0).to(tl.float64)
     off = tl.load(state.threshold_off + home, mask=inside, other=1.0).to(tl.float64)
     leak = tl.load(state.leak + home, mask=inside, other=0.0).to(tl.float64)
@@ -302,7 +302,7 @@ def _cut_into_segments(light: tl.tuple, duration: tl.tensor) -> tl.tuple:
 
 @triton.jit
 def _enter_segment(light: tl.tuple, start: tl.tuple, times: tl.tuple, rules: tl.tuple) -> tl.tuple:
-    """Photoreceptors on the next segment: `base + slope · now − transient`; see `..lane_steps`."""
+    """Photoreceptors on the next segment: `base + slope · now − transient`; see `..simd_steps`."""
     before, now, _, _ = light
     lag, cutoff, here, ahead = start
     begin, length, duration = times

@@ -15,7 +15,7 @@ from texvent.simulation.gpu.passes import GpuPixels
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.drawn_sensor import draw_sensor
 from texvent.simulation.physical.gpu.arrivals import NoiseProcess, draw_noise
-from texvent.simulation.physical.gpu.circuit_triton import CircuitState, scan_circuit
+from texvent.simulation.physical.gpu.circuit_triton import CircuitTensors, scan_circuit
 from texvent.simulation.physical.gpu.light import make_rules
 
 
@@ -50,7 +50,7 @@ class PhysicalGpuPixels(GpuPixels[PhysicalConfig | Sequence[PhysicalConfig]]):
             for column in zip(*(one.mismatch for one in self._sensors), strict=True)
         )
         level = np.stack([np.broadcast_to(one.phase, shape[1:].numel()) for one in self._sensors])
-        self._state = CircuitState(
+        self._state = CircuitTensors(
             on,
             off,
             leak,

@@ -61,7 +61,7 @@ def draw_noise(
     """Draw the noise of every segment: once to count it, once to write it down.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `kernel_types.NoiseRules`.
         fired: `PassCounts.fired`, or None where noise is not on dark, resting pixels only.

@@ -58,7 +58,7 @@ def scan_levels(
     above. For bytes both come from a table made in float64, so the decision is the reference's.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `rules.TexventRules`.
         reference: [B, area] intensity each pixel compares with; brought up to date in pass 2.
@@ -231,7 +231,7 @@ def find_extremes(
     """The smallest and the largest |change| of every segment's events, for Eq. 7.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         rules: `rules.TexventRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
@@ -281,7 +281,7 @@ def timestamp_events(
     """Give every record a time, and write it down as one word.
 
     Args:
-        frames: `kernel_types.Frames`.
+        frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
         rules: `rules.TexventRules`.
         records: `kernel_types.Records`.

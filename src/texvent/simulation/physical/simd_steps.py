@@ -1,4 +1,4 @@
-"""The steps of lanes through the segments of an interval, event by event, compiled; see `lanes`."""
+"""Steps of SIMD lanes through the segments of an interval, event by event, compiled."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from texvent.simulation.physical.crossing_time import (
     WAIT,
     find_crossings,
 )
-from texvent.simulation.physical.lanes import (
+from texvent.simulation.physical.simd_lanes import (
     L_ARRIVAL,
     L_BASE,
     L_BEGIN,

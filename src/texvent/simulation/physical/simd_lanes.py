@@ -1,4 +1,4 @@
-"""Pixels that may fire, in lanes, through the segments of an interval, compiled.
+"""Pixels that may fire, in SIMD lanes, through the segments of an interval, compiled.
 
 Lanes are the columns of one array; its rows are the variables of a pixel, and one array because
 Numba counts the references to each array that is passed on. Loops over lanes fill vector registers.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.frames import Frame
 from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs
-from texvent.simulation.clips.scan_cpu import (
+from texvent.simulation.clips.scan import (
     FoundEvents,
     MadeArrays,
     make_arrays,
