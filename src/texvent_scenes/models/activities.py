@@ -1,200 +1,17 @@
-"""Activities of people, hands and animals: their words, and tracks of their motion.
+"""Activities of people, hands and animals: their words, and what kind they are.
 
-The rows of `data/activities.toml`, `hand_gestures.toml` and `animal_activities.toml`. A track is
-channels of a body over time, as Fourier series and as key values.
-
-A channel is a number or a row of numbers, such as `lean` or `right.hand`. In a table it is written
-by its numbers; each may be a series instead:
-
-    [mean, amplitude, rate_hz, phase, amplitude, rate_hz, phase, ...]
-
-which is mean + amplitude sin(2 pi (rate t + phase)) + ...; phases are in cycles, and a last phase
-of 0 may be left out. `keys` holds channels as values at instants instead, between which they run
-smoothly; a channel that has both is their sum.
+They are the rows of `data/activities.toml`, `hand_gestures.toml` and `animal_activities.toml`.
+`postures.py` reads their motion.
 """
 
 from __future__ import annotations
 
-import math
-from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from functools import cache
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Any
 
-from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import frozen, read_table
-
-Key = tuple[float, tuple[float, ...]]
-"""A time, s, and the values then."""
-ROWS = frozenset({"hips", "tool", "hand", "elbow", "foot", "knee", "bent", "shift"})
-"""Last words of the channels that are rows of numbers; others are one number."""
-_DIRECTIONS: Mapping[str, tuple[float, ...]] = {"down": (-0.2, 0.5, -1.0), "out": (-0.3, 1.0, -0.5)}
-"""Name of a direction in which an elbow usually points → forward, outward, up."""
-Series = tuple[float, ...]
-Values = dict[str, tuple[float, ...]]
-"""Channel → its numbers at an instant."""
-
-
-@dataclass(frozen=True)
-class KeyTrack:
-    """Channels with values at the same instants."""
-
-    channels: tuple[tuple[str, int], ...]
-    """Names, and how many numbers each has."""
-    keys: tuple[Key, ...]
-    period_s: float = 0.0
-    """0 = happens once."""
-
-    def at(self, time_s: float, *, once: bool) -> Values:
-        """Values of the channels; `once` keeps the last ones after the last key."""
-        numbers = follow_keys(time_s, self.keys, 0.0 if once else self.period_s)
-        found, start = {}, 0
-        for name, count in self.channels:
-            found[name] = numbers[start : start + count]
-            start += count
-        return found
-
-
-@dataclass(frozen=True)
-class ChannelTrack:
-    """Channels of a body over time."""
-
-    series: Mapping[str, tuple[Series, ...]]
-    keyed: tuple[KeyTrack, ...] = ()
-
-    def at(self, time_s: float, *, once: bool = False) -> Values:
-        """Values of all channels.
-
-        Args:
-            time_s: the instant; of what happens about an instant of contact, from that on.
-            once: whether what repeats happens only once.
-        """
-        found: Values = {
-            name: tuple(_sum_up(one, time_s) for one in numbers)
-            for name, numbers in self.series.items()
-        }
-        for track in self.keyed:
-            for name, numbers in track.at(time_s, once=once).items():
-                other = found.get(name, (0.0,) * len(numbers))
-                found[name] = tuple(a + b for a, b in zip(numbers, other, strict=True))
-        return found
-
-
-def _sum_up(series: Series, time_s: float) -> float:
-    total = series[0]
-    for start in range(1, len(series), 3):
-        amplitude, rate_hz, phase = series[start : start + 3]
-        total += amplitude * math.sin(2.0 * math.pi * (rate_hz * time_s + phase))
-    return total
-
-
-def read_track(row: Mapping[str, Any]) -> ChannelTrack:
-    """A track of a table: its channels, and those under `keys`, one table or several."""
-    own = {name: value for name, value in row.items() if name != "keys"}
-    series = {name: tuple(map(_series, _numbers(name, value))) for name, value in _channels(own)}
-    tables = row.get("keys", [])
-    tables = [tables] if isinstance(tables, Mapping) else tables
-    return ChannelTrack(series, tuple(_read_keys(table) for table in tables))
-
-
-def _read_keys(table: Mapping[str, Any]) -> KeyTrack:
-    channels, columns = [], []
-    for name, values in _channels(table):
-        if name in ("at_s", "period_s"):
-            continue
-        rows = [_numbers(name, value) for value in values]
-        channels.append((name, len(rows[0])))
-        columns.append(rows)
-    keys = tuple(
-        (float(time_s), tuple(float(number) for row in rows for number in row))
-        for time_s, *rows in zip(table["at_s"], *columns, strict=True)
-    )
-    return KeyTrack(tuple(channels), keys, float(table.get("period_s", 0.0)))
-
-
-def _channels(table: Mapping[str, Any], parent: str = "") -> Iterator[tuple[str, Any]]:
-    """Names with dots and values of a table and the tables in it."""
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _channels(value, f"{parent}{name}.")
-        else:
-            yield f"{parent}{name}", value
-
-
-def _numbers(channel: str, value: Any) -> list[Any]:
-    if channel.rsplit(".", 1)[-1] not in ROWS:
-        return [value]
-    return list(_DIRECTIONS[value] if isinstance(value, str) else value)
-
-
-def _series(value: Any) -> Series:
-    numbers = [float(one) for one in (value if isinstance(value, list) else [value])]
-    return tuple(numbers) + (0.0,) * (-(len(numbers) - 1) % 3)
-
-
-def ease(time_s: float, start_s: float, stop_s: float) -> float:
-    """0 up to `start_s`, 1 from `stop_s` on, with zero slope at both."""
-    share = min(max((time_s - start_s) / (stop_s - start_s), 0.0), 1.0)
-    return share * share * (3.0 - 2.0 * share)
-
-
-def follow_keys(time_s: float, keys: Sequence[Key], period_s: float = 0.0) -> tuple[float, ...]:
-    """Values that pass through keys with a continuous slope, and do not overshoot them much.
-
-    Cubic Hermite curves with Catmull-Rom slopes, which are level at the extremes.
-
-    Args:
-        time_s: the instant.
-        keys: times in rising order with their values.
-        period_s: length of one cycle, which starts at the first key; 0 = happens once, and the
-            first and last values hold before and after.
-
-    Returns:
-        The values at that instant.
-    """
-    if period_s > 0.0:
-        time_s = keys[0][0] + (time_s - keys[0][0]) % period_s
-    elif time_s <= keys[0][0]:
-        return keys[0][1]
-    elif time_s >= keys[-1][0]:
-        return keys[-1][1]
-    index = bisect_right([key[0] for key in keys], time_s) - 1
-    before, here, there, after = (_key(keys, index + step, period_s) for step in (-1, 0, 1, 2))
-    span = there[0] - here[0]
-    s = (time_s - here[0]) / span
-    slopes = zip(_slope(here, before, there), _slope(there, here, after), strict=True)
-    return tuple(
-        (1.0 + 2.0 * s) * (1.0 - s) ** 2 * b
-        + s * (1.0 - s) ** 2 * span * start
-        + s * s * (3.0 - 2.0 * s) * c
-        + s * s * (s - 1.0) * span * stop
-        for b, c, (start, stop) in zip(here[1], there[1], slopes, strict=True)
-    )
-
-
-def _key(keys: Sequence[Key], index: int, period_s: float) -> Key:
-    """A key; beyond the ends the cycle's, or a still one at the end's value."""
-    count = len(keys)
-    if period_s > 0.0:
-        time_s, values = keys[index % count]
-        return time_s + period_s * (index // count), values
-    if index < 0:
-        # Mirrored, so that the slope at the end is zero.
-        return 2.0 * keys[0][0] - keys[1][0], keys[1][1]
-    if index >= count:
-        return 2.0 * keys[-1][0] - keys[-2][0], keys[-2][1]
-    return keys[index]
-
-
-def _slope(here: Key, before: Key, after: Key) -> tuple[float, ...]:
-    """Slopes of the values at a key: none where a value turns round or stays."""
-    span = after[0] - before[0]
-    return tuple(
-        (c - a) / span if (b - a) * (c - b) > 0.0 else 0.0
-        for a, b, c in zip(before[1], here[1], after[1], strict=True)
-    )
 
 
 @dataclass(frozen=True)
@@ -217,10 +34,16 @@ class Activity:
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
     """Time of the contact in an act that has one, if the act is repeated, s."""
+    is_hop: bool = False
+    """Whether it follows the time of a hop."""
 
 
 USUAL = "usual"
 """Name of the row of a table with the channels that an activity does not say."""
+OTHER = "other"
+"""Name of the row of activities that a table does not have; without it they decide nothing."""
+_APART = frozenset({"props", "gait", "steps"})
+"""Keys of a row that are neither fields of `Activity` nor channels."""
 
 
 def _read(name: str) -> Mapping[str, Activity]:
@@ -229,58 +52,18 @@ def _read(name: str) -> Mapping[str, Activity]:
         {
             activity: Activity(**{key: frozen(value) for key, value in row.items() if key in known})
             for activity, row in read_table(name).items()
-            if activity != USUAL
+            if activity not in (USUAL, OTHER)
         }
     )
 
 
 def motion_of(table: str, activity: str) -> dict[str, Any]:
     """Motion of a row, or of the one that it moves as: the channels of a track."""
-    known = {one.name for one in fields(Activity)} | {"props"}
-    row = read_table(table).get(activity, {})
-    row = read_table(table)[row["moves_as"]] if "moves_as" in row else row
+    rows = read_table(table)
+    row = rows.get(activity, rows.get(OTHER, {}))
+    row = rows[row["moves_as"]] if "moves_as" in row else row
+    known = {one.name for one in fields(Activity)} | _APART
     return {key: value for key, value in row.items() if key not in known}
-
-
-@cache
-def _find_track(table: str, activity: str) -> ChannelTrack:
-    rows = read_table(table)
-    usual = rows.get(USUAL, {})
-    return read_track({**usual, **motion_of(table, activity if activity in rows else "stand")})
-
-
-def flattened(values: Values) -> dict[str, float]:
-    """Channels with one number each: of rows of numbers "shift.0", "shift.1" ..."""
-    return {
-        name if len(numbers) == 1 else f"{name}.{index}": number
-        for name, numbers in values.items()
-        for index, number in enumerate(numbers)
-    }
-
-
-def find_channels(table: str, pose: Pose) -> dict[str, float]:
-    """Channels of the activity at a pose, perhaps between it and the one before.
-
-    Args:
-        table: that has the activity; of one that it does not have, the channels of "stand".
-        pose: the instant.
-    """
-    found = flattened(_find_track(table, pose.activity).at(pose.time_s))
-    if pose.before is None:
-        return found
-    earlier = find_channels(table, replace(pose, activity=pose.before, before=None))
-    return {
-        name: (1.0 - pose.share) * earlier.get(name, 0.0) + pose.share * found.get(name, 0.0)
-        for name in {**earlier, **found}
-    }
-
-
-@cache
-def list_channels(table: str) -> frozenset[str]:
-    """All channels of a table of activities."""
-    rows = read_table(table)
-    poses = (Pose(0.0, 0.0, 0.0, activity) for activity in rows)
-    return frozenset(name for pose in poses for name in find_channels(table, pose))
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")

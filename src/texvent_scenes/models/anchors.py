@@ -28,7 +28,7 @@ def locate(model: Model, name: str, pose: Pose) -> Affine:
 
     Args:
         model: any model.
-        name: see `people.figure.locate_anchor`.
+        name: a place such as "right hand": those of the model, else of `_ON_BOX`.
         pose: of the model.
 
     Returns:

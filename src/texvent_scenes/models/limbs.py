@@ -1,4 +1,4 @@
-"""Limbs: gait cycles without sliding feet, knees between two points, legs and waving chains."""
+"""Limbs: knees between two points, arms and legs that channels place, legs, waving chains."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from texvent_scenes.models.channel_track import Numbers, Values
+from texvent_scenes.models.gait import Steps, foot_path
 from texvent_scenes.models.joints import Instant, read_cycle
 from texvent_scenes.models.materials import Material
-from texvent_scenes.models.protocol import ModelPart, Pose, fraction
+from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.models.shapes import (
     Affine,
     Point,
@@ -27,63 +29,6 @@ from texvent_scenes.models.shapes import (
     turn_about,
 )
 from texvent_scenes.models.surfaces import Painted
-
-
-@dataclass(frozen=True)
-class Gait:
-    """A cycle of steps as a function of the distance travelled."""
-
-    stride: float
-    """Distance of one whole cycle, m."""
-    duty: float
-    """Share of the cycle that a foot stays on the ground."""
-    lift: float
-    """Height of a foot in mid-swing, m."""
-    full_share: float = 0.35
-    """Strides a second from which on steps are full."""
-
-
-@dataclass(frozen=True)
-class Steps:
-    """Phase of a body in its cycle of steps at one instant."""
-
-    gait: Gait
-    strides: float
-    amount: float
-    """Amplitude of its steps, 0 to 1."""
-    runs: bool = False
-
-
-def foot_path(steps: Steps, lead: float) -> tuple[float, float]:
-    """Place of a foot, relative to the point on the ground below its hip.
-
-    On the ground the foot moves back exactly as fast as the body moves forward, so it does not
-    slide; then it swings forward in an arc.
-
-    Args:
-        steps: gait and phase of the body.
-        lead: share of a cycle by which this foot is ahead.
-
-    Returns:
-        Its x and its height, m.
-    """
-    gait, amount = steps.gait, steps.amount
-    phase = (steps.strides + lead) % 1.0
-    half_step = 0.5 * gait.duty * gait.stride
-    if phase < gait.duty:
-        return amount * (half_step - phase * gait.stride), 0.0
-    swing = (phase - gait.duty) / (1.0 - gait.duty)
-    eased = swing * swing * (3.0 - 2.0 * swing)
-    rise = math.sin(math.pi * swing)
-    return amount * half_step * (2.0 * eased - 1.0), amount * gait.lift * rise * rise
-
-
-def step_amount(activity: str, speed: float, full_speed: float) -> float:
-    """Amplitude of steps: 0 while a body stands or sits, 1 from `full_speed` (m/s) on."""
-    if activity in ("stand", "sit", "lie"):
-        return 0.0
-    share = min(1.0, max(0.0, speed / full_speed))
-    return share * share * (3.0 - 2.0 * share)
 
 
 def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -> Point:
@@ -113,31 +58,14 @@ def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -
 
 
 @dataclass(frozen=True)
-class Walk:
-    """Gaits of a body: with `walk` it goes, with `run` it runs."""
-
-    walk: Gait
-    run: Gait
-    runs: bool = False
-    """Whether it runs unless told otherwise."""
-
-    def steps(self, pose: Pose, seed: int) -> Steps:
-        """Its steps at that pose; where its first stride begins is by the seed."""
-        runs = self.runs or pose.activity == "run"
-        gait = self.run if runs else self.walk
-        strides = pose.distance_m / gait.stride + fraction(seed, "step")
-        amount = step_amount(pose.activity, pose.speed_m_s, self.walk.full_share * self.walk.stride)
-        return Steps(gait, strides, amount, runs)
-
-
-@dataclass(frozen=True)
 class Limb:
     """Two bones from a root in a group to a point that channels say: an arm or a leg of a person.
 
     Its channels: `reach` and `spot`, the end as a vector from the root in the axes of `on` and as a
     point in those of `ground`, and `free`, the share of the first; they add up, so postures mix
     number by number. `bend` is the direction of elbow or knee, `pitch` the downward turn of the
-    end, `tool` the upright of a hand. All are forward, outward, up.
+    end, `tool` the upright of a hand. All are forward, outward, up. `posture` makes them of those
+    that tables of activities have.
     """
 
     name: str
@@ -153,10 +81,50 @@ class Limb:
     ground: str
     bends_in: str
     """Group in whose axes its joint points."""
+    bend: Point
+    """Usual direction of its joint."""
     holds: bool = False
     """Whether its end is a hand, and not a foot on the ground."""
     drawn: Mapping[str, str] = field(default_factory=dict)
     """Part lines of "upper" and "lower", z along the bone, and of "end"."""
+
+    def posture(self, values: Values, steps: Steps | None = None) -> Values:
+        """Its channels from those of a table of activities, all or none.
+
+        The end is where `hand` or `foot` says; or where upper and lower part hang that `swing`
+        turns forward. Where it has a `lead` it steps about that place.
+        """
+        said = {name: values.get(f"{self.channels}.{name}") for name in _SAID}
+        end, is_free = said["hand"] or said["foot"], self.holds and said["fixed"] is None
+        if end is None:
+            if said["swing"] is None:
+                return {}
+            end = self._hang(said["swing"])
+        (pitch,) = said["pitch"] or (0.0,)
+        if said["lead"] is not None and steps is not None:
+            x, z = foot_path(steps, said["lead"][0])
+            end = (end[0] + x, end[1], end[2] + (said["rise"] or (1.0,))[0] * z)
+            pitch += (said["toes"] or (0.0,))[0] * z / steps.gait.lift
+        return self.at(end, said["elbow"] or said["knee"], is_free=is_free, pitch=pitch)
+
+    def at(
+        self, end: Numbers, bend: Numbers | None = None, *, is_free: bool = False,
+        pitch: float = 0.0,
+    ) -> Values:  # fmt: skip
+        """Its channels with the end at a point of the body, or that far from its root."""
+        away, there = (end, (0.0,) * 3) if is_free else ((0.0,) * 3, end)
+        found = {
+            "reach": away, "spot": there, "free": (float(is_free),), "bend": bend or self.bend,
+            "pitch": (pitch,),
+        }  # fmt: skip
+        return {f"{self.channels}.{name}": numbers for name, numbers in found.items()}
+
+    def _hang(self, swing: Numbers) -> Numbers:
+        """Its end from its root: turns of upper and lower part forward, rad; outward, m."""
+        upper, lower = self.bones
+        first, second, out = swing
+        forward = upper * math.sin(first) + lower * math.sin(second)
+        return forward, out, -upper * math.cos(first) - lower * math.cos(second)
 
     def locate(self, now: Instant, maps: Mapping[str, Affine | None]) -> dict[str, Affine]:
         """Maps of its bones and its end to body coordinates, by their names."""
@@ -193,6 +161,12 @@ class Limb:
         return np.array([x, self.side * y, z])
 
 
+_SAID = (
+    "hand", "foot", "swing", "fixed", "elbow", "knee", "pitch", "lead", "rise", "toes",
+)  # fmt: skip
+"""Channels of a limb in tables of activities."""
+
+
 def _within(start: Affine, end: Affine, reach: float) -> Affine:
     """The end, or the point of the sphere of that reach in its direction."""
     span = end - start
@@ -215,16 +189,16 @@ def _unit(vector: Affine) -> Affine:
     return vector / max(math.sqrt(float(vector @ vector)), 1e-9)
 
 
-def read_limbs(rows: Sequence[Mapping[str, Any]]) -> list[Limb]:
+def read_limbs(rows: Sequence[Mapping[str, Any]]) -> tuple[Limb, ...]:
     """Limbs on both sides from rows with the fields of `Limb`."""
-    return [
+    return tuple(
         Limb(
             **{**row, "name": f"{word} {row['name']}", "channels": f"{word}{row['channels']}"},
             side=side,
         )
         for row in rows
         for word, side in (("left", 1.0), ("right", -1.0))
-    ]
+    )
 
 
 DrawLegs = Callable[[Steps, Affine, Mapping[str, float]], list[ModelPart]]
@@ -366,15 +340,6 @@ class Chain:
             y += long * math.cos(tilt) * ahead[1]
             z += long * math.sin(tilt)
         return joints
-
-
-def read_walk(table: Mapping[str, Any]) -> Walk | None:
-    """The gaits of a noun's table, if it walks: `gait`, and `run` where that differs."""
-    if "gait" not in table:
-        return None
-    walk = Gait(**table["gait"])
-    run = Gait(**table["run"]) if "run" in table else walk
-    return Walk(walk, run, table.get("runs", False))
 
 
 def read_legs(table: Mapping[str, Any], painted: Painted) -> list[DrawLegs]:

@@ -18,7 +18,7 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
@@ -26,17 +26,13 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.activities import (
-    ANIMAL_ACTIVITIES,
-    USUAL,
-    find_channels,
-    list_channels,
-    motion_of,
-)
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, motion_of
+from texvent_scenes.models.gait import read_walk
 from texvent_scenes.models.joints import Joint, read_joint, read_joints, read_wave
-from texvent_scenes.models.limbs import Chain, read_legs, read_walk
+from texvent_scenes.models.limbs import Chain, read_legs
 from texvent_scenes.models.part_lines import Placed, read_parts
 from texvent_scenes.models.people.person import read_rider
+from texvent_scenes.models.postures import Postures, list_channels
 from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
 from texvent_scenes.models.shapes import (
@@ -117,7 +113,7 @@ class PartsBuilder:
         _check_channels((*joints, *(one for group in groups for one in group.joints)), acts)
         body = Body(
             seed,
-            partial(find_channels, acts),
+            Postures(acts).find_channels,
             drawn,
             self._anchors,
             extras,

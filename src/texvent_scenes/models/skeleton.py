@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent_scenes.models.gait import Steps, Walk
 from texvent_scenes.models.joints import (
     RESTING,
     Instant,
@@ -21,7 +22,7 @@ from texvent_scenes.models.joints import (
     read_light,
     read_number,
 )
-from texvent_scenes.models.limbs import DrawLegs, Limb, Steps, Walk
+from texvent_scenes.models.limbs import DrawLegs, Limb
 from texvent_scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved
@@ -213,8 +214,8 @@ class Body:
     """One body on its skeleton, at its usual size."""
 
     seed: int
-    observe: Callable[[Pose], Mapping[str, float]]
-    """Channels of its activity."""
+    observe: Callable[[Pose, int], Mapping[str, float]]
+    """Channels of its activity at a pose, by its seed."""
     groups: Sequence[tuple[PartGroup, Sequence[ModelPart]]]
     """Groups with their parts, painted; each is on the body or on one before it."""
     anchors: Mapping[str, Anchor]
@@ -275,7 +276,7 @@ class Body:
 
     def _observe(self, pose: Pose) -> tuple[Instant, Steps | None]:
         """State that joints follow, and steps of legs."""
-        channels = self.observe(pose)
+        channels = self.observe(pose, self.seed)
         if self.walk is None:
             return Instant(pose, self.seed, channels), None
         steps = self.walk.steps(pose, self.seed)

@@ -134,7 +134,7 @@ class Prop:
     """Something that goes with a place of the body."""
 
     anchor: str
-    """Place of `anchors.locate_anchor`; "ground" = body coordinates."""
+    """Place of `anchors.locate`; "ground" = body coordinates."""
     draw: Draw
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()

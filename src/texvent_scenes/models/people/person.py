@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from texvent_scenes.models.activities import flattened
+from texvent_scenes.models.channel_track import flattened
+from texvent_scenes.models.gait import read_gaits
 from texvent_scenes.models.joints import Instant
-from texvent_scenes.models.limbs import Limb, read_limbs
+from texvent_scenes.models.limbs import read_limbs
 from texvent_scenes.models.materials import STEEL, Material
 from texvent_scenes.models.people.outfit import ADULT, KINDS, PersonKind, dress_person, put_on
-from texvent_scenes.models.people.posture import STANDING, find_channels, place_limb
+from texvent_scenes.models.postures import Postures
 from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import ArticulatedModel, Point, point, rod, spike
@@ -25,6 +26,8 @@ from texvent_scenes.rendered_scene import Colour
 
 HEAD_SIZE = 0.23
 """Height of an adult's head, m."""
+SEAT = 0.42
+"""Height of the chair on which one sits, m: hips are a little above it."""
 
 
 def build_person(
@@ -45,23 +48,31 @@ def _usual_person(kind: PersonKind) -> ArticulatedModel:
 @lru_cache(maxsize=256)
 def build_body(kind: PersonKind, colour: Colour | None, seed: int) -> Body:
     """A dressed figure at an adult's size."""
-    groups, limbs, anchors = _read_figure(kind)
+    groups, postures, anchors = _read_figure(kind)
     outfit = dress_person(kind, colour=colour, seed=seed)
     return Body(
         seed,
-        partial(find_channels, runs=kind.runs),
+        partial(_observe, postures),
         [(one, outfit.draw(one.parts)) for one in groups],
         anchors,
         [partial(_draw_skirt, outfit.material("shirt"))] if kind.dress == "skirt" else [],
-        limbs=[(one, one.draw(outfit)) for one in limbs],
+        limbs=[(one, one.draw(outfit)) for one in postures.limbs],
+        walk=postures.walk,
     )
+
+
+def _observe(postures: Postures, pose: Pose, seed: int) -> dict[str, float]:
+    """Channels of a person; one who lies has no direction in which the knees go with the torso."""
+    found = postures.at(pose, seed)
+    stance = found["turn"] if abs(found["lean"][0]) < 1.0 else (0.0,)
+    return flattened({**found, "stance": stance})
 
 
 @cache
 def _read_figure(
     kind: PersonKind,
-) -> tuple[tuple[PartGroup, ...], list[Limb], Mapping[str, Anchor]]:
-    """Groups, limbs and anchors of `figure` in `data/outfits.toml`, with what the kind wears."""
+) -> tuple[tuple[PartGroup, ...], Postures, Mapping[str, Anchor]]:
+    """Groups, postures and anchors of `figure` in `data/outfits.toml`, with what the kind wears."""
     outfits = read_table("outfits")
     sizes = {"size": HEAD_SIZE * kind.head, "hair": 0.80 if kind.hat else 0.92}
     row = fill_in({**outfits["figure"], "sizes": sizes})
@@ -70,8 +81,9 @@ def _read_figure(
     texts += [row["hat"], outfits["hats"][kind.hat]] if kind.hat else []
     _, groups = read_skeleton([("\n".join(texts), False)])
     limbs = read_limbs(row["limbs"])
+    postures = Postures("activities", limbs, read_gaits("activities", "run" if kind.runs else ""))
     names = {*(one.name for one in groups), *(one.name for one in limbs)}
-    return groups, limbs, {key: read_anchor(text, names) for key, text in row["anchors"].items()}
+    return groups, postures, {key: read_anchor(text, names) for key, text in row["anchors"].items()}
 
 
 def _draw_skirt(cloth: Material, _: Instant, maps: Maps) -> list[ModelPart]:
@@ -107,8 +119,10 @@ class Rider:
         """The rider and the pedals after a distance."""
         turn, pedals = _GEAR * distance_m / self.wheel, []
         lean = math.atan2(self.neck[0] - self.hips[0], self.neck[2] - self.hips[2])
+        postures = _read_figure(ADULT)[1]
+        limbs = {limb.name: limb for limb in postures.limbs}
         posture = {
-            **STANDING,
+            **postures.standing,
             "hips": self.hips,
             "lean": (lean,),
             "nod": (-lean,),
@@ -121,8 +135,8 @@ class Rider:
             axle = (self.crank[0], side * (self.crank[1] - 0.03), self.crank[2])
             pedals.append(rod(STEEL, axle, pedal, 0.018))
             foot = (pedal[0] - 0.04, self.crank[1], pedal[2] + 0.10)
-            posture |= place_limb(f"{word}_leg", foot, (1.0, 0.0, 0.35), pitch=0.15)
-            posture |= place_limb(word, (x, y, z + 0.02), (-0.3, 0.5, -1.0))
+            posture |= limbs[f"{word} foot"].at(foot, (1.0, 0.0, 0.35), pitch=0.15)
+            posture |= limbs[f"{word} hand"].at((x, y, z + 0.02), (-0.3, 0.5, -1.0))
         now = Instant(Pose(0.0, distance_m, 0.0), seed, flattened(posture))
         return [*pedals, *build_body(ADULT, None, seed).draw(now)]
 

@@ -14,8 +14,7 @@ from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
-from texvent_scenes.models.people.person import dress
-from texvent_scenes.models.people.posture import SEAT
+from texvent_scenes.models.people.person import SEAT, dress
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import moved
 from texvent_scenes.models.tables import nouns_with

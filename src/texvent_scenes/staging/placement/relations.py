@@ -15,7 +15,7 @@ from texvent_scenes.models.activities import (
     TO_AND_FROM_SEATS,
 )
 from texvent_scenes.models.anchors import Support, find_support
-from texvent_scenes.models.people.posture import SEAT
+from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred, size_of

@@ -45,7 +45,7 @@ class MotionPlan:
     path: Track | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
-    """Activity of a person or a hand in place: a name of `people.activities`."""
+    """Activity of a person or a hand in place: a name of `models.activities`."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: str = "yaw"

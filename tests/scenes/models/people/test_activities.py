@@ -10,7 +10,7 @@ from texvent.generation.subjects import scenes
 from texvent_scenes.models.activities import ACTIVITIES, ON_GROUND, TRAVELLING
 from texvent_scenes.models.people import person
 from texvent_scenes.models.people.outfit import ADULT, CLOTHES, HOLDS, PROPS, put_on
-from texvent_scenes.models.people.posture import find_posture
+from texvent_scenes.models.postures import find_track
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.skeleton import Maps
 from texvent_scenes.models.tables import read_table
@@ -42,7 +42,7 @@ def points(body: Maps, *ends: str) -> np.ndarray:
 
 
 def test_every_activity_has_a_posture_and_every_word_one_activity():
-    still = {name for name in ACTIVITIES if find_posture(name, 0.0) is None}
+    still = {name for name in ACTIVITIES if not find_track("activities", name).at(0.0)}
     assert still == {"walk", "run", "crawl"}
     assert set(ON_GROUND.values()) <= set(ACTIVITIES)
     assert {"walk", "run", "crawl", "swim", "surf"} <= TRAVELLING
