@@ -12,7 +12,7 @@ the text under it is its description.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, Self, TypeAlias, cast
 
@@ -342,26 +342,6 @@ class Scene:
         return cast(Self, build_table(Scene, data, "", {}))
 
 
-_TURNS, _SHIFTS = (
-    frozenset({"direction", "pace", "rate_deg_s"}),
-    frozenset({"direction", "pace", "speed_m_s"}),
-)
-READ_BY_MOVES: Mapping[MoveKind, frozenset[str]] = {
-    "static": frozenset(), "follow": frozenset(), "handheld": frozenset({"direction", "pace"}),
-    **dict.fromkeys(("pan", "tilt", "roll", "orbit", "zoom"), _TURNS),
-    **dict.fromkeys(("dolly", "truck", "pedestal"), _SHIFTS),
-    "travel": _SHIFTS | {"means"},
-}  # fmt: skip
-"""Kind of camera move → its fields, beside those of time, that it reads."""
-DIRECTIONS_OF_MOVES: Mapping[MoveKind, tuple[MoveDirection, ...]] = {
-    "pan": ("left", "right"), "truck": ("left", "right"),
-    "orbit": ("left", "right", "clockwise", "counter-clockwise"),
-    "roll": ("left", "right", "clockwise", "counter-clockwise"),
-    "tilt": ("up", "down"), "pedestal": ("up", "down"),
-    "zoom": ("in", "out"), "dolly": ("in", "out", "forward", "backward"),
-    "travel": ("forward", "backward"), "handheld": ("all axes",),
-}  # fmt: skip
-"""Kind of camera move → directions that it goes."""
 _PLACES: dict[type, tuple[Any, ...]] = {
     SceneObject: ("objects", True),
     Effect: ("effects", True),

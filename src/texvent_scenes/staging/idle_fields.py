@@ -2,7 +2,7 @@
 
 Each motion is put on its body twice, with a field and without it, and what is drawn is compared. So
 no table says which motion of which noun reads which field, and none can be wrong. Camera moves,
-places and light have tables: `spec.scene.READ_BY_MOVES`, and the conditions below.
+places and light have tables: `READ_BY_MOVES`, and the conditions below.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, scene_from_data, scene_to_data, steps_of
 from texvent_scenes.spec.scene import (
-    DIRECTIONS_OF_MOVES,
-    READ_BY_MOVES,
     Motion,
+    MoveDirection,
+    MoveKind,
     Scene,
     SceneObject,
     object_ids,
@@ -51,6 +51,26 @@ _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
 _MOST_NAMED = 6
+_TURNS, _SHIFTS = (
+    frozenset({"direction", "pace", "rate_deg_s"}),
+    frozenset({"direction", "pace", "speed_m_s"}),
+)
+READ_BY_MOVES: Mapping[MoveKind, frozenset[str]] = {
+    "static": frozenset(), "follow": frozenset(), "handheld": frozenset({"direction", "pace"}),
+    **dict.fromkeys(("pan", "tilt", "roll", "orbit", "zoom"), _TURNS),
+    **dict.fromkeys(("dolly", "truck", "pedestal"), _SHIFTS),
+    "travel": _SHIFTS | {"means"},
+}  # fmt: skip
+"""Kind of camera move → its fields, beside those of time, that it reads."""
+DIRECTIONS_OF_MOVES: Mapping[MoveKind, tuple[MoveDirection, ...]] = {
+    "pan": ("left", "right"), "truck": ("left", "right"),
+    "orbit": ("left", "right", "clockwise", "counter-clockwise"),
+    "roll": ("left", "right", "clockwise", "counter-clockwise"),
+    "tilt": ("up", "down"), "pedestal": ("up", "down"),
+    "zoom": ("in", "out"), "dolly": ("in", "out", "forward", "backward"),
+    "travel": ("forward", "backward"), "handheld": ("all axes",),
+}  # fmt: skip
+"""Kind of camera move → directions that it goes."""
 
 
 class Idle(NamedTuple):

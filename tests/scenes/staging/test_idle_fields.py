@@ -16,8 +16,6 @@ from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.scene_input import describe_scene, read, understand
 from texvent_scenes.spec.scene import (
-    DIRECTIONS_OF_MOVES,
-    READ_BY_MOVES,
     Camera,
     CameraMove,
     Light,
@@ -29,7 +27,7 @@ from texvent_scenes.spec.scene import (
     SceneObject,
 )
 from texvent_scenes.staging.actors import Actor, lowest_point
-from texvent_scenes.staging.idle_fields import list_idle
+from texvent_scenes.staging.idle_fields import DIRECTIONS_OF_MOVES, READ_BY_MOVES, list_idle
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import COMING_DOWN
 

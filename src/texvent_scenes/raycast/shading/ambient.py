@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.records import MOST_WINDOWS, Record
-from texvent_scenes.raycast.shading.ground import HANGING_EVERY_M, has_window
 from texvent_scenes.raycast.shading.value_noise import mix
+from texvent_scenes.raycast.shading.wall import HANGING_EVERY_M, has_window
 from texvent_scenes.raycast.vectors import Vector, along, dot, scaled, triple
 from texvent_scenes.rendered_scene import Colour
 

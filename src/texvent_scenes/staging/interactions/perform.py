@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
@@ -17,15 +18,11 @@ from texvent_scenes.staging.interactions import holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
-SINGLE = frozenset({"kick", "throw", "collide"})
-"""Acts with one instant of contact."""
 _Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
 ACTS: Mapping[str, _Act] = {
     "push": lambda who, what, _: holding.push(who, what),
     "ride": lambda who, what, _: holding.board(who, what),
-    "kick": striking.kick,
-    "throw": striking.throw,
-    "collide": striking.collide,
+    **{kind: partial(striking.strike, kind) for kind in striking.IMPACTS},
     "hold": lambda who, what, _: holding.hold(who, what),
     "wear": lambda who, what, _: holding.wear(who, what),
 }
@@ -101,7 +98,7 @@ def _settle(
         return sitting, _give_motion(subject, target, nouns)
     if kind == "collide":
         return replace(subject, motions=()), still
-    if kind in SINGLE:
+    if kind in striking.IMPACTS:
         return replace(subject, motions=(Motion(kind, to),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):

@@ -1,18 +1,21 @@
-"""Kick, throw and collide: an instant of contact, motion before and after it.
+"""Impacts: kick, throw and collide as rows of one mechanism.
 
-Each act gives its subject an activity whose contact is at that instant, finds the place of the body
-that touches the thing then, and lets the thing fly from there, or to there.
+An act gives its subject an activity whose contact is at an instant, finds the place of the body
+that touches the thing then, and lets the thing fly from there; or two bodies run up to each other.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
 from texvent_scenes.models.shapes import bounds, moved, point, shift
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.interactions.holding import (
     held_at,
@@ -25,26 +28,40 @@ from texvent_scenes.staging.tracks.track import (
     BodyState,
     Term,
     Track,
+    ballistic,
     rotation,
     state_of,
     steady,
 )
 
 
-class Strike(NamedTuple):
-    """An act that lets a thing fly off."""
+class Impact(NamedTuple):
+    """An act with one instant of contact, at which what moved so far moves on in another way."""
 
     share: float
-    """Instant of contact as a share of the clip."""
-    loft: float
+    """Instant of the contact as a share of the clip."""
+    activity: str | None = None
+    """Activity of the person who does it in place; None = both run up and recoil."""
+    by: str = ""
+    """Place of the body that touches the thing."""
+    is_held: bool = False
+    """Whether the thing is at that place until then; else it waits where it is met."""
+    loft: float = 0.0
     """Upward speed of the thing, as a share of its speed along the ground."""
     tumble_rad_s: float | None = None
     """None = it rolls."""
 
 
-KICK, THROW = Strike(0.45, 0.45), Strike(0.35, 0.35, 6.0)
-_THROWN_M_S = 6.0
-"""Speed at which things fly off that have no usual one."""
+IMPACTS: Mapping[str, Impact] = MappingProxyType(
+    {
+        "kick": Impact(0.45, "kick", "right foot", loft=0.45),
+        "throw": Impact(0.35, "throw", "right hand", is_held=True, loft=0.35, tumble_rad_s=6.0),
+        "collide": Impact(0.5),
+    }
+)
+"""Relation → how its bodies meet."""
+_FLUNG_M_S, _RESTITUTION = 6.0, 0.55
+"""Speed at which things fly off that have no usual one; what each bounce keeps of it."""
 _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
@@ -54,76 +71,67 @@ _THIN, _ASLANT = 0.6, 0.55
 rad."""
 
 
-def contact_time(duration_s: float, share: float = KICK.share) -> float:
+def contact_time(duration_s: float, share: float) -> float:
     """Time of the contact of the bodies, s."""
     return min(max(share * duration_s, 0.3), 1.1)
 
 
-def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """The foot meets the thing, the thing flies."""
-    subject, contact_s = _strike(
-        subject, "kick" if is_person(subject) else "stand", KICK, duration_s
-    )
-    home, tip = subject.track.at(0.0), subject.anchor("right foot", contact_s)[:, 3]
-    model, inset = thing.model, 0.0
-    radius = 0.5 * model.length
+def strike(kind: str, subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
+    """Both bodies of an act of `IMPACTS`, bound by the instant of contact."""
+    act = IMPACTS[kind]
+    contact_s = contact_time(duration_s, act.share)
+    if act.activity is None:
+        return _run_together(subject, thing, contact_s)
+    home = subject.track.at(0.0)
+    is_limbed = is_person(subject) or act.is_held
+    rest = steady(home.position, home.yaw, activity=act.activity if is_limbed else "stand")
+    subject = moving(subject, replace(rest, contact_s=contact_s))
+    if not act.is_held:
+        tip = subject.anchor(act.by, contact_s)[:, 3]
+        start = BodyState(_meet(thing, tip, home), home.yaw, pivot_m=thing.lift_m)
+        return subject, moving(thing, _fly_off(act, thing, start, home, contact_s))
+    reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
+    place = act.by if is_person(subject) else "mouth"
+    held = held_at(subject, place, shift(reach, 0.0, -thing.lift_m))
+    start = state_of(held.at(contact_s).to_world(), thing.lift_m)
+    flight = _fly_off(act, thing, start, home, contact_s)
+    return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=contact_s))
+
+
+def _meet(thing: Actor, tip: Float64Array, home: BodyState) -> Vector:
+    """Origin of a thing on the ground of `home` that a point [3] of a body just touches."""
+    model, inset, radius = thing.model, 0.0, 0.5 * thing.model.length
     if abs(model.length - model.height) < 0.1 * radius:
         inset = radius - math.sqrt(max(radius**2 - (radius - min(tip[2], radius)) ** 2, 0.0))
     middle_m = home.position[2] + 0.5 * model.height - thing.lift_m
-    spot = ahead(point(tip), home.yaw, radius - inset, middle_m)
-    start = BodyState(spot, home.yaw, pivot_m=thing.lift_m)
-    return subject, moving(thing, _fly_off(KICK, thing, start, home, contact_s))
-
-
-def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """Let go in the middle of the swing; it flies off."""
-    subject, release_s = _strike(subject, "throw", THROW, duration_s)
-    reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
-    anchor = "right hand" if is_person(subject) else "mouth"
-    held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
-    start = state_of(held.at(release_s).to_world(), thing.lift_m)
-    flight = _fly_off(THROW, thing, start, subject.track.at(0.0), release_s)
-    return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=release_s))
-
-
-def _strike(subject: Actor, activity: str, act: Strike, duration_s: float) -> tuple[Actor, float]:
-    """The subject in its place, doing that, and the instant of contact, s."""
-    contact_s, home = contact_time(duration_s, act.share), subject.track.at(0.0)
-    rest = steady(home.position, home.yaw, activity=activity)
-    return moving(subject, replace(rest, contact_s=contact_s)), contact_s
+    return ahead(point(tip), home.yaw, radius - inset, middle_m)
 
 
 def _fly_off(
-    act: Strike, thing: Actor, start: BodyState, home: BodyState, contact_s: float
+    act: Impact, thing: Actor, start: BodyState, home: BodyState, contact_s: float
 ) -> Track:
     """From a start to where the subject faces at home, after the contact."""
-    speed = float(speeds_of(thing.noun).get("throw", _THROWN_M_S))
+    speed = float(speeds_of(thing.noun).get("throw", _FLUNG_M_S))
     half = 0.5 * thing.model.height
     tumble = act.tumble_rad_s or speed / max(half, 0.05)
-    flight = Key(1.0, speed, climb_m_s=act.loft * speed, ramp_s=0.0, restitution=0.55)
     turned = start.pitch - tumble * contact_s
     terms = (
         Term("yaw", offset=start.yaw - home.yaw), Term("roll", offset=start.roll),
         Term("pitch", offset=turned, drift=tumble, begin_s=contact_s),
     )  # fmt: skip
-    floor = home.position[2] + half - start.pivot_m
-    keys = (Key(contact_s), flight)
-    return Track(start.position, home.yaw, keys, terms, floor_m=floor, pivot_m=start.pivot_m)
+    flight = ballistic(
+        start.position, home.yaw, speed, act.loft * speed, wait_s=contact_s,
+        restitution=_RESTITUTION, floor_m=home.position[2] + half - start.pivot_m,
+    )  # fmt: skip
+    return replace(flight, terms=terms, pivot_m=start.pivot_m)
 
 
 _RAISED_M, _LEAST_ROOM_M = 0.02, 0.02
 """Height from which on a body stands on another one; the least way to a contact there, m."""
 
 
-def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """Both come from left and right and touch at one instant; what is fixed stays.
-
-    Args:
-        subject: one of them.
-        other: the other one.
-        duration_s: length of the clip, s.
-    """
-    contact_s = contact_time(duration_s, 0.5)
+def _run_together(subject: Actor, other: Actor, contact_s: float) -> tuple[Actor, Actor]:
+    """Both come from left and right and touch at one instant; what is fixed stays."""
     homes = [actor.track.at(0.0).position for actor in (subject, other)]
     yaws = (0.0, math.pi) if homes[0][0] <= homes[1][0] else (math.pi, 0.0)
     if other.noun.habitat == "fixed":

@@ -28,6 +28,8 @@ from texvent_scenes.staging.tracks.track import sample_places
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
+_ROUNDING_M = 1e-9
+"""What lies just at its gap is apart, whichever way a processor rounds the last bit."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
 _TURNING = ("spin", "roll", "sway", "dance", "fall")
@@ -117,7 +119,8 @@ def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> boo
     apart = np.abs(centre - other.centre)[:2] - (group.half + other.half)[:2]
     (low, high), (other_low, other_high) = _vertical(centre, group), _vertical(other.centre, other)
     above = gap if group.noun.habitat == other.noun.habitat else 0.0
-    return bool(np.all(apart < gap)) and max(low - other_high, other_low - high) < above
+    is_near = bool(np.all(apart < gap - _ROUNDING_M))
+    return is_near and max(low - other_high, other_low - high) < above
 
 
 def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:

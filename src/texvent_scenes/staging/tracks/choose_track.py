@@ -13,9 +13,9 @@ from texvent_scenes.models.protocol import Model
 from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
 from texvent_scenes.staging.tracks.oscillations import LEANING, oscillations
-from texvent_scenes.staging.tracks.phase_keys import BOUNCY, NO_FLOOR_M, fallen_m, spin_lift
+from texvent_scenes.staging.tracks.phase_keys import BOUNCY, DULL, NO_FLOOR_M, fallen_m, spin_lift
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
-from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, steady
+from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
@@ -161,13 +161,17 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Track:
     kind, duration_s, floor = plan.motion.kind, plan.duration_s, home[2]
     if kind == "fall":
         height = fallen_m(model, duration_s) if plan.start_m is None else plan.start_m
-        keys = (Key(0.1 * duration_s), Key(1.0, restitution=0.3))
-        return Track(_raised(home, height), plan.yaw, keys, floor_m=floor)
+        return ballistic(
+            _raised(home, height),
+            plan.yaw,
+            floor_m=floor,
+            restitution=DULL,
+            wait_s=0.1 * duration_s,
+        )
     height = min(max(3.0 * model.height, 0.8), 2.5) if plan.start_m is None else plan.start_m
     stated = plan.motion.speed_m_s
     is_still = kind == "bounce" and plan.motion.direction is None
     along = plan.speed_m_s * (1.0 if kind == "throw" else 0.5) if stated is None else stated
     along = 0.0 if is_still and stated is None else along
     place = ahead(home, plan.yaw, -0.5 * along * duration_s, floor + height)
-    keys = (Key(0.0, along), Key(1.0, along, restitution=BOUNCY))
-    return Track(place, plan.yaw, keys, floor_m=floor)
+    return ballistic(place, plan.yaw, along, floor_m=floor, restitution=BOUNCY)

@@ -37,10 +37,10 @@ MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _TIPPING = 0.9
 """Height over length from which on a body that stands on the ground can fall over."""
-BOUNCY = 0.82
-"""Share of its upward speed that a bounce keeps."""
+BOUNCY, DULL = 0.82, 0.3
+"""Shares of its upward speed that a bounce keeps: of what bounces, and of what falls."""
 _RAMP_S = 0.3
-_BRAKING_M_S2, _RESTITUTION = 6.0, 0.3
+_BRAKING_M_S2 = 6.0
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
@@ -343,7 +343,7 @@ class _KeyBuilder:
         if kind == "topple" and self._is_first:
             self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
-        key = Key(span, activity="stand", restitution=_RESTITUTION)
+        key = Key(span, activity="stand", restitution=DULL)
         if kind == "topple" or is_standing:
             if self._noun.name not in nouns_with("falls over"):  # those stand on a small foot
                 standing = self._model.parts(Pose(0.0, 0.0, 0.0, "stand"))

@@ -260,6 +260,27 @@ def steady(
     return Track(start, yaw, (replace(key, duration_s=0.0), key))
 
 
+def ballistic(
+    start: Vector, yaw: float, speed_m_s: float = 0.0, up_m_s: float = 0.0, *,
+    floor_m: float, restitution: float, wait_s: float = 0.0,
+) -> Track:  # fmt: skip
+    """Free flight with bounces on a floor; what waits is flung off at once.
+
+    Args:
+        start: where it is before the flight, m.
+        yaw: heading of the flight.
+        speed_m_s: along the heading, all along.
+        up_m_s: upward, as the flight begins.
+        floor_m: height of its origin on the floor, m.
+        restitution: share of the upward speed that each bounce keeps.
+        wait_s: time at the start before the flight, s.
+    """
+    flight = Key(1.0, speed_m_s, climb_m_s=up_m_s, restitution=restitution)
+    first = Key(wait_s) if wait_s else Key(0.0, speed_m_s)
+    flight = replace(flight, ramp_s=0.0) if wait_s else flight
+    return Track(start, yaw, (first, flight), floor_m=floor_m)
+
+
 def attached(
     carrier: Track, offset: Float64Array, activity: str = "stand",
     axes: Callable[[float], Float64Array] | None = None,

@@ -54,7 +54,7 @@ def test_nothing_jumps_between_two_milliseconds(name):
 def test_the_foot_touches_the_ball_when_it_leaves(who, what, seed):
     scene = act("kick", who, what, seed=seed)
     kicker, ball = scene.actors
-    contact_s = contact_time(DURATION_S)
+    contact_s = contact_time(DURATION_S, 0.45)
     tip = kicker.anchor("right foot", contact_s)[:, 3]
     gap = math.dist(tip, middle(ball, contact_s)) - 0.5 * ball.model.length
     assert abs(gap) < CONTACT_M

@@ -1,0 +1,163 @@
+"""Colour and relief of the walls of a room, their windows and pictures (Numba)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.runtime.jit import jit
+from texvent_scenes.raycast.records import Record
+from texvent_scenes.raycast.shading.material import painted, patch_axes, sample_material
+from texvent_scenes.raycast.shading.value_noise import (
+    box_coverage,
+    detail_fade,
+    lattice,
+    mix,
+    noise_2d,
+)
+from texvent_scenes.raycast.vectors import Vector, scaled, triple
+from texvent_scenes.rendered_scene import Colour
+
+_BOARDS, _PLASTER, _STONE, _CLOTH = 28, 33, 31, 43
+HANGING_EVERY_M = 2.3
+_FRAME_M = 0.05
+_FRAME = (0.70, 0.69, 0.66)
+_DARK_FRAME = (0.10, 0.06, 0.035)
+_SKIRTING = (0.3, 0.24, 0.2)
+_MOUNT_M = 0.04
+_PANEL, _PANEL_M, _RAIL_M = (0.34, 0.2, 0.1), 0.16, 0.86
+"""Wood of panelled walls, width of a panel, and height of the rail above them, m."""
+_CEILING = (1.7, 1.69, 1.64)
+"""White, and lit from below by what floor and walls send back, which is not traced."""
+
+
+@jit(error_model="numpy", inner=True)
+def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colour) -> float:
+    """Share of a pixel within a rectangle around (0, 0)."""
+    return box_coverage(place[0], -half[0], half[0], feet[0]) * box_coverage(
+        place[1], -half[1], half[1], feet[1]
+    )
+
+
+@jit(error_model="numpy", inner=True)
+def _hanging(cell: int, side: int) -> float:
+    """Number in [0, 1) that decides what hangs on a stretch of a wall: below .4 a window."""
+    return lattice(cell, side, 31)
+
+
+@jit(error_model="numpy", inner=True)
+def has_window(instant: Record, cell: int, side: int) -> bool:
+    """Whether there is a window on a stretch of a room's wall; see `_hang`."""
+    return instant.wall_surface not in (_STONE, _CLOTH) and _hanging(cell, side) < 0.4
+
+
+@jit(error_model="numpy", inner=True)
+def _window(
+    instant: Record, wall: Colour, at: tuple[float, float], feet: Colour, shape: float
+) -> Colour:
+    """A wall with a window, in plaster with curtains; `at` is metres from its middle."""
+    sky = scaled(mix(triple(instant.sky_top), triple(instant.sky_horizon), 0.5), 2.0)
+    crowns = 0.12 * noise_2d(5.0 * at[0] + 40.0 * shape, 0.0, 34) - 0.12 - at[1]
+    inside = mix(sky, scaled(sky, 0.3), min(max(crowns / max(feet[1], 0.01) + 0.5, 0.0), 1.0))
+    cross = max(
+        box_coverage(at[0], -0.02, 0.02, feet[0]), box_coverage(at[1], -0.02, 0.02, feet[1])
+    )
+    colour = mix(wall, _FRAME, _box_share(at, (0.62 + _FRAME_M, 0.65 + _FRAME_M), feet))
+    colour = mix(colour, mix(inside, _FRAME, cross), _box_share(at, (0.62, 0.65), feet))
+    if instant.wall_surface != _PLASTER:
+        return colour
+    fold = (abs(at[0]) - 0.46) / 0.075 + 0.3 * math.sin(5.0 * at[1])
+    fade = detail_fade(feet[0] / 0.075)
+    cloth = (0.15 + 0.4 * shape, 0.12 + 0.2 * shape, 0.45 - 0.4 * shape)
+    cloth = scaled(cloth, 1.0 + 0.45 * fade * math.sin(math.tau * fold))
+    hem = (abs(at[0]) - 0.64, at[1] + 0.05)
+    colour = mix(colour, cloth, _box_share(hem, (0.18, 0.85), feet))
+    return mix(colour, _DARK_FRAME, _box_share((at[0], at[1] - 0.82), (0.92, 0.018), feet))
+
+
+@jit(error_model="numpy", inner=True)
+def _picture(
+    wall: Colour, at: tuple[float, float], feet: Colour, half: tuple[float, float], shape: float
+) -> Colour:
+    """A wall with a framed landscape; `half` are its width and height, m."""
+    hue = (0.15 + 0.4 * shape, 0.35 - 0.1 * shape, 0.5 - 0.4 * shape)
+    x, y, inside = at[0] / half[0] + 9.0 * shape, at[1] / half[1], hue
+    for layer in range(3):
+        ridge = 0.45 - 0.5 * layer + 0.35 * noise_2d((2.0 + 2.0 * layer) * x, 0.0, 35 + layer) - y
+        low = min(max(ridge * half[1] / max(feet[1], 0.004) + 0.5, 0.0), 1.0)
+        inside = mix(inside, scaled(hue, (0.45, 1.25, 0.2)[layer]), low)
+    outer = (half[0] + _MOUNT_M + _FRAME_M, half[1] + _MOUNT_M + _FRAME_M)
+    colour = mix(wall, _DARK_FRAME, _box_share(at, outer, feet))
+    mount = (half[0] + _MOUNT_M, half[1] + _MOUNT_M)
+    colour = mix(colour, _FRAME, _box_share(at, mount, feet))
+    return mix(colour, inside, _box_share(at, half, feet))
+
+
+@jit(error_model="numpy", inner=True)
+def _hang(
+    instant: Record, wall: Colour, place: tuple[float, float], feet: Colour, side: int
+) -> Colour:
+    """A wall with windows and pictures on it; `place` is metres along and up.
+
+    Each stretch has a window or a picture in its middle, and in plaster two small ones at its end.
+    """
+    stretch = place[0] / HANGING_EVERY_M
+    cell = math.floor(stretch)
+    at = (place[0] - HANGING_EVERY_M * (cell + 0.5), place[1] - 1.6)
+    shape = lattice(cell, side, 32)
+    if has_window(instant, cell, side):
+        wall = _window(instant, wall, at, feet, shape)
+    else:
+        half = (0.28 + 0.2 * shape, 0.24 + 0.14 * lattice(cell, side, 33))
+        wall = _picture(wall, at, feet, half, shape)
+    if instant.wall_surface != _PLASTER:
+        return wall
+    end = math.floor(stretch + 0.5)
+    aside, shape = place[0] - HANGING_EVERY_M * end, lattice(end, side, 38)
+    wall = _picture(wall, (aside, place[1] - 1.88), feet, (0.1, 0.11), shape)
+    return _picture(wall, (aside, place[1] - 1.45), feet, (0.08, 0.12), 1.0 - shape)
+
+
+@jit(error_model="numpy", inner=True)
+def _panelled(colour: Colour, place: tuple[float, float], feet: Colour) -> Colour:
+    """The lower part of a wall in panels with grooves, below a rail."""
+    middle = 0.5 * _PANEL_M  # of a period, so that no pixel across a groove misses half of it
+    along = (place[0] - 0.007 + middle) % _PANEL_M
+    groove = box_coverage(along, middle - 0.007, middle + 0.007, feet[0])
+    panel = scaled(mix(_PANEL, colour, 0.25), 1.0 - 0.7 * groove)
+    colour = mix(colour, panel, box_coverage(place[1], 0.0, _RAIL_M, feet[1]))
+    return mix(colour, _SKIRTING, box_coverage(place[1], _RAIL_M, _RAIL_M + 0.06, feet[1]))
+
+
+@jit(error_model="numpy", inner=True)
+def wall_look(
+    instant: Record, point: Vector, face: int, patch: tuple[Vector, Vector]
+) -> tuple[Colour, Vector]:
+    """Reflectance and normal of a room's wall or ceiling.
+
+    Walls have a skirting board, windows and pictures, over a floor of boards panels too; those of
+    rock or drapery have none.
+    """
+    right, down = patch
+    a, b = (1, 2) if face == 0 else (0, 2)
+    if face == 2:
+        a, b = 0, 1
+    axes = patch_axes((right[a], right[b], down[a], down[b]))
+    side = -1.0 if face == 2 or point[face] > 0.0 else 1.0
+    if face == 2:
+        sample = sample_material(instant, _PLASTER, point[0], point[1], axes, 1.0)
+        look = painted(sample, _CEILING, scaled(_CEILING, 0.9), 1.0)
+        return look[0], (-look[1], -look[2], -1.0)
+    plain = triple(instant.wall_colour)
+    sample = sample_material(instant, instant.wall_surface, point[a], point[b], axes, 1.0)
+    look = painted(sample, plain, scaled(plain, 0.82), 1.0)
+    feet = (abs(right[a]) + abs(down[a]), abs(right[2]) + abs(down[2]), 0.0)
+    colour = look[0]
+    if instant.wall_surface not in (_STONE, _CLOTH):
+        place = (point[a], point[2])
+        colour = _hang(instant, colour, place, feet, 2 * face + int(side > 0.0))
+        if instant.ground_surface == _BOARDS:
+            colour = _panelled(colour, place, feet)
+    colour = mix(colour, _SKIRTING, box_coverage(point[2], 0.0, 0.14, feet[1]))
+    if face == 0:
+        return colour, (side, -look[1], -look[2])
+    return colour, (-look[1], side, -look[2])
