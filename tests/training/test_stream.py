@@ -7,6 +7,8 @@ import itertools
 import pickle
 import re
 import tempfile
+import tomllib
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +32,7 @@ torch = pytest.importorskip("torch")
 
 from texvent.training import Clip, ClipRanges, EventStream, PhysicalRanges  # noqa: E402
 from texvent.training.cuts import CutPlan, cut_clip  # noqa: E402
-from texvent.training.draws import draw_clip, order_of_pass  # noqa: E402
+from texvent.training.draws import RANGES, draw_clip, order_of_pass  # noqa: E402
 from texvent.training.sources import read_clip  # noqa: E402
 
 SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
@@ -411,6 +413,44 @@ def test_videos_that_break_off_and_frames_with_nan_are_skipped_with_their_reason
 def test_what_cannot_be_streamed_is_refused_at_construction(folder, options, error, message):
     with pytest.raises(error, match=message):
         EventStream(**{"source": folder, **SMALL, **options})
+
+
+def test_the_default_is_the_recommended_file(folder):
+    path = Path(__file__).parents[2] / "configs/training/recommended.toml"
+    document = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert document["model"] == "physical"
+    ranges = {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in document["ranges"].items()
+    }
+    assert set(ranges) == {one.name for one in fields(PhysicalRanges)}
+    default = EventStream(folder, **SMALL)
+    assert RANGES[default.randomize] == PhysicalRanges(**ranges)
+    same = EventStream(folder, randomize=PhysicalRanges(**ranges), **SMALL)
+    assert prints(take(default, 2)) == prints(take(same, 2))
+
+
+@pytest.mark.parametrize("level", [10, 200])
+def test_the_recommended_noise_has_its_rate_at_any_intensity(level):
+    class Flat(Still):
+        def read(self, index, truth, most_bytes):
+            clip = super().read(index, truth, most_bytes)
+            return Clip(np.full_like(clip.frames, level), clip.times_us)
+
+    rate = 100.0  # so that a few frames have events enough
+    ranges = PhysicalRanges(
+        noise_curve=RANGES["recommended"].noise_curve, noise_scale=(rate, rate),
+        hot_fraction=(0, 0), leak_rate_hz=(0, 0), refractory_us=(0, 0),
+    )  # fmt: skip
+    stream = EventStream(Flat(), randomize=ranges, outputs="counts", **SMALL)
+    batch = take(stream, 1)[0]
+    seconds = batch.times_us[:, -1].sum().item() / 1e6
+    assert batch.counts.sum().item() / (seconds * 16 * 12) == pytest.approx(rate, rel=0.3)
+
+
+def test_a_noise_curve_that_is_none_is_refused():
+    with pytest.raises(ConfigError, match="noise_curve is '1'; it must be points LEVEL:RATE"):
+        PhysicalRanges(noise_curve="1")
 
 
 def test_a_bandwidth_between_unlimited_and_slow_is_refused():

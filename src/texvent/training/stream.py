@@ -138,9 +138,10 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
     """Decay time of surfaces, µs."""
     device: str = "cpu"
     """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
-    randomize: str | ClipRanges | PhysicalRanges = "v2v"
-    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings; "none" (the
-    place in the video alone); or ranges."""
+    randomize: str | ClipRanges | PhysicalRanges = "recommended"
+    """Draws per clip: "recommended", the pixel model closest to recordings with the noise and
+    thresholds that teach; "physical", a DAVIS346's noise; "v2v"; "none" (the place in the video
+    alone); or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0

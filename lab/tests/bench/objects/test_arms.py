@@ -105,7 +105,10 @@ def test_thresholds_are_matched_fixed_or_drawn_per_clip(configs):
         ('arm = "texvent"\n[factors.a.table]\nnoise = 1', "a, table: unknown 'noise'"),
         ('arm = "texvent"\n[factors.a.table]\nclips = "all"', "a, table: clips is 'all'"),
         ('arm = "texvent"\n[factors.a.table]\nthreshold = [1, 2, 3]', "give one above 0, or the"),
-        ('arm = "texvent"\n[factors.a.table]\ntimes = "frame"', "times is 'frame'; allowed: exact, frames"),
+        (
+            'arm = "texvent"\n[factors.a.table]\ntimes = "frame"',
+            "allowed: exact, frames",
+        ),
         ('arm = "texvent"\n[factors.a.table]\nthreshold = -1', "give one above 0, or the"),
     ],
 )
