@@ -10,13 +10,14 @@ from texvent.dataset import read_specification
 from texvent.dataset.generation.recipe import Recipe
 from texvent.errors import ConfigError
 from texvent_lab.bench.document import read_document
+from texvent_lab.bench.page import page_files
+from texvent_lab.bench.reconstruction.factors import FactorScore, factors_table
 
 from ..train.windowed_specification import TEXT
 
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 from texvent_lab.measure.reconstruction_factors import (
     Scale,
-    as_table,
     changed,
     main,
     trainings,
@@ -146,9 +147,13 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     assert main() == 0
     assert read_document(folder / "a.json")["rows"] == rows
     assert "| threshold .4 |" in capsys.readouterr().out
+    document = read_document(folder / "a.json")
+    assert document["protocol"] == {"networks per row": 1, "clips": 1, "epochs": 1}
+    pages = page_files(document, "reconstruction-factors.json")
+    assert "# Images by simulated training" in pages["reconstruction-factors.md"].decode()
+    assert pages["reconstruction-factors.svg"].startswith(b"<?xml")
 
 
 def test_a_table_has_means_and_errors_over_seeds():
-    rows = [{"factor": "a", "scores": {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]}}]
-    table = as_table({"rows": rows})
+    table = factors_table([FactorScore("a", {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]})])
     assert "| a | 0.200 ± 0.100 | 0.500 ± 0.000 |" in table

@@ -36,16 +36,15 @@ from texvent.options.values import plain
 from texvent.runtime.files.cache_folder import make_folder
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.settings.config_files import read_document
-from texvent_lab.bench.document import describe_environment, markdown_table, write_document
+from texvent_lab.bench.document import describe_environment, read_records, write_document
+from texvent_lab.bench.reconstruction.factors import SCHEMA, FactorScore, factors_table
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
-from texvent_lab.bench.summary import mean_text
 from texvent_lab.frame_recordings import FrameRecording, locate_source, open_recording
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.run import read_training
 from texvent_lab.train.schedule import Hardware
 
-SCHEMA = "texvent-reconstruction-factors-1"
 KEYS = ("options", "scenes", "specification", "variant")
 
 
@@ -206,16 +205,6 @@ def run(
     }
 
 
-def as_table(document: Mapping[str, Any]) -> str:
-    """A row per factor, means ± standard errors over seeds."""
-    measures = list(document["rows"][0]["scores"])
-    rows = [
-        [one["factor"], *(mean_text(one["scores"][name]) for name in measures)]
-        for one in document["rows"]
-    ]
-    return markdown_table(["trained on", *measures], rows)
-
-
 def main() -> int:
     """Run it; 2 where an input will not do."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.reconstruction_factors")
@@ -238,7 +227,7 @@ def main() -> int:
     except TexventError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    sys.stdout.write(as_table(document))
+    sys.stdout.write(factors_table(read_records(FactorScore, document["rows"])))
     return 0
 
 
