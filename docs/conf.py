@@ -127,6 +127,7 @@ CHILDREN = {
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all", "results/digits-ablation"],
     "objects": ["results/objects", "results/objects-factors"],
+    "teaching": ["results/reconstruction-factors"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],

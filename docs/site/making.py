@@ -24,6 +24,7 @@ BENCHMARKS = {
     "digits-ablation": (),
     "objects": (),
     "objects-factors": (),
+    "reconstruction-factors": (),
     "selftest": (),
 }
 """Results that `texvent bench page` turns into a page of the same name, and its options."""

@@ -4,7 +4,7 @@ import gzip
 import json
 from collections.abc import Callable
 from pathlib import Path
-from statistics import mean
+from statistics import mean, variance
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -18,6 +18,26 @@ SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texve
 LOOKS = {
     "light": ("#1f2328", "#c8ccd0", ("#0b62a4", "#c2410c", "#3f7d20", "#6b7280", "#7c3aed")),
     "dark": ("#e6e8ea", "#464b52", ("#6cb2f0", "#fb9a5b", "#93cf6f", "#a3a9b3", "#c4a5ff")),
+}
+# Row → arms of objects-factors, digits-ablation and reconstruction-factors.
+TEACHING = {
+    "times of frames": ("frame times", "frame times", "frame times"),
+    "no noise": ("no noise", "no noise", "no noise"),
+    "more noise": ("twice the noise", "", "noise on every pixel"),
+    "one threshold, .2": ("threshold .2", "", "threshold .2"),
+    "thresholds drawn about it": ("thresholds about the matched one", "", ""),
+    "thresholds .05 to 2": ("thresholds .05 to 2", "wide thresholds", "thresholds .05 to 2"),
+    "one scene": ("", "", "1 scene"),
+    "fewer clips or scenes": ("a third of the clips", "", "3 scenes"),
+    "three times the clips": ("three times the clips", "", ""),
+    "films": ("", "", "films"),
+    "moved photos": ("", "", "moved photos"),
+    "bare background": ("bare background", "", ""),
+    "no pauses": ("no pauses", "", ""),
+    "farther away": ("naive framing", "", ""),
+    "things as recorded": ("things as recorded", "", ""),
+    "latency of 40 Hz": ("", "latency of 40 Hz", ""),
+    "higher contrast": ("", "high contrast", ""),
 }
 Draw = Callable[[tuple[str, ...]], Figure]
 
@@ -150,6 +170,55 @@ def digits(colours: tuple[str, ...]) -> Figure:
     return figure
 
 
+def teaching(colours: tuple[str, ...]) -> Figure:
+    """Change of each test's score where one property of the simulated clips is another."""
+    scores = teaching_scores()
+    figure, axes = plt.subplots(figsize=(5.8, 5.6))
+    for number, (label, (base, found)) in enumerate(scores.items()):
+        for row, name in enumerate(TEACHING):
+            if name in found:
+                change, error = relative(found[name], base)
+                place = row + 0.13 * (number - (len(scores) - 1) / 2)
+                mark = "osD^v"[number]
+                axes.errorbar(change, place, xerr=error, fmt=mark, ms=5, color=colours[number])
+        axes.plot([], [], "osD^v"[number], color=colours[number], label=label)
+    axes.axvline(0, color=colours[3], linewidth=1)
+    axes.set_yticks(range(len(TEACHING)), list(TEACHING))
+    axes.set_ylim(len(TEACHING) - 0.4, -0.6)
+    axes.set_xlabel("change of the score, % (images: of SSIM); bars: standard error")
+    legend(figure, axes, 3)
+    return figure
+
+
+def teaching_scores() -> dict[str, tuple[list[float], dict[str, list[float]]]]:
+    """Test → scores of its base, one per network, and those of each row of `TEACHING`."""
+    found = {}
+    objects = read("objects-factors.json.gz")
+    for test, measure in (("table", "AP50 visible"), ("turntable", "accuracy")):
+        arms = {row["arm"]: row["scores"][measure] for row in objects[test]}
+        found[test] = (arms["physical"], teaching_rows(arms, 0))
+    for kind, label in (("histogram", "digits, counts"), ("surface", "digits, times")):
+        rows = read("digits-ablation.json.gz")["scores"]
+        arms = {row["arm"]: row["accuracy"] for row in rows if row["representation"] == kind}
+        found[label] = (arms["as measured"], teaching_rows(arms, 1))
+    rows = read("reconstruction-factors.json.gz")["rows"]
+    arms = {row["factor"]: row["scores"]["ssim"] for row in rows}
+    found["images"] = (arms["as firenet.toml"], teaching_rows(arms, 2))
+    return found
+
+
+def teaching_rows(arms: dict[str, list[float]], place: int) -> dict[str, list[float]]:
+    """Row of `TEACHING` → scores of the arm that one of its tests has for it."""
+    names = {row: tests[place] for row, tests in TEACHING.items()}
+    return {row: arms[name] for row, name in names.items() if name in arms}
+
+
+def relative(values: list[float], base: list[float]) -> tuple[float, float]:
+    """Change of a mean from the base's, and its standard error, % of the base's."""
+    error = (variance(values) / len(values) + variance(base) / len(base)) ** 0.5
+    return 100 * (mean(values) / mean(base) - 1), 100 * error / mean(base)
+
+
 def speed(colours: tuple[str, ...]) -> Figure:
     """Time of the cores per pair of frames, beside other programs."""
     peers = [
@@ -205,6 +274,7 @@ PLOTS: dict[str, Draw] = {
     "fidelity": fidelity,
     "real": real,
     "digits": digits,
+    "teaching": teaching,
     "speed": speed,
     "codecs": codecs,
     "grating": grating,

@@ -7,6 +7,8 @@ import itertools
 import pickle
 import re
 import tempfile
+import tomllib
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +30,9 @@ from .written import HEIGHT, STEP, WIDTH, Sliding, write_folders
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 
-from texvent.training import Clip, ClipRanges, ClipStream, PhysicalRanges  # noqa: E402
+from texvent.training import Clip, ClipRanges, EventStream, PhysicalRanges  # noqa: E402
 from texvent.training.cuts import CutPlan, cut_clip  # noqa: E402
-from texvent.training.draws import draw_clip, order_of_pass  # noqa: E402
+from texvent.training.draws import RANGES, draw_clip, order_of_pass  # noqa: E402
 from texvent.training.sources import read_clip  # noqa: E402
 
 SMALL: dict[str, Any] = {"batch": 3, "frames": 4, "size": (16, 12)}
@@ -51,7 +53,7 @@ def folder(tmp_path_factory):
 def batches(folder):
     """The first batches of a stream with everything drawn and made."""
     outputs = ("grids", "counts", "surfaces", "events")
-    return take(ClipStream(folder, randomize=WIDE, outputs=outputs, **SMALL), 10)
+    return take(EventStream(folder, randomize=WIDE, outputs=outputs, **SMALL), 10)
 
 
 def take(stream: Any, count: int) -> list[Any]:
@@ -71,11 +73,11 @@ def prints(batches: Any) -> dict[int, bytes]:
 )
 def test_equal_seeds_give_equal_batches_on_any_ranks_and_workers(folder, world, workers, pixels):
     options = {**SMALL, "seed": 5, "randomize": pixels}
-    expected = prints(take(ClipStream(folder, **options), PASSES))
+    expected = prints(take(EventStream(folder, **options), PASSES))
     assert len(set(expected.values())) == PASSES
     found: dict[int, bytes] = {}
     for rank in range(world):
-        stream = ClipStream(folder, rank=rank, world=world, **options)
+        stream = EventStream(folder, rank=rank, world=world, **options)
         loader = torch.utils.data.DataLoader(
             stream, batch_size=None, num_workers=workers, collate_fn=lambda one: one
         )
@@ -87,20 +89,20 @@ def test_equal_seeds_give_equal_batches_on_any_ranks_and_workers(folder, world, 
 
 @pytest.mark.parametrize(("before", "after"), [(1, 1), (2, 1), (1, 2), (2, 3)])
 def test_a_stream_goes_on_where_its_state_was_saved(folder, before, after):
-    expected = prints(take(ClipStream(folder, **SMALL), 10))
-    streams = [ClipStream(folder, rank=r, world=before, **SMALL) for r in range(before)]
+    expected = prints(take(EventStream(folder, **SMALL), 10))
+    streams = [EventStream(folder, rank=r, world=before, **SMALL) for r in range(before)]
     found = prints(one for stream in streams for one in take(stream, 2))
     (state,) = {tuple(stream.state_dict().items()) for stream in streams}
     for rank in range(after):
-        stream = ClipStream(folder, rank=rank, world=after, **SMALL)
+        stream = EventStream(folder, rank=rank, world=after, **SMALL)
         stream.load_state_dict(dict(state))
         found |= prints(take(stream, 2))
     assert found == {number: expected[number] for number in range(2 * before + 2 * after)}
 
 
 def test_a_second_loop_goes_on_after_the_first_and_so_does_a_copy(folder):
-    stream = ClipStream(folder, **SMALL)
-    expected = prints(take(ClipStream(folder, **SMALL), 3))
+    stream = EventStream(folder, **SMALL)
+    expected = prints(take(EventStream(folder, **SMALL), 3))
     found = prints(take(stream, 1))
     found |= prints(take(pickle.loads(pickle.dumps(stream)), 1))
     found |= prints(itertools.islice(stream, 1, 2))
@@ -153,7 +155,7 @@ def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
     """Bit for bit those of the simulator, whose kernels are tested against NumPy."""
     ranges = PhysicalRanges(hot_fraction=(0.0, 0.1), noise_scale=(0.5, 50.0), pause=(0.0, 0.0))
     small = {**SMALL, "frames": 4 // per, "frames_per_grid": per}
-    stream = ClipStream(
+    stream = EventStream(
         Sliding(), randomize=ranges, outputs=("grids", "counts", "events"), seed=7, **small
     )
     plan = CutPlan(SensorSize(16, 12), 4, per, ranges, ())
@@ -183,7 +185,7 @@ def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
 
 def test_every_physical_range_is_drawn_from_for_each_clip(folder):
     ranges = PhysicalRanges()
-    batches = take(ClipStream(folder, randomize="physical", outputs="counts", **SMALL), 10)
+    batches = take(EventStream(folder, randomize="physical", outputs="counts", **SMALL), 10)
     for name in ranges.drawn:
         drawn = np.concatenate([batch.draws[name] for batch in batches])
         low, high = getattr(ranges, name)
@@ -201,7 +203,7 @@ def test_each_physical_option_reaches_the_events():
 
     def counts(source, **other):
         ranges = PhysicalRanges(**{**quiet, **other})
-        stream = ClipStream(source, randomize=ranges, outputs="counts", **SMALL)
+        stream = EventStream(source, randomize=ranges, outputs="counts", **SMALL)
         return take(stream, 1)[0].counts.sum(dim=(0, 1, 3, 4)).tolist()
 
     still, moving = Still(), Sliding()
@@ -231,7 +233,7 @@ def test_thresholds_reach_the_events(folder):
     numbers = []
     for limit in (0.2, 0.6):
         ranges = ClipRanges(threshold=(limit, limit), noise=(0, 0), pause=(0, 0))
-        batch = take(ClipStream(folder, randomize=ranges, outputs="counts", **SMALL), 1)[0]
+        batch = take(EventStream(folder, randomize=ranges, outputs="counts", **SMALL), 1)[0]
         assert batch.grids is None
         numbers.append(int(batch.counts.sum()))
     assert numbers[1] < 0.6 * numbers[0]
@@ -239,7 +241,7 @@ def test_thresholds_reach_the_events(folder):
 
 def test_flips_crops_and_pauses_keep_the_truth_of_a_clip():
     ranges = ClipRanges(pause=(0.3, 0.5))
-    stream = ClipStream(Sliding(), randomize=ranges, truth=("flow", "depth", "boxes"), **SMALL)
+    stream = EventStream(Sliding(), randomize=ranges, truth=("flow", "depth", "boxes"), **SMALL)
     seen = set()
     for batch in take(stream, 6):
         frames = torch.cat([batch.first[:, None], batch.frames], 1).numpy()
@@ -264,8 +266,8 @@ def test_flips_crops_and_pauses_keep_the_truth_of_a_clip():
 
 def test_boxes_lie_where_their_objects_are_in_a_mirrored_crop():
     whole = {**SMALL, "size": (WIDTH, HEIGHT)}
-    stream = ClipStream(Sliding(), randomize="none", truth="boxes", **whole)
-    mirror = ClipStream(
+    stream = EventStream(Sliding(), randomize="none", truth="boxes", **whole)
+    mirror = EventStream(
         Sliding(), randomize=ClipRanges(flip=1.0, pause=(0, 0)), truth="boxes", **whole
     )
     for straight, turned in zip(take(stream, 2), take(mirror, 2), strict=True):
@@ -281,8 +283,8 @@ def test_every_pass_of_every_seed_shows_all_sources_in_an_order_of_its_own():
 
 def test_decoded_clips_stay_within_memory_and_disk_and_leave_no_folder(folder):
     size = 12 * HEIGHT * WIDTH + 12 * 8
-    stream = ClipStream(folder, memory=2 * size, disk=size, **SMALL)
-    expected = prints(take(ClipStream(folder, **SMALL), 6))
+    stream = EventStream(folder, memory=2 * size, disk=size, **SMALL)
+    expected = prints(take(EventStream(folder, **SMALL), 6))
     found = {}
     for batch in itertools.islice(stream, 6):
         found |= prints([batch])
@@ -298,7 +300,7 @@ def test_decoded_clips_stay_within_memory_and_disk_and_leave_no_folder(folder):
 
 def test_workers_leave_no_folder_of_decoded_clips(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    stream = ClipStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
+    stream = EventStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
     loader = torch.utils.data.DataLoader(stream, batch_size=None, num_workers=1)
     batches = iter(loader)
     take(batches, 3)
@@ -309,8 +311,8 @@ def test_workers_leave_no_folder_of_decoded_clips(folder, tmp_path, monkeypatch)
 
 
 def test_a_full_disk_costs_decoding_and_no_source(folder, tmp_path, monkeypatch):
-    expected = prints(take(ClipStream(folder, **SMALL), 6))
-    stream = ClipStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
+    expected = prints(take(EventStream(folder, **SMALL), 6))
+    stream = EventStream(folder, memory=2 * 12 * HEIGHT * WIDTH, **SMALL)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "missing"))
     with pytest.warns(TexventWarning, match="no longer kept on disk") as told:
         assert prints(take(stream, 6)) == expected
@@ -326,7 +328,7 @@ def test_a_batch_that_does_not_fit_says_what_it_takes(folder, batches, monkeypat
     def refuse(*_):
         raise torch.OutOfMemoryError("CUDA out of memory. Tried to allocate 3.00 GiB.")
 
-    stream = ClipStream(folder, **SMALL)
+    stream = EventStream(folder, **SMALL)
     monkeypatch.setattr(torch, "from_numpy", refuse)
     said = r"batches of 3 clips of 5 frames of 16x12, whose arrays alone take \S+ GB, do not fit"
     with pytest.raises(InputError, match=rf"{said} .*: 3\.00 GiB more .*smaller `batch`"):
@@ -353,7 +355,7 @@ def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass
     (tmp_path / "short" / "clip0").rename(tmp_path / "clip7")
     (tmp_path / "short").rmdir()
     (tmp_path / "clip1" / "005.png").write_bytes(b"\x89PNG broken")
-    stream = ClipStream(tmp_path, **SMALL)
+    stream = EventStream(tmp_path, **SMALL)
     with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
         found = take(stream, 4)
     assert len(told) == 1
@@ -369,7 +371,7 @@ def test_videos_that_break_off_and_frames_with_nan_are_skipped_with_their_reason
     bad[6, 3, 3] = np.nan
     np.save(tmp_path / "c_nan.npy", bad)
     sources = [str(tmp_path / name) for name in ("a_whole.mp4", "b_broken.mp4", "c_nan.npy")]
-    stream = ClipStream(sources, fps=25, **{**SMALL, "frames": 8})
+    stream = EventStream(sources, fps=25, **{**SMALL, "frames": 8})
     with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
         found = take(stream, 3)
     assert len(told) == 1
@@ -410,7 +412,45 @@ def test_videos_that_break_off_and_frames_with_nan_are_skipped_with_their_reason
 )
 def test_what_cannot_be_streamed_is_refused_at_construction(folder, options, error, message):
     with pytest.raises(error, match=message):
-        ClipStream(**{"source": folder, **SMALL, **options})
+        EventStream(**{"source": folder, **SMALL, **options})
+
+
+def test_the_default_is_the_recommended_file(folder):
+    path = Path(__file__).parents[2] / "configs/training/recommended.toml"
+    document = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert document["model"] == "physical"
+    ranges = {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in document["ranges"].items()
+    }
+    assert set(ranges) == {one.name for one in fields(PhysicalRanges)}
+    default = EventStream(folder, **SMALL)
+    assert RANGES[default.randomize] == PhysicalRanges(**ranges)
+    same = EventStream(folder, randomize=PhysicalRanges(**ranges), **SMALL)
+    assert prints(take(default, 2)) == prints(take(same, 2))
+
+
+@pytest.mark.parametrize("level", [10, 200])
+def test_the_recommended_noise_has_its_rate_at_any_intensity(level):
+    class Flat(Still):
+        def read(self, index, truth, most_bytes):
+            clip = super().read(index, truth, most_bytes)
+            return Clip(np.full_like(clip.frames, level), clip.times_us)
+
+    rate = 100.0  # so that a few frames have events enough
+    ranges = PhysicalRanges(
+        noise_curve=RANGES["recommended"].noise_curve, noise_scale=(rate, rate),
+        hot_fraction=(0, 0), leak_rate_hz=(0, 0), refractory_us=(0, 0),
+    )  # fmt: skip
+    stream = EventStream(Flat(), randomize=ranges, outputs="counts", **SMALL)
+    batch = take(stream, 1)[0]
+    seconds = batch.times_us[:, -1].sum().item() / 1e6
+    assert batch.counts.sum().item() / (seconds * 16 * 12) == pytest.approx(rate, rel=0.3)
+
+
+def test_a_noise_curve_that_is_none_is_refused():
+    with pytest.raises(ConfigError, match="noise_curve is '1'; it must be points LEVEL:RATE"):
+        PhysicalRanges(noise_curve="1")
 
 
 def test_a_bandwidth_between_unlimited_and_slow_is_refused():
@@ -435,7 +475,7 @@ def test_ranges_that_nothing_can_be_drawn_from_are_refused(ranges, message):
 
 def test_the_state_of_another_stream_is_refused(folder):
     with pytest.raises(ConfigError, match="seed 3"):
-        ClipStream(folder, **SMALL).load_state_dict({"seed": 3, "next": 4})
+        EventStream(folder, **SMALL).load_state_dict({"seed": 3, "next": 4})
 
 
 def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
@@ -452,5 +492,5 @@ def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     exec(compile(recipe, "recipe", "exec"), {"SMALL": {**SMALL, "size": (16, 16)}})
     state = torch.load("checkpoint.pt")["stream"]
-    ClipStream(folder, **SMALL).load_state_dict(state)
+    EventStream(folder, **SMALL).load_state_dict(state)
     assert state["next"] == 2

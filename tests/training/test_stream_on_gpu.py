@@ -13,7 +13,7 @@ pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 pytest.importorskip("triton")
 
-from texvent.training import ClipRanges, ClipStream, PhysicalRanges  # noqa: E402
+from texvent.training import ClipRanges, EventStream, PhysicalRanges  # noqa: E402
 
 RANGES = {
     "v2v": ClipRanges(hot_fraction=(0.1, 0.2), mismatch=(0.0, 0.1), refractory_us=(0, 20_000)),
@@ -26,7 +26,7 @@ def test_batches_are_those_of_the_cpu(pixels):
     """On a CPU the kernels of GPUs run in Triton's interpreter."""
     is_gpu = torch.cuda.is_available()
     streams = [
-        ClipStream(
+        EventStream(
             Sliding(), batch=2, frames=2, size=(8, 6), randomize=RANGES[pixels], device=device,
             outputs=("grids", "counts", "surfaces", "events"), frames_per_grid=2, seed=3,
         )

@@ -10,12 +10,14 @@ from texvent.dataset import read_specification
 from texvent.dataset.generation.recipe import Recipe
 from texvent.errors import ConfigError
 from texvent_lab.bench.document import read_document
+from texvent_lab.bench.page import page_files
+from texvent_lab.bench.reconstruction.factors import FactorScore, factors_table
 
 from ..train.windowed_specification import TEXT
 
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 from texvent_lab.measure.reconstruction_factors import (
-    as_table,
+    Scale,
     changed,
     main,
     trainings,
@@ -56,7 +58,7 @@ def folder(tmp_path):
 
 def test_options_of_the_variant_are_replaced(folder):
     spec = read_specification(folder / "tiny.toml")
-    found = changed(spec, "paper", {"options": {"noise": "none"}})
+    found = changed(spec, "paper", {"options": {"noise": "none"}}, folder / "list.jsonl")
     (variant,) = found.variants
     assert dict(variant.options) == {"contrast_threshold": 0.2, "noise": "none"}
     assert found.sources == spec.sources
@@ -64,16 +66,24 @@ def test_options_of_the_variant_are_replaced(folder):
 
 def test_fewer_scenes_give_as_many_clips_and_the_same_validation(folder):
     spec = read_specification(folder / "tiny.toml")
-    before, after = (Recipe.of(one).clips for one in (spec, changed(spec, "paper", {"scenes": 1})))
-    assert before.counts == {"train": 2, "validation": 2}
-    prompts = {after.clip("train", number).item.prompt for number in range(after.counts["train"])}
-    assert prompts == {before.clip("train", 0).item.prompt}
-    assert after.counts["train"] == 2
+    fewer = changed(spec, "paper", {"scenes": 1}, folder / "list.jsonl")
+    before, after = (Recipe.of(one).clips for one in (spec, fewer))
+    assert before.counts == after.counts == {"train": 2, "validation": 2}
+    repeated = [after.clip("train", number).item for number in range(2)]
+    assert {one.prompt for one in repeated} == {before.clip("train", 0).item.prompt}
+    assert len({one.key for one in repeated}) == 2
     told = [
-        {clips.clip("validation", n).item.prompt for n in range(clips.counts["validation"])}
-        for clips in (before, after)
+        [clips.clip("validation", n).item.prompt for n in range(2)] for clips in (before, after)
     ]
     assert told[0] == told[1]
+
+
+def test_fewer_clips_are_learned_and_as_many_validate(folder):
+    spec = read_specification(folder / "tiny.toml")
+    clips = Recipe.of(changed(spec, "paper", {}, folder / "list.jsonl", 1)).clips
+    assert clips.counts == {"train": 1, "validation": 2}
+    with pytest.raises(ConfigError, match="clips"):
+        Scale(clips=0)
 
 
 @pytest.mark.parametrize(
@@ -86,7 +96,7 @@ def test_fewer_scenes_give_as_many_clips_and_the_same_validation(folder):
 def test_what_cannot_be_changed_is_refused(folder, changes, message):
     spec = read_specification(folder / "tiny.toml")
     with pytest.raises(ConfigError, match=message):
-        changed(spec, changes.get("variant", "paper"), changes)
+        changed(spec, changes.get("variant", "paper"), changes, folder / "list.jsonl")
 
 
 def test_each_factor_has_a_training_of_its_own(folder):
@@ -127,6 +137,7 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))  # without LPIPS' weights
     words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
     words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,threshold .4"]
+    words += ["--clips", "1", "--epochs", "1"]
     monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
     assert main() == 0
     rows = read_document(folder / "a.json")["rows"]
@@ -136,9 +147,13 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     assert main() == 0
     assert read_document(folder / "a.json")["rows"] == rows
     assert "| threshold .4 |" in capsys.readouterr().out
+    document = read_document(folder / "a.json")
+    assert document["protocol"] == {"networks per row": 1, "clips": 1, "epochs": 1}
+    pages = page_files(document, "reconstruction-factors.json")
+    assert "# Images by simulated training" in pages["reconstruction-factors.md"].decode()
+    assert pages["reconstruction-factors.svg"].startswith(b"<?xml")
 
 
 def test_a_table_has_means_and_errors_over_seeds():
-    rows = [{"factor": "a", "scores": {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]}}]
-    table = as_table({"rows": rows})
+    table = factors_table([FactorScore("a", {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]})])
     assert "| a | 0.200 ± 0.100 | 0.500 ± 0.000 |" in table

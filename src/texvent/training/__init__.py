@@ -2,7 +2,7 @@
 
     import texvent.training
 
-    stream = texvent.training.ClipStream("videos/", batch=12, frames=40, size=(128, 128))
+    stream = texvent.training.EventStream("videos/", batch=12, frames=40, size=(128, 128))
 
 Importing this package loads nothing else; each part loads when it is used.
 """
@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from texvent.training.draws import ClipRanges, PhysicalRanges
     from texvent.training.sources import Clip, ClipSource, PromptClips, StoredClips, VideoClips
-    from texvent.training.stream import Batch, ClipStream
+    from texvent.training.stream import Batch, EventStream
 
 _HOME_OF = {
     "Batch": "stream",
     "Clip": "sources",
     "ClipRanges": "draws",
     "ClipSource": "sources",
-    "ClipStream": "stream",
+    "EventStream": "stream",
     "PhysicalRanges": "draws",
     "PromptClips": "sources",
     "StoredClips": "sources",
@@ -34,7 +34,7 @@ __all__ = [
     "Clip",
     "ClipRanges",
     "ClipSource",
-    "ClipStream",
+    "EventStream",
     "PhysicalRanges",
     "PromptClips",
     "StoredClips",

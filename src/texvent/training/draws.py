@@ -14,7 +14,11 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 from texvent.simulation.model_options import RATIO_LIMIT, THRESHOLDS
-from texvent.simulation.physical.config import PhysicalConfig
+from texvent.simulation.physical.config import (
+    DAVIS346_NOISE,
+    PhysicalConfig,
+    parse_noise_curve,
+)
 from texvent.simulation.random.draws import draw_uniforms, frame_key
 
 Limits: TypeAlias = tuple[float, float]
@@ -140,8 +144,10 @@ class PhysicalRanges(MotionRanges):
     """The larger threshold by the smaller; which polarity has it is drawn too."""
     mismatch: Limits = (0.0, 0.05)
     """Standard deviation of thresholds between pixels, log units."""
+    noise_curve: str = DAVIS346_NOISE
+    """Noise rate by intensity, LEVEL:RATE as of the pixel model; default: that of a DAVIS346."""
     noise_scale: Limits = (0.1, 1.0)
-    """Factor of the noise that a DAVIS346 has by intensity."""
+    """Factor of these rates."""
     hot_fraction: Limits = (0.0, 0.001)
     """Share of hot pixels."""
     leak_rate_hz: Limits = (0.0, 0.1)
@@ -153,6 +159,7 @@ class PhysicalRanges(MotionRanges):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        parse_noise_curve(self.noise_curve)
         if self.cutoff_hz[0] == 0 < self.cutoff_hz[1]:
             raise ConfigError(
                 f"cutoff_hz is {shown(self.cutoff_hz)}, and 0 is unlimited, the opposite of slow; "
@@ -173,6 +180,7 @@ class PhysicalRanges(MotionRanges):
             cutoff_hz=cutoff_hz,
             refractory_period_us=int(refractory_us),
             leak_rate_hz=leak_hz,
+            noise_curve=self.noise_curve,
             noise_scale=noise_scale,
             hot_pixel_fraction=hot_fraction,
         )
@@ -182,9 +190,17 @@ NO_DRAWS = ClipRanges(
     threshold=(0.2, 0.2), ratio=(1.0, 1.0), noise=(0.0, 0.0), hot_fraction=(0.0, 0.0),
     hot_noise=(0.0, 0.0), pause=(0.0, 0.0), flip=0.0, has_phase=False,
 )  # fmt: skip
+RECOMMENDED = PhysicalRanges(noise_curve="0:1 255:1", noise_scale=(0.05, 0.5))
+"""What teaches most by docs/teaching.md: noise on every pixel, here .05 to .5 events per second,
+and thresholds within the range of cameras; the same as configs/training/recommended.toml."""
 Ranges: TypeAlias = ClipRanges | PhysicalRanges
 RANGES: Mapping[str, Ranges] = MappingProxyType(
-    {"v2v": ClipRanges(), "physical": PhysicalRanges(), "none": NO_DRAWS}
+    {
+        "recommended": RECOMMENDED,
+        "physical": PhysicalRanges(),
+        "v2v": ClipRanges(),
+        "none": NO_DRAWS,
+    }
 )
 """By name; of "none", only the place in the video is drawn."""
 

@@ -85,7 +85,7 @@ class ClipSource(Protocol):
 
     Example:
         >>> import numpy as np
-        >>> from texvent.training import Clip, ClipStream
+        >>> from texvent.training import Clip, EventStream
         >>> class Noise:
         ...     known_truth = ()
         ...     def __len__(self):
@@ -95,7 +95,7 @@ class ClipSource(Protocol):
         ...     def read(self, index, truth, most_bytes):
         ...         pixels = np.random.default_rng(index).integers(0, 255, (9, 24, 32), np.uint8)
         ...         return Clip(pixels, np.arange(9) * 40_000)
-        >>> stream = ClipStream(Noise(), batch=2, frames=4, size="32x24", device="cpu")
+        >>> stream = EventStream(Noise(), batch=2, frames=4, size="32x24", device="cpu")
         >>> next(iter(stream)).grids.shape
         torch.Size([2, 4, 5, 24, 32])
     """

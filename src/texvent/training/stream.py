@@ -52,9 +52,9 @@ class Batch:
     """B clips of W frames each, on the device of the stream.
 
     Example:
-        >>> from texvent.training import ClipStream, PromptClips
+        >>> from texvent.training import EventStream, PromptClips
         >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
-        >>> stream = ClipStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
         >>> batch = next(iter(stream))
         >>> batch.number, batch.frames.shape
         (0, torch.Size([1, 4, 24, 32]))
@@ -95,7 +95,7 @@ class _Prepared(NamedTuple):
 
 
 @dataclass(kw_only=True, eq=False)
-class ClipStream(_IterableDataset):  # type: ignore[misc]
+class EventStream(_IterableDataset):  # type: ignore[misc]
     """Batches of simulated clips without end; equal seeds give equal batches on any ranks.
 
     Batch i holds the clips i · B .. i · B + B − 1 of the stream, whose draws depend on the seed and
@@ -109,9 +109,9 @@ class ClipStream(_IterableDataset):  # type: ignore[misc]
         MissingDependencyError: torch is not installed; on a GPU, Triton.
 
     Example:
-        >>> from texvent.training import ClipStream, PromptClips
+        >>> from texvent.training import EventStream, PromptClips
         >>> clips = PromptClips(["a red ball rolls left"], sensor="32x24", duration=0.4)
-        >>> stream = ClipStream(clips, batch=1, frames=4, size="32x24", device="cpu")
+        >>> stream = EventStream(clips, batch=1, frames=4, size="32x24", device="cpu")
         >>> next(iter(stream)).grids.shape
         torch.Size([1, 4, 5, 24, 32])
     """
@@ -138,9 +138,10 @@ class ClipStream(_IterableDataset):  # type: ignore[misc]
     """Decay time of surfaces, µs."""
     device: str = "cpu"
     """Device of the tensors: cpu, cuda, cuda:N, or auto; a GPU simulates there."""
-    randomize: str | ClipRanges | PhysicalRanges = "v2v"
-    """Draws per clip: "v2v"; "physical", the pixel model closest to recordings; "none" (the
-    place in the video alone); or ranges."""
+    randomize: str | ClipRanges | PhysicalRanges = "recommended"
+    """Draws per clip: "recommended", the pixel model closest to recordings with the noise and
+    thresholds that teach; "physical", a DAVIS346's noise; "v2v"; "none" (the place in the video
+    alone); or ranges."""
     truth: Sequence[str] | None = None
     """Truth to bring along: flow, depth, boxes; from prompts and data sets."""
     seed: int = 0

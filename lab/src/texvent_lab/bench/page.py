@@ -18,6 +18,7 @@ from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_
 from texvent_lab.bench.objects import results as objects
 from texvent_lab.bench.paper.published_tables import SCHEMA as PAPER_SCHEMA
 from texvent_lab.bench.paper.published_tables import TABLES, Measured, compare_with_paper
+from texvent_lab.bench.reconstruction import factors
 from texvent_lab.bench.selftest import SCHEMA as SELFTEST_SCHEMA
 from texvent_lab.bench.selftest import SelftestRow, selftest_chart, selftest_table
 from texvent_lab.bench.summary import summarise
@@ -44,7 +45,8 @@ def page_files(
     """The page of a result and its chart, with file names after the result's.
 
     Args:
-        document: result of `bench fidelity`, `real`, `digits`, `objects`, `selftest` or `paper`.
+        document: result of `bench fidelity`, `real`, `digits`, `objects`, `selftest` or `paper`, or
+            of `measure.reconstruction_factors`.
         file_name: of the result.
         baseline: of fidelity and real, entry that the others are compared with, pair by pair.
 
@@ -81,6 +83,10 @@ def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, byte
         scored = objects.read_report(document)
         title, tables = "Simulated objects, recorded tests", objects.objects_tables(scored)
         return title, "objects.md", objects_chart(scored), tables
+    if document.get("schema") == factors.SCHEMA:
+        learned = read_records(factors.FactorScore, document["rows"])
+        title, table = "Images by simulated training", factors.factors_table(learned)
+        return title, "teaching.md", factors.factors_chart(learned), table
     if document.get("schema") == PAPER_SCHEMA:
         return "The paper's tables", "benchmark.md", b"", paper_tables(document)
     report = read_report(document)

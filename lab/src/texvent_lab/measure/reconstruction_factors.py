@@ -21,10 +21,13 @@ import json
 import sys
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from texvent.config import check_range
 from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import SampleSource, Specification, Variant
 from texvent.errors import ConfigError, TexventError, shown
@@ -33,27 +36,47 @@ from texvent.options.values import plain
 from texvent.runtime.files.cache_folder import make_folder
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.settings.config_files import read_document
-from texvent_lab.bench.document import describe_environment, markdown_table, write_document
+from texvent_lab.bench.document import describe_environment, read_records, write_document
+from texvent_lab.bench.reconstruction.factors import SCHEMA, FactorScore, factors_table
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
-from texvent_lab.bench.summary import mean_text
 from texvent_lab.frame_recordings import FrameRecording, locate_source, open_recording
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.run import read_training
 from texvent_lab.train.schedule import Hardware
 
-SCHEMA = "texvent-reconstruction-factors-1"
 KEYS = ("options", "scenes", "specification", "variant")
 
 
-def changed(spec: Specification, variant: str, changes: Mapping[str, Any]) -> Specification:
+@dataclass(frozen=True)
+class Scale:
+    """Size of every training; None: as its file says."""
+
+    clips: int | None = None
+    """Clips to learn from, evenly chosen; of films and photos as many as are next to it."""
+    epochs: int | None = None
+
+    def __post_init__(self) -> None:
+        check_range("clips", self.clips, 1)
+        check_range("epochs", self.epochs, 1)
+
+
+def changed(
+    spec: Specification,
+    variant: str,
+    changes: Mapping[str, Any],
+    listed: Path,
+    clips: int | None = None,
+) -> Specification:
     """A specification of one variant with some of its options replaced, or of fewer scenes.
 
     Args:
         spec: sources of the clips.
         variant: of it.
-        changes: `options`, and the number of `scenes` of its training clips; those of other splits
-            stay.
+        changes: `options`, and the number of `scenes` of its training clips, each with other seeds
+            so often that clips are as many; those of other splits stay.
+        listed: file to write, that lists the clips where some are left out.
+        clips: to learn from; None: all.
 
     Raises:
         ConfigError: there is no such variant, or there are fewer scenes.
@@ -64,28 +87,42 @@ def changed(spec: Specification, variant: str, changes: Mapping[str, Any]) -> Sp
     options = {**known[variant].options, **changes.get("options", {})}
     spec = dataclasses.replace(spec, variants=(Variant(name=variant, options=options),))
     count = changes.get("scenes")
-    if count is None:
+    if count is None and clips is None:
         return spec
-    clips = Recipe.of(spec).clips
+    every = Recipe.of(spec).clips
     items = {
-        split: [clips.clip(split, number).item for number in range(clips.counts[split])]
-        for split in clips.counts
+        split: [every.clip(split, number).item for number in range(every.counts[split])]
+        for split in every.counts
     }
-    learned = [one.prompt for one in items["train"]]
-    if count not in range(1, len(learned) + 1) or None in learned:
+    if any(one.prompt is None for one in items["train"]):
+        shown_once = len(items["train"]) / spec.repeats
+        return dataclasses.replace(spec, repeats=max(1, round((clips or 0) / shown_once)))
+    learned = _spread(items["train"], clips or len(items["train"]))
+    count = len(learned) if count is None else count
+    if count not in range(1, len(learned) + 1):
         raise ConfigError(f"scenes is {shown(count)}; there are {len(learned)} prompts to learn")
-    chosen = [learned[number * len(learned) // count] for number in range(count)]
-    sources = [SampleSource(prompts=tuple(map(str, chosen)), split="train")]
-    for split, others in items.items():
-        if split != "train":
-            prompts = tuple(str(one.prompt) for one in others)
-            sources.append(SampleSource(prompts=prompts, split=split))
-    repeats = max(1, len(learned) // count)
-    return dataclasses.replace(spec, sources=tuple(sources), repeats=repeats)
+    chosen = _spread(learned, count)
+    rows = [
+        {"prompt": chosen[number % count].prompt, "seed": number // count}
+        for number in range(len(learned))
+    ]
+    listed.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+    others = [
+        SampleSource(prompts=tuple(str(one.prompt) for one in some), split=split)
+        for split, some in items.items()
+        if split != "train"
+    ]
+    return dataclasses.replace(spec, sources=(SampleSource(file=listed, split="train"), *others))
+
+
+def _spread(items: Sequence[Item], count: int) -> list[Item]:
+    """So many of the items, evenly chosen; all, where they are fewer."""
+    count = min(count, len(items))
+    return [items[number * len(items) // count] for number in range(count)]
 
 
 def trainings(
-    path: Path, work: Path, names: Sequence[str] | None
+    path: Path, work: Path, names: Sequence[str] | None, scale: Scale = Scale()
 ) -> dict[str, ReconstructionConfig]:
     """Factor → its training; the specification of each is written to the work folder.
 
@@ -105,13 +142,16 @@ def trainings(
         own = changes.get("specification")
         source = path.parent / own if own else base.data.specification
         variant = str(changes.get("variant", base.data.variant))
-        spec = changed(read_specification(source), variant, changes)
         make_folder(work)
-        written = work / f"factor-{number}.yaml"
+        written = work.resolve() / f"factor-{number}.yaml"
+        listed = written.with_suffix(".jsonl")
+        spec = changed(read_specification(source), variant, changes, listed, scale.clips)
         written.write_text(json.dumps(spec.tables), encoding="utf-8")  # JSON is YAML
         data = dataclasses.replace(base.data, specification=written, variant=variant)
         loss = dataclasses.replace(base.loss, consistency=0.0) if own else base.loss
-        found[name] = dataclasses.replace(base, data=data, loss=loss)
+        epochs = scale.epochs or base.schedule.epochs
+        schedule = dataclasses.replace(base.schedule, epochs=epochs)
+        found[name] = dataclasses.replace(base, data=data, loss=loss, schedule=schedule)
     if missing := set(names or ()) - set(found):
         wrong = min(missing)
         raise ConfigError(f"unknown factor {shown(wrong)}; {suggest(wrong, tuple(factors))}")
@@ -130,13 +170,20 @@ def score(weights: Path, config: ReconstructionConfig, recording: FrameRecording
     return {name: scores.mean(name) for name in scores.values}
 
 
-def run(path: Path, source: str, work: Path, seeds: int, names: Sequence[str] | None) -> Any:
+def run(
+    path: Path,
+    source: str,
+    work: Path,
+    seeds: int,
+    names: Sequence[str] | None,
+    scale: Scale = Scale(),
+) -> Any:
     """Train and score what was not before; the document."""
     from texvent_lab.train.loop import train  # imports torch
 
     start, rows = time.perf_counter(), []
     recording = dataclasses.replace(open_recording(locate_source(source)[0]), name=source)
-    configs = trainings(path, work, names)
+    configs = trainings(path, work, names, scale)
     for name, config in configs.items():
         values: dict[str, list[float]] = {}
         for seed in range(seeds):
@@ -152,19 +199,10 @@ def run(path: Path, source: str, work: Path, seeds: int, names: Sequence[str] | 
         "schema": SCHEMA,
         "environment": describe_environment(),
         "recording": source,
+        "protocol": {"networks per row": seeds, **dataclasses.asdict(scale)},
         "rows": rows,
         "seconds": time.perf_counter() - start,
     }
-
-
-def as_table(document: Mapping[str, Any]) -> str:
-    """A row per factor, means ± standard errors over seeds."""
-    measures = list(document["rows"][0]["scores"])
-    rows = [
-        [one["factor"], *(mean_text(one["scores"][name]) for name in measures)]
-        for one in document["rows"]
-    ]
-    return markdown_table(["trained on", *measures], rows)
 
 
 def main() -> int:
@@ -174,19 +212,22 @@ def main() -> int:
     parser.add_argument("recording", help="of frames and events: a path, or a pulled data set")
     parser.add_argument("--work", type=Path, required=True, help="folder that keeps trainings")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--clips", type=int, help="clips to learn from; default: all")
+    parser.add_argument("--epochs", type=int, help="of each training; default: as its file says")
     parser.add_argument("--names", help="factors, separated by commas; default: all")
     parser.add_argument("-o", "--out", type=Path)
     parser.add_argument("--overwrite", action="store_true")
     given = parser.parse_args()
     names = given.names.split(",") if given.names else None
     try:
-        document = run(given.factors, given.recording, given.work, given.seeds, names)
+        scale = Scale(given.clips, given.epochs)
+        document = run(given.factors, given.recording, given.work, given.seeds, names, scale)
         if given.out:
             write_document(given.out, document, overwrite=given.overwrite)
     except TexventError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    sys.stdout.write(as_table(document))
+    sys.stdout.write(factors_table(read_records(FactorScore, document["rows"])))
     return 0
 
 

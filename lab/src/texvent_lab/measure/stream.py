@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.training import Clip, ClipStream
+from texvent.training import Clip, EventStream
 from texvent_lab.bench.document import describe_environment, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
@@ -108,7 +108,7 @@ def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
         if not is_cpu:
             torch.cuda.synchronize()
 
-    stream = ClipStream(
+    stream = EventStream(
         Textures(plan), batch=plan.batch, frames=plan.frames, size=(plan.side, plan.side),
         bins=plan.bins, frames_per_grid=plan.bins, outputs=("grids", "counts"), device=device,
         randomize=plan.randomize,

@@ -27,6 +27,9 @@ table.vary."camera.position_m[1]" = { choice = [-0.8] }
 table.clips = 2
 table.threshold = [0.05, 2.0]
 
+[factors.late]
+table.times = "frames"
+
 [factors.own]
 turntable.scenes.assets = "looks"
 turntable.threshold = 0.4
@@ -58,7 +61,7 @@ def arms_of(configs):
 def test_a_factor_replaces_one_property_and_leaves_the_others(configs):
     found = read_factors(configs / "factors.toml", arms_of(configs))
     base = found["table"]["texvent"]
-    assert list(found["table"]) == ["texvent", "no noise", "far", "more"]
+    assert list(found["table"]) == ["texvent", "no noise", "far", "more", "late"]
     assert list(found["turntable"]) == ["texvent", "no noise", "own"]
     assert found["table"]["no noise"] == Arm(base.specification, {"noise": "none"})
     far = found["table"]["far"].items
@@ -102,6 +105,10 @@ def test_thresholds_are_matched_fixed_or_drawn_per_clip(configs):
         ('arm = "texvent"\n[factors.a.table]\nnoise = 1', "a, table: unknown 'noise'"),
         ('arm = "texvent"\n[factors.a.table]\nclips = "all"', "a, table: clips is 'all'"),
         ('arm = "texvent"\n[factors.a.table]\nthreshold = [1, 2, 3]', "give one above 0, or the"),
+        (
+            'arm = "texvent"\n[factors.a.table]\ntimes = "frame"',
+            "allowed: exact, frames",
+        ),
         ('arm = "texvent"\n[factors.a.table]\nthreshold = -1', "give one above 0, or the"),
     ],
 )
@@ -124,11 +131,12 @@ def test_the_command_compares_factors_with_their_arm(configs, tmp_path, capsys):
     document = json.loads((tmp_path / "one.json").read_text())
     assert document["reference"] == "texvent"
     table, turntable = ([one["arm"] for one in document[test]] for test in ("table", "turntable"))
-    assert table == ["texvent", "no noise", "far", "more", "recorded"]
+    assert table == ["texvent", "no noise", "far", "more", "late", "recorded"]
     assert turntable == ["texvent", "no noise", "own", "recorded", "number of events alone"]
-    windows = {one["arm"]: one["windows"] for one in document["table"][:4]}
+    windows = {one["arm"]: one["windows"] for one in document["table"][:5]}
     assert windows["more"]["windows"] == 2 * windows["texvent"]["windows"]
     assert windows["more"]["threshold"] is None
+    assert windows["late"]["share"] != windows["texvent"]["share"]
     assert document["turntable"][2]["windows"]["threshold"] == 0.4
     assert "| less texvent |" in capsys.readouterr().out
     page = page_files(document, "one.json")["one.md"].decode()

@@ -96,8 +96,8 @@ def test_a_locator_finds_what_it_was_trained_on():
     pytest.importorskip("torch")
     from texvent_lab.bench.detection.precision import ALL, average_precision
     from texvent_lab.bench.objects.locator import locate, train_locator
+    from texvent_lab.bench.objects.plan import SCHEDULE
     from texvent_lab.bench.objects.results import as_truth
-    from texvent_lab.bench.objects.run import SCHEDULE
 
     images, boxes = np.zeros((8, SIDE, SIDE), np.int8), np.zeros((8, 4), np.float32)
     for number in range(8):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import ClassVar
 
@@ -14,6 +15,7 @@ from texvent.io.files import is_event_path, open_events
 from texvent.run.rate_search import ThresholdMatch
 from texvent.sensor import SensorSize
 from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.kept_results import digest_of
 
 TOLERANCE_US = 1_000
 """Jitter of event times that is no other clock; what lies outside the frames is not scored."""
@@ -87,6 +89,12 @@ class FileEntry(Entry):
     def name(self) -> str:
         """The program's."""
         return self.program
+
+    @cached_property
+    def digest(self) -> str:
+        """Name of the content of all files."""
+        every = [(one, *pair) for one, files in self.files.items() for pair in files.items()]
+        return digest_of([(one, name, digest_of(path.read_bytes())) for one, name, path in every])
 
     def fit(
         self, count_events: Callable[[float | None], int], target: int

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -17,8 +17,16 @@ from texvent.extending import suggest
 from texvent.options.values import convert
 from texvent.runtime.identity import derived_seed
 from texvent.settings.config_files import read_document
+from texvent_lab.bench.fidelity.event_files import FileEntry
 
 Test: TypeAlias = Literal["table", "turntable"]
+Times: TypeAlias = Literal["exact", "frames"]
+TIMES = get_args(Times)
+
+
+def clip_name(test: Test, item: Item) -> str:
+    """Name of the frames of a clip, and of the files of their events."""
+    return f"{test}-{item.key}"
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,10 @@ class Arm:
     evenly on a logarithmic scale; none: matched to the recorded share of pixels with an event."""
     spread: float = 0.0
     """Standard deviation of the natural logarithm of the threshold between clips."""
+    times: Times = "exact"
+    """Whether events have times of their own, or that of the next frame."""
+    events: FileEntry | None = None
+    """Events that another program made of the clips, in place of a simulator's."""
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -67,7 +79,7 @@ def read_factors(path: Path, arms: Mapping[Test, Mapping[str, Arm]]) -> dict[Tes
     Args:
         path: a TOML file: `arm`, and a table `factors.NAME.TEST` each with some of `options` (of
             the simulator), `scenes` (options of the scenes), `vary`, `clips` (a factor of their
-            number), `threshold` and `spread`; see `Arm`.
+            number), `threshold`, `spread` and `times`; see `Arm`.
         arms: test → arms of its specification.
 
     Raises:
@@ -90,7 +102,12 @@ def read_factors(path: Path, arms: Mapping[Test, Mapping[str, Arm]]) -> dict[Tes
 
 
 def _changed(arm: Arm, changes: Mapping[str, Any], folder: Path, where: str) -> Arm:
-    _known(changes, ("options", "scenes", "vary", "clips", "threshold", "spread"), where)
+    _known(changes, ("options", "scenes", "vary", "clips", "threshold", "spread", "times"), where)
+    times: Times = changes.get("times", arm.times)
+    if times not in get_args(Times):
+        raise ConfigError(
+            f"{where}: times is {shown(times)}; {suggest(str(times), get_args(Times))}"
+        )
     share, spread = (
         float(convert(changes.get(name, usual), float, f"{where}: {name}"))
         for name, usual in (("clips", 1.0), ("spread", arm.spread))
@@ -114,6 +131,7 @@ def _changed(arm: Arm, changes: Mapping[str, Any], folder: Path, where: str) -> 
         {**arm.options, **changes.get("options", {})},
         threshold,
         spread,
+        times,
     )
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from texvent.dataset.specification.items import Item
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.frames import Video
+from texvent.frames import Frame, Video
 from texvent.io.atomic import atomic_file
 from texvent.run.prepare import make_video
 from texvent.run.rate_search import find_threshold
@@ -29,6 +30,8 @@ LEAST_SIDE = 24.0
 """Least side of a box, px: that of the recorded ones is 20 to 27, of a fork as of a mug."""
 PILOT = 14
 """Clips on which thresholds are matched."""
+Simulate: TypeAlias = Callable[[Path, float | None], EventStream]
+"""Frames of a clip and contrast threshold → events."""
 
 
 def render_clip(item: Item, options: Mapping[str, Any], path: Path) -> str:
@@ -80,9 +83,22 @@ def _video(path: Path) -> Video:
         return Video(file["luma"].astype(np.float32), times, None)
 
 
+def frames_of(path: Path) -> Iterator[Frame]:
+    """The frames of a clip in 8-bit grey, for other programs."""
+    for one in _video(path):
+        yield replace(one, pixels=np.rint(one.pixels).astype(np.uint8))
+
+
 def simulate_clip(path: Path, options: Mapping[str, Any], threshold: float | None) -> EventStream:
     """Events of an arm from the frames of a clip."""
     return simulate_video(_video(path), _settings(path, options), threshold)
+
+
+def at_frames(path: Path, events: EventStream) -> EventStream:
+    """Events of a clip, each at the time of the first frame that is not before it."""
+    times_us = np.array(_video(path).times_us)
+    after = np.searchsorted(times_us, events.t).clip(max=len(times_us) - 1)
+    return EventStream(events.x, events.y, times_us[after], events.p, events.size)
 
 
 def _settings(path: Path, options: Mapping[str, Any]) -> Settings:
@@ -91,30 +107,39 @@ def _settings(path: Path, options: Mapping[str, Any]) -> Settings:
 
 
 def match_threshold(
-    paths: Sequence[Path], options: Mapping[str, Any], target: float
-) -> tuple[float | None, float]:
+    paths: Sequence[Path], options: Mapping[str, Any], simulate: Simulate, target: float
+) -> float | None:
     """The threshold with which the share of pixels with an event is that of the recorded frames.
 
     Args:
         paths: frames of some clips.
         options: of the arm.
+        simulate: makes its events.
         target: share of pixels in a window of 100 ms.
 
     Returns:
-        The threshold, log units, None for a model without one; the share there.
+        The threshold, log units, None for a model without one.
     """
-
-    @cache
-    def share(threshold: float | None) -> float:
-        images = [_images(one, simulate_clip(one, options, threshold)) for one in paths]
-        return float(np.mean(np.concatenate(images) != 0))
-
     try:
         start = contrast_threshold_of(_settings(paths[0], options).simulate)
     except ConfigError:
-        return None, share(None)
-    found = find_threshold(share, target, start=start)
-    return found.threshold, share(found.threshold)
+        return None
+    count, pixels = count_pixels(paths, simulate)
+    return find_threshold(count, round(target * pixels), start=start).threshold
+
+
+def count_pixels(
+    paths: Sequence[Path], simulate: Simulate
+) -> tuple[Callable[[float | None], int], int]:
+    """Threshold → pixels with an event in all windows of some clips; pixels there are in all."""
+
+    @cache
+    def count(threshold: float | None) -> int:
+        images = [_images(one, simulate(one, threshold)) for one in paths]
+        return int(np.count_nonzero(np.concatenate(images)))
+
+    windows = sum(len(_starts(np.array(_video(one).times_us))) for one in paths)
+    return count, windows * SIDE * SIDE
 
 
 def _images(path: Path, events: EventStream) -> NDArray[np.int8]:
@@ -125,7 +150,7 @@ def _images(path: Path, events: EventStream) -> NDArray[np.int8]:
 def make_windows(
     paths: Sequence[Path],
     classes: Sequence[int],
-    options: Mapping[str, Any],
+    simulate: Simulate,
     thresholds: Sequence[float | None],
 ) -> tuple[Frames, int]:
     """Windows of all clips in an arm, but for those whose object is out of view.
@@ -133,7 +158,7 @@ def make_windows(
     Args:
         paths: frames of the clips.
         classes: number of the class of each.
-        options: of the arm.
+        simulate: makes the events.
         thresholds: contrast threshold of each clip, log units; None leaves the model's.
 
     Returns:
@@ -142,7 +167,7 @@ def make_windows(
     images, labels, boxes, groups, count = [], [], [], [], 0
     clips = zip(paths, classes, thresholds, strict=True)
     for number, (path, kind, threshold) in enumerate(clips):
-        events = simulate_clip(path, options, threshold)
+        events = simulate(path, threshold)
         count += len(events)
         images.append(_images(path, events))
         with np.load(path) as file:

@@ -11,6 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.runtime.files.cache_folder import cache_folder
+from texvent_lab.bench.fidelity.event_files import named_folders
 from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
@@ -24,6 +25,7 @@ and are tested on recordings; see docs/objects.md. Needs texvent-lab[detection].
 class ObjectsOptions:
     """Clips, recordings and networks."""
 
+    outputs: ClassVar[tuple[str, ...]] = ("write_frames",)
     positional: ClassVar[tuple[str, ...]] = ("configs",)
     main_options: ClassVar[tuple[str, ...]] = (
         *("frames", "turntables", "arms", "factors", "clips", "work", "jobs", "out", "overwrite"),
@@ -50,6 +52,12 @@ class ObjectsOptions:
     precision: Literal["float32", "bfloat16"] = "float32"
     """Number type of the networks' computation; the second takes half the time on many
     processors."""
+    events: tuple[str, ...] = ()
+    """NAME=FOLDER of one more arm, of a program that simulated the frames of --write-frames: an
+    event file per clip, named as it; or a sub-folder of such files per contrast threshold (0.15,
+    0.2), of which the one is used that gives as many pixels an event as in the recordings."""
+    write_frames: Path | None = None
+    """Write the frames of each clip into a folder here, for other programs, and end."""
     work: Path | None = None
     """Folder that keeps the results of steps; default: texvent's cache."""
     jobs: int = 1
@@ -65,8 +73,9 @@ def run(arguments: Sequence[str]) -> None:
         description=DESCRIPTION,
     )
     output.check()
+    from texvent_lab.bench.objects.plan import ObjectsPlan
     from texvent_lab.bench.objects.results import objects_tables
-    from texvent_lab.bench.objects.run import ObjectsPlan, run_objects
+    from texvent_lab.bench.objects.run import run_objects, write_frames
 
     plan = ObjectsPlan(
         configs=options.configs,
@@ -80,7 +89,17 @@ def run(arguments: Sequence[str]) -> None:
         seeds=options.seeds,
         spread=options.spread,
         precision=options.precision,
+        events=named_folders(options.events),
     )
+    if options.write_frames is not None:
+        write_frames(plan, options.write_frames, overwrite=output.overwrite)
+        clips = list(plan.clip_names)
+        write_out(
+            f"{len(clips)} folders of frames in {options.write_frames}, 8 bits, their times in "
+            f"timestamps.txt\nnext: simulate each into {clips[0]}.h5 and so on, times from 0, then "
+            "texvent bench objects --events NAME=FOLDER\n"
+        )
+        return
     report = run_objects(plan, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
     write_out(objects_tables(report))
