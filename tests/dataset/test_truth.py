@@ -88,6 +88,8 @@ def test_boxes_are_counted_checked_and_drawn(
     out = capsys.readouterr().out
     assert "18 of 6 objects: person 9; vehicle 9" in out
     assert "18 small, 0 medium, 0 large" in out
+    assert "\nboxes of  train\nperson        9\nvehicle       9\n" in out
+    assert "\nno box   of cone 3 (samples with them): classes leaves them out\n" in out
     pixels = cv2.imdecode(np.frombuffer(samples.members(0)["png"], np.uint8), cv2.IMREAD_COLOR)
     assert pixels is not None
     rows, columns = np.nonzero((pixels[..., ::-1] == BOX_COLOUR).all(axis=2))
@@ -103,6 +105,29 @@ def test_boxes_are_counted_checked_and_drawn(
     assert "counts other boxes" in said
     write_record(shard, record)
     assert verify(StoredDataset.open(labelled)).is_sound
+
+
+def test_a_split_without_a_class_of_boxes_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "cars.yaml"
+    file.write_text(
+        json.dumps({**CARS, "truth": ["boxes"], "classes": ["car", "bus", "tree"], "variants": {}})
+    )
+    assert main(["dataset", "make", str(file), "-o", str(tmp_path / "cars"), "--workers", "1"]) == 0
+    made = capsys.readouterr().out
+    assert main(["dataset", "stats", str(tmp_path / "cars")]) == 0
+    samples = texvent.dataset.open(tmp_path / "cars")
+    splits = {split: {one.label for one in texvent.dataset.open(tmp_path / "cars", split=split)}
+              for split in ("train", "test")}  # fmt: skip
+    assert len(samples) == 3
+    lacking = [(split, name) for split, has in splits.items() for name in {"car", "bus"} - has]
+    assert lacking
+    for out in (made, capsys.readouterr().out):
+        for split, name in lacking:
+            assert f"\nwarning  {split} has no {name}\n" in out
+        assert "\nwarning  no sample shows: tree\n" in out
+        assert "no box   of" not in out
 
 
 def test_targets_are_those_of_the_slice(labelled: Path, cars: Path) -> None:
@@ -195,6 +220,10 @@ def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
         ({"truth": ["box"]}, "truth names 'box'; allowed: boxes, .* did you mean 'boxes'"),
         ({"classes": ["car", "trcuk"]}, "'trcuk', which no source shows; did you mean 'truck'"),
         ({"classes": ["pedestrian"]}, "which boxes call 'person'; .* person = 'pedestrian' }"),
+        (
+            {"classes": {"person": "one", "pedestrian": "one"}},
+            "object = class, .* person = 'one' }",
+        ),
         ({"classes": ["car", "car"]}, "name each object once"),
         ({"classes": ["car", 3]}, "give a list of objects"),
         ({"truth": ["flow"]}, "truth does not name boxes"),

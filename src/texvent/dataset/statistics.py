@@ -60,6 +60,8 @@ class Statistics:
     """COCO's size class, by area → boxes."""
     tracks: int = 0
     """Objects with boxes, of all samples."""
+    unboxed: Counter[str] = field(default_factory=Counter)
+    """Object that `classes` leaves out → samples whose scene has one."""
     with_truth: int = 0
     """Samples that store boxes."""
     without_boxes: int = 0
@@ -106,6 +108,7 @@ class Statistics:
                 self.classes[sample.label] += 1
             if sample.boxes is not None:
                 self._add_boxes(sample.boxes, sample.tracks)
+            self.unboxed.update(sample.unboxed)
 
     def _first_like(self, text: str) -> str:
         return self.firsts.setdefault(without_numbers(text), text)
@@ -180,6 +183,7 @@ class Statistics:
         return {
             "boxes": dict(sorted(self.boxes.items())),
             "boxes_by_size": {name: self.box_sizes[name] for name in SIZE_CLASSES},
+            "unboxed": dict(sorted(self.unboxed.items())),
             "tracks": self.tracks,
             "samples_without_boxes": self.without_boxes / self.with_truth,
         }
@@ -216,6 +220,19 @@ class DatasetStatistics:
         return counts
 
     @property
+    def box_counts(self) -> dict[str, Counter[str]]:
+        """Split → number of boxes of each class, over all variants."""
+        counts: dict[str, Counter[str]] = {}
+        for (_, split), part in self.parts.items():
+            if part.with_truth:
+                counts.setdefault(split, Counter()).update(part.boxes)
+        return counts
+
+    def lacking_boxes(self, classes: Iterable[str]) -> list[str]:
+        """Warnings of splits that show no box of some classes, which other splits show."""
+        return lacking_lines(self.box_counts, [one for one in classes if self.total.boxes[one]])
+
+    @property
     def tables(self) -> dict[str, Any]:
         """Plain values, ready for JSON."""
         variants: dict[str, Any] = {}
@@ -245,7 +262,7 @@ def counts_rows(statistics: DatasetStatistics) -> list[list[str]]:
     return rows
 
 
-def class_lines(counts: Mapping[str, Counter[str]]) -> list[str]:
+def class_lines(counts: Mapping[str, Counter[str]], title: str = "class") -> list[str]:
     """A table of classes and splits, the most frequent classes first; nothing without classes.
 
     Example:
@@ -259,13 +276,27 @@ def class_lines(counts: Mapping[str, Counter[str]]) -> list[str]:
     names = [name for name, _ in ranked(total)]
     if not names:
         return []
-    rows = [["class", *counts]]
+    rows = [[title, *counts]]
     rows += [[one, *(f"{of[one]:,}" for of in counts.values())] for one in names[:MOST_CLASSES]]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])])
              for row in rows]  # fmt: skip
     more = len(names) - MOST_CLASSES
     return [*lines, f"... {more:,} more"] if more > 0 else lines
+
+
+def lacking_lines(counts: Mapping[str, Counter[str]], classes: Sequence[str]) -> list[str]:
+    """Warnings of splits that lack some of `classes`.
+
+    Example:
+        >>> lacking_lines({"train": Counter(car=9, bus=1), "val": Counter(car=2)}, ["car", "bus"])
+        ['warning  val has no bus']
+    """
+    return [
+        f"warning  {split} has no {few(lacks)}"
+        for split, of in counts.items()
+        if (lacks := [one for one in classes if not of[one]])
+    ]
 
 
 def quantiles(values: Sequence[float]) -> dict[str, float]:
@@ -342,8 +373,12 @@ def _box_lines(statistics: Statistics) -> list[str]:
     sizes = ", ".join(f"{statistics.box_sizes[name]:,} {name}" for name in SIZE_CLASSES)
     share = statistics.without_boxes / statistics.with_truth
     objects = f" of {statistics.tracks:,} objects" if statistics.tracks else ""
-    return [
+    lines = [
         f"boxes    {sum(statistics.boxes.values()):,}{objects}: {classes or 'none'}",
         f"sizes    {sizes} (COCO's, by area: below 32² and 96² px)",
         f"no box   in {100 * share:.0f} % of samples",
     ]
+    if statistics.unboxed:
+        names = [f"{name} {count:,}" for name, count in ranked(statistics.unboxed)]
+        lines.append(f"no box   of {few(names)} (samples with them): classes leaves them out")
+    return lines

@@ -133,7 +133,22 @@ def test_a_detector_finds_what_it_was_trained_on():
         optimizer.step()
     found = detect_clips(network.eval(), clips, "cpu")
     truth = join_boxes([one.boxes for one in clips])
-    assert average_precision(found, truth, classes=("square",), iou=(0.5,))["all"] > 0.5
+    precision = average_precision(found, truth, classes=("square",), iou=(0.5,))["all"]
+    assert precision > 0.5
+    scores, columns = task.validate(network, "cpu", workers=0)
+    assert scores["AP50"] == precision
+    assert scores["validation samples"] == 4
+    assert scores["boxes of validation samples"] == 8
+    surest = int(np.argmax(columns["confidence"]))
+    assert columns["class"][surest] == "square"
+    (there,) = [
+        boxes
+        for clip in clips
+        for window, boxes in enumerate(clip.boxes, 1)
+        if (clip.key, window * 50_000) == (columns["sample"][surest], columns["t_us"][surest])
+    ]
+    for side in "xywh":  # pixels of the sensor, two for a cell
+        assert columns[side][surest] == pytest.approx(2 * there[side][0], abs=8)
 
 
 def _square(number: int) -> BoxedClip:

@@ -17,7 +17,7 @@ from texvent.dataset.generation.make import begin, find_work, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shard_files import FAILED, MADE
 from texvent.dataset.specification.reading import read_specification
-from texvent.dataset.statistics import Statistics, summary_lines
+from texvent.dataset.statistics import DatasetStatistics, Statistics, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.console_progress import ConsoleProgress
@@ -164,7 +164,10 @@ def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -
         f"{made.shards:,} shards\n"
     )
     classes = dataset.box_classes if is_whole else ()
-    write_out("".join(f"{line}\n" for line in summary_lines(made, classes)))
+    lines = summary_lines(made, classes)
+    if is_whole and dataset.is_shared_out and dataset.box_classes:
+        lines += DatasetStatistics.of(dataset).lacking_boxes(dataset.box_classes)
+    write_out("".join(f"{line}\n" for line in lines))
     if work.failures:
         shard, reason = next(iter(work.failures.items()))
         raise TexventError(

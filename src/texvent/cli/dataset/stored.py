@@ -25,11 +25,12 @@ from texvent.dataset.statistics import (
     DatasetStatistics,
     class_lines,
     counts_rows,
+    lacking_lines,
     summary_lines,
 )
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
-from texvent.errors import ConfigError, few
+from texvent.errors import ConfigError
 from texvent.prompt_report import ranked
 from texvent.runtime.files.file_names import inside
 from texvent.runtime.threads import count_threads
@@ -157,10 +158,13 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
     counts = statistics.class_counts
     for line in class_lines(counts):
         console.print(escape(line))
-    is_whole = dataset.is_shared_out and not dataset.missing()
-    for split, has in counts.items() if is_whole else ():
-        if lacks := [label for label in dataset.labels if label not in has]:
-            console.print(escape(f"warning  {split} has no {few(lacks)}"))
+    boxes = statistics.box_counts
+    for line in class_lines(boxes, "boxes of"):
+        console.print(escape(line))
+    if dataset.is_shared_out and not dataset.missing():
+        lacks = lacking_lines(counts, dataset.labels)
+        for line in (*lacks, *statistics.lacking_boxes(dataset.box_classes)):
+            console.print(escape(line))
     sensors = [f"{name} {count:,}" for name, count in ranked(total.sensors)]
     if sensors:
         more = f" and {len(sensors) - MOST_SENSORS} more" if len(sensors) > MOST_SENSORS else ""

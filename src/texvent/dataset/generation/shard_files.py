@@ -59,6 +59,8 @@ class SampleRecord:
     """Class → its boxes of each of `truth.boxes.SIZE_CLASSES`; None: boxes are not stored."""
     tracks: int = 0
     """Objects that have boxes."""
+    unboxed: tuple[str, ...] = ()
+    """Names of objects of the scene that have none, because `classes` leaves them out."""
     members: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     """Extension → position of its content in the shard, and bytes."""
 
@@ -110,8 +112,8 @@ def write_record(shard: Path, record: ShardRecord) -> None:
     """Write the record of a shard, which makes it complete."""
     tables = asdict(record)
     for sample in tables["samples"]:
-        for name in ("is_scene", "boxes", "tracks"):  # which older versions do not know
-            if sample[name] in (False, None):
+        for name in ("is_scene", "boxes", "tracks", "unboxed"):  # which older versions lack
+            if sample[name] in (False, None, ()):
                 del sample[name]
     text = json.dumps(tables, ensure_ascii=False, separators=(",", ":"))
     with atomic_file(record_path(shard), overwrite=True) as part:
@@ -176,11 +178,13 @@ def _sample(tables: Mapping[str, Any]) -> SampleRecord:
     counts = [one for some in (*members.values(), *boxes.values()) for one in some]
     if not all(type(one) is int and 0 <= one < 2**63 for one in counts):
         raise ValueError("a place or count is no whole number")
-    if not all(isinstance(one, str) for one in warnings):
-        raise ValueError("warnings are texts")
+    unboxed = tuple(tables.get("unboxed", ()))
+    if not all(isinstance(one, str) for one in (*warnings, *unboxed)):
+        raise ValueError("warnings and names of objects are texts")
     if tables.get("prompt_report") is not None:
         PromptReport.from_json(tables["prompt_report"])
-    return SampleRecord(**{**tables, "members": members, "warnings": warnings})
+    own = {"members": members, "warnings": warnings, "unboxed": unboxed}
+    return SampleRecord(**{**tables, **own})
 
 
 def _check_kinds(record: type, tables: Mapping[str, Any], names: Sequence[str]) -> None:

@@ -235,7 +235,11 @@ class ShardSamples:
             preview=specification.previews,
             truth={} if truth is None else truth.members,
         )
-        return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
+        stored = ClipTruth(members.__getitem__, key)
+        if "boxes" in stored.parts and specification.class_of:
+            unboxed = set(stored.instances.values()) - set(specification.class_of)
+            known["unboxed"] = tuple(sorted(unboxed))
+        return members, {**known, **count_boxes(stored)}
 
 
 def _record(key: str, clip: NumberedClip, seed: int) -> SampleRecord:

@@ -72,12 +72,12 @@ def _check_synonyms(
     specification: Specification, nouns: Mapping[str, Any], known: Iterable[str]
 ) -> None:
     """Refuse another word of a noun, such as pedestrian, and say how the class is written."""
-    for name in specification.class_of:
+    for name, wanted in specification.class_of.items():
         meant = next((noun for noun, one in nouns.items() if name in one.synonyms), None)
         if meant is not None and name not in known:
             raise ConfigError(
                 f"classes names {shown(name)}, which boxes call {shown(meant)}; write a table of "
-                f"object = class, such as {{ car = 'car', {meant} = '{name}' }}"
+                f"object = class, such as {{ car = 'car', {meant} = '{wanted}' }}"
             )
 
 

@@ -33,6 +33,7 @@ from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
 from texvent_lab.bench.detection.labels import COUNTED
 from texvent_lab.bench.detection.precision import ALL, average_precision
 from texvent_lab.networks.layers import make_seeded
+from texvent_lab.train.loop import VALIDATION_SAMPLES
 from texvent_lab.train.task import Batches
 
 CLASSES, BINNING = "classes", "binning"
@@ -152,14 +153,33 @@ class DetectionTask:
     def validate(
         self, network: Any, device: Any, *, workers: int
     ) -> tuple[dict[str, float], dict[str, list[Any]]]:
-        """AP at an overlap of .5 and over all, in windows with boxes."""
+        """AP at an overlap of .5 and over all, in windows with boxes, and how many these are.
+
+        Returns:
+            Columns of the predictions, a value per detection: `sample`, `t_us` in it, `class`, `x`
+            and `y` of the left upper corner, `w`, `h`, pixels of the sensor, and `confidence`.
+        """
         del workers
         found = detect_clips(network, self._validation, device)
         truth = join_boxes([one.boxes for one in self._validation])
+        counted = truth["class_confidence"] == COUNTED
         return {
             "AP50": average_precision(found, truth, classes=self.classes, iou=(0.5,))[ALL],
             "AP": average_precision(found, truth, classes=self.classes)[ALL],
-        }, {}
+            VALIDATION_SAMPLES: len(self._validation),
+            f"boxes of {VALIDATION_SAMPLES}": int(counted.sum()),
+        }, self._columns(found)
+
+    def _columns(self, found: NDArray[np.void]) -> dict[str, list[Any]]:
+        numbers, times_us = np.divmod(found["t"], CLIP_US)
+        pixels = self._config.data.binning
+        return {
+            "sample": [self._validation[one].key for one in numbers.tolist()],
+            "t_us": times_us.tolist(),
+            "class": [self.classes[one] for one in found["class_id"].tolist()],
+            **{side: (found[side].astype(float) * pixels).round(1).tolist() for side in "xywh"},
+            "confidence": found["class_confidence"].astype(float).round(4).tolist(),
+        }
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """Evlib's names."""
