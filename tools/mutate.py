@@ -7,6 +7,7 @@ Example:
     .venv-torch/bin/python -m tools.mutate
     .venv-torch/bin/python -m tools.mutate calibrate "the sign of"
     .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --rooms pairs io --since v0.5.0
+    .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --only 7,31 --whole
 """
 
 from __future__ import annotations
@@ -37,11 +38,12 @@ LAB = Path("lab")
 """Tests of the table that begin with it are those of the laboratory."""
 LEFT_OUT = shutil.ignore_patterns(".*", "dist", "_build", "demo-output")
 """What no test of the table needs. Kernels that were compiled before are taken along."""
-PATIENCE_S, TEST_PATIENCE_S = 3600, 1200
+PATIENCE_S, TEST_PATIENCE_S = 4 * 3600, 1200
 """Tests, or one test, that run for longer hang, which is noticed."""
 NOTICED, SURVIVED = "noticed", "SURVIVED"
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
+NO_TEST = "a hang, a crash or a module that cannot be imported"
 NOT_IMPORTED = "ImportError while loading conftest"
 """Words of pytest where a change keeps all tests from being imported."""
 
@@ -86,9 +88,17 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
     return found
 
 
-def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
-    """Whether tests of a copy of the tree notice its change, and which one does."""
-    words = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider", "-rfE"]
+def run_tests(
+    tree: Path, tests: Sequence[str | Path], *, until: Sequence[str] = ("-x",)
+) -> tuple[str, list[str]]:
+    """Whether tests of a copy of the tree notice its change, and which do.
+
+    Args:
+        tree: the copy.
+        tests: as pytest names them, and options of its own; none: the whole suite.
+        until: when pytest ends, in its words; by default with the first that notices.
+    """
+    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-rfE", *until]
     words += ["--timeout", str(TEST_PATIENCE_S), *map(str, tests)]
     words += ["-o", f"faulthandler_timeout={TEST_PATIENCE_S + 60}"]
     paths = [str(tree / "src"), str(tree / LAB / "src"), str(tree), os.environ.get("PYTHONPATH")]
@@ -114,8 +124,8 @@ def run_tests(tree: Path, tests: Sequence[str | Path]) -> tuple[str, str]:
         output = said.read().decode(errors="replace")
     if code in NOT_RUN and NOT_IMPORTED not in output:
         raise RuntimeError(f"{' '.join(words)} did not run: {output}")
-    failed = re.search(r"^(?:FAILED|ERROR) (\S.*?)(?: - |$)", output, re.MULTILINE)
-    return SURVIVED if code == 0 else NOTICED, failed[1] if failed else ""
+    failed = re.findall(r"^(?:FAILED|ERROR) (\S.*?)(?: - |$)", output, re.MULTILINE)
+    return SURVIVED if code == 0 else NOTICED, failed
 
 
 @contextlib.contextmanager
@@ -146,10 +156,41 @@ def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str
     while True:
         tests = [*near_tests(change.file, tree), *(f"--deselect={one}" for one in failing)]
         with changed(path, change.applied(path.read_text("utf-8"))):
-            verdict, test = run_tests(tree, tests)
-        if verdict == SURVIVED or not test or run_tests(tree, [test])[0] == SURVIVED:
-            return verdict, test or "a hang, a crash or a module that cannot be imported"
-        failing.add(test)
+            verdict, noticing = run_tests(tree, tests)
+        if verdict == SURVIVED or not noticing or run_tests(tree, noticing)[0] == SURVIVED:
+            return verdict, noticing[0] if noticing else NO_TEST
+        failing.update(noticing)
+
+
+def judge_together(
+    tree: Path, changes: Sequence[Change], failing: set[str]
+) -> dict[Change, tuple[str, str]]:
+    """Whether any test of the whole suite notices each of several changes, and which one does.
+
+    The suite runs once with all of them, one of each file at a time; then the tests that failed
+    run with each alone. A test that fails without any is added to `failing` and judges nothing.
+    """
+    found: dict[Change, tuple[str, str]] = {}
+    rest = list(changes)
+    while group := {one.file: one for one in reversed(rest)}:
+        rest = [one for one in rest if group[one.file] is not one]
+        texts = {tree / source_path(file): one for file, one in group.items()}
+        with contextlib.ExitStack() as stack:
+            for path, one in texts.items():
+                stack.enter_context(changed(path, one.applied(path.read_text("utf-8"))))
+            verdict, tests = run_tests(tree, (), until=("-n", "1"))
+        if verdict == NOTICED and not tests:
+            raise RuntimeError(f"with all of {[*group]} changed the suite does not run")
+        if tests:
+            failing.update(run_tests(tree, tests, until=())[1])
+        tests = [one for one in tests if one not in failing]
+        for path, one in texts.items():
+            verdict, noticing = SURVIVED, list[str]()
+            if tests:
+                with changed(path, one.applied(path.read_text("utf-8"))):
+                    verdict, noticing = run_tests(tree, tests)
+            found[one] = verdict, noticing[0] if noticing else NO_TEST
+    return found
 
 
 def wilson_interval(count: int, total: int) -> tuple[float, float]:
@@ -182,13 +223,14 @@ def judge_draw(tree: Path, options: argparse.Namespace) -> int:
     lines = lines_changed_since(options.since) if options.since else None
     failing: set[str] = set()
     rows: list[dict[str, Any]] = []
-    for number, one in enumerate(draw(options.draw, options.seed, tree, options.rooms, lines), 1):
-        if options.only and number not in options.only:
-            continue
+    drawn = dict(enumerate(draw(options.draw, options.seed, tree, options.rooms, lines), 1))
+    drawn = {key: one for key, one in drawn.items() if not options.only or key in options.only}
+    together = judge_together(tree, [*drawn.values()], failing) if options.whole else {}
+    for number, one in drawn.items():
         text = (tree / source_path(one.file)).read_text("utf-8")
         old, new = (each.splitlines()[one.line - 1].strip() for each in (text, one.applied(text)))
         began = time.monotonic()
-        verdict, test = judge_drawn(tree, one, failing)
+        verdict, test = together.get(one) or judge_drawn(tree, one, failing)
         row = {"number": number, "file": one.file, "line": one.line, "kind": one.kind, "old": old}
         row |= {"new": new, "verdict": verdict, "test": test, "s": round(time.monotonic() - began)}
         rows.append(row)
@@ -236,6 +278,10 @@ def _read_options(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         "--only", type=lambda text: {int(one) for one in text.split(",")}, metavar="3,17",
         help="judge these numbers of the draw",
+    )  # fmt: skip
+    parser.add_argument(
+        "--whole", action="store_true",
+        help="judge by the whole suite, all at once: for those that no test near them notices",
     )  # fmt: skip
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts here")
     return parser.parse_args(words)

@@ -115,6 +115,7 @@ def test_convert_says_which_data_beside_the_events_it_leaves_out(
 ) -> None:
     make, held = HOLDERS[name]
     make(tmp_path / name)
+    make(merged := tmp_path / f"merged {name}")
     for more in ([], ["--triggers", str(tmp_path / "t.csv")])[: 1 + (held == "triggers")]:
         sensor = [] if name.endswith(("raw", "aedat", "bag")) else ["--sensor", "9x7"]
         words = ["convert", str(tmp_path / name), str(tmp_path / "o.npz"), "--overwrite", *sensor]
@@ -122,6 +123,11 @@ def test_convert_says_which_data_beside_the_events_it_leaves_out(
         said = capfd.readouterr().err
         assert (f"holds {held}, which" in said) == (not more), said
         assert ("--triggers PATH" in said) == (held == "triggers" and not more)
+        assert main([*words, *more, "--merge", str(merged)]) == 0
+        both, alone = capfd.readouterr().err, f"{merged} also holds {held}, which"
+        assert both.startswith(said), "of the first file the same is said as without the other"
+        assert alone in both[len(said) :]
+        assert "PATH" not in both[len(said) :]
     assert main(["convert", str(tmp_path / "o.npz"), str(tmp_path / "o.raw")]) == 0
     assert "holds" not in capfd.readouterr().err
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tools.mutate import NOTICED, SURVIVED, judge_drawn, wilson_interval
+from tools.mutate import NOTICED, SURVIVED, judge_drawn, judge_together, wilson_interval
 from tools.wrong_changes import changes_of, draw, is_wrong, near_tests
 
 EXAMPLES = {
@@ -108,6 +108,17 @@ def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None
     assert judge_drawn(tree, change, failing) == (NOTICED, by)
     assert failing == {"tests/big/test_other.py::test_that_fails_always"}
     assert judge_drawn(tree, survivor, failing)[0] == SURVIVED
+
+
+@pytest.mark.long
+def test_changes_that_are_made_together_are_noticed_one_by_one(tree: Path) -> None:
+    changes = changes_of("big/part.py", (tree / "src/texvent/big/part.py").read_text())
+    first, survivor = (next(one for one in changes if one.line == line) for line in (1, 9))
+    other, *_ = changes_of("small/part.py", "A = 1\n")
+    found = judge_together(tree, [survivor, other, first], failing := set())
+    assert found[first] == (NOTICED, "tests/test_user.py::test_it")
+    assert {found[one][0] for one in (survivor, other)} == {SURVIVED}
+    assert failing == {"tests/big/test_other.py::test_that_fails_always"}
 
 
 def test_the_interval_is_that_of_the_formula_by_hand() -> None:

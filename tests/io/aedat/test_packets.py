@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import bz2
 import struct
+import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 
+import lz4.frame
 import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError, TexventWarning
+from texvent.io.aedat import aedat4_container
+from texvent.io.aedat.aedat4_container import load_zstd, unpack_bz2, unpack_lz4, unpack_zstd
 from texvent.io.aedat.aedat4_tables import Table
 from texvent.io.files import load
 
@@ -84,3 +90,34 @@ def test_lists_of_tables_are_read_a_part_at_a_time(
 def test_a_list_that_grows_from_nothing_is_refused(data: bytes, message: str) -> None:
     with pytest.raises(FileFormatError, match=message):
         list(Table.root(struct.pack("<I", len(data) - 4) + data[4:], b"TRIG").columns(0, ["<i8"]))
+
+
+PACKINGS = {
+    "LZ4": (lambda data: lz4.frame.compress(data, content_checksum=True), unpack_lz4),
+    "Zstandard": (lambda data: load_zstd().compress(data), unpack_zstd),
+    "bzip2": (bz2.compress, unpack_bz2),
+}
+"""Name → a program that packs, and what unpacks."""
+
+
+@pytest.mark.parametrize("name", PACKINGS)
+def test_packets_come_back_whole_or_are_refused_in_bounded_memory(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pack: Callable[[bytes], bytes]
+    pack, unpack = PACKINGS[name]
+    most = 2**20
+    monkeypatch.setattr(aedat4_container, "MAX_PACKET_BYTES", most)
+    noise = np.random.default_rng(0).bytes(most // 2)
+    for data in (b"", b"x", bytes(most - 1), noise):
+        assert unpack(pack(data)) == data
+    with pytest.raises(FileFormatError, match=rf"is cut off \({name}\)"):
+        unpack(pack(noise)[:-99])
+    for size in (most + 1, 99 * most):
+        packed = pack(bytes(size))
+        tracemalloc.start()
+        with pytest.raises(FileFormatError, match=rf"unpacks to more than 1 MiB \({name}\)"):
+            unpack(packed)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 4 * most

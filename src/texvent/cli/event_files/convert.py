@@ -206,12 +206,15 @@ def _warn_of_left_out(options: ConvertOptions) -> None:
     """Warn of what the inputs hold beside their events, which no event file keeps."""
     asked = {name for name in (*SIDE_FILES, "frames") if getattr(options, name) is not None}
     asked |= {"frames"} if options.video is not None else set()
+    writable = {*SIDE_FILES, "frames"}
     for path in (options.path, *options.merge):
         held: list[str] = []
         with contextlib.suppress(FileFormatError):  # damage of the events is said before
             held += codec_that_reads(path, options.from_format).beside(path)
+        if path is not options.path:  # of files that are merged nothing else is written
+            asked, writable = set(), set()
         left = [one for one in dict.fromkeys(held) if one not in asked]
-        flags = [f"--{one}" for one in left if one in (*SIDE_FILES, "frames")]
+        flags = [f"--{one}" for one in left if one in writable]
         if left:
             writes = f"; {', '.join(flags)} PATH writes them" if flags else ""
             warn(f"{path} also holds {few(left)}, which the event file does not keep{writes}")
