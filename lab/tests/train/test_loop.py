@@ -78,6 +78,27 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
     assert rate == pytest.approx(0.25e-9)
 
 
+@pytest.mark.parametrize("keep", ["best", "last"])
+def test_the_best_network_is_kept_or_the_last(
+    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, keep: str
+) -> None:
+    specification.write_text(
+        f'data = {{folder = "bars"}}\n[schedule]\nepochs = 3\nkeep = "{keep}"\n'
+    )
+    scores = iter([0.5, 0.9, 0.6])
+    monkeypatch.setattr(
+        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
+    )
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    assert state.best_epoch == 2
+    wanted, other = state.best, state.network
+    if keep == "last":
+        wanted, other = other, wanted
+    kept = weights(tmp_path / "run")
+    assert all(torch.equal(kept[name], wanted[name]) for name in kept)
+    assert not all(torch.equal(kept[name], other[name]) for name in kept)
+
+
 def test_the_loss_of_an_epoch_is_the_mean_of_its_batches() -> None:
     network, schedule = torch.nn.Linear(1, 1), Schedule()
     losses = (0 * network.weight.sum() + value for value in (1.0, 2.0, 6.0))

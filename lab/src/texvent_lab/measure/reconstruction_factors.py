@@ -1,7 +1,8 @@
 """Properties of simulated events that teach reconstruction: one at a time is replaced.
 
 A network is trained as a file says, once per factor and seed, and scored by the images that it
-makes of the events of a recording, in EVREAL's part where it names one. Trainings are kept.
+makes of the events of a recording, in EVREAL's part where it names one. The network is that of the
+last epoch, since two clips that validate cannot choose one. Trainings are kept.
 
     texvent data pull slider_depth
     texvent weights pull lpips
@@ -150,7 +151,7 @@ def trainings(
         data = dataclasses.replace(base.data, specification=written, variant=variant)
         loss = dataclasses.replace(base.loss, consistency=0.0) if own else base.loss
         epochs = scale.epochs or base.schedule.epochs
-        schedule = dataclasses.replace(base.schedule, epochs=epochs)
+        schedule = dataclasses.replace(base.schedule, epochs=epochs, keep="last")
         found[name] = dataclasses.replace(base, data=data, loss=loss, schedule=schedule)
     if missing := set(names or ()) - set(found):
         wrong = min(missing)

@@ -226,7 +226,9 @@ def train(
     if state.epochs:
         network.load_state_dict(state.network)
         optimizer.load_state_dict(state.optimizer)
-        _write_results(folder, state, task, network)  # they may be gone, or ahead of the state
+        _write_results(
+            folder, state, task, schedule, network
+        )  # they may be gone, or ahead of the state
     while not _is_over(state, schedule):
         started = time.perf_counter()
         _decay(optimizer, schedule, state.epochs)
@@ -240,7 +242,7 @@ def train(
         state.rows.append({**row, "seconds": round(time.perf_counter() - started, 3)})
         _note_epoch(state, task, schedule, network, optimizer)
         # The state is written last: killed before, the epoch is made again with all its files.
-        _write_results(folder, state, task, network)
+        _write_results(folder, state, task, schedule, network)
         write_state(folder, state)
         progress.announce(_row_text(row, schedule.epochs))
     return state
@@ -342,8 +344,10 @@ def _is_over(state: TrainingState, schedule: Schedule) -> bool:
     return is_stopped or state.epochs >= schedule.epochs
 
 
-def _write_results(folder: Path, state: TrainingState, task: TrainingTask, network: Any) -> None:
-    """The best weights, scores and curves."""
+def _write_results(
+    folder: Path, state: TrainingState, task: TrainingTask, schedule: Schedule, network: Any
+) -> None:
+    """The weights that are kept, scores and curves."""
     torch = require("torch", extra=EXTRA)
     facts = {
         "texvent_version": full_version(),
@@ -353,9 +357,9 @@ def _write_results(folder: Path, state: TrainingState, task: TrainingTask, netwo
         TRAINING: state.tables,
     }
     write_history(folder, facts, state.rows)
-    best = copy.deepcopy(network)
-    best.load_state_dict(state.best)
-    save(folder / WEIGHTS_FILE, {**task.published(best), NOTES: facts})
+    kept = copy.deepcopy(network)
+    kept.load_state_dict(state.network if schedule.keep == "last" else state.best)
+    save(folder / WEIGHTS_FILE, {**task.published(kept), NOTES: facts})
 
 
 def _row_text(row: Row, epochs: int) -> str:

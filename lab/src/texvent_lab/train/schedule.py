@@ -54,6 +54,8 @@ class Schedule:
     """Largest norm of the gradient; None: any."""
     decay: Literal["none", "cosine"] = "none"
     """Fall of the learning rate from epoch to epoch: half a cosine, which ends near 0."""
+    keep: Literal["best", "last"] = "best"
+    """Epoch whose network is kept: that of the best score, or the last."""
 
     def __post_init__(self) -> None:
         check_choices(self)
