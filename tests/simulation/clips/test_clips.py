@@ -16,7 +16,7 @@ from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 from texvent.simulation.clips import pixels as columns_of
 from texvent.simulation.clips.pixels import ClipOutputs, ClipPixels, byte_brightness, check_clips
-from texvent.simulation.clips.scan import simulate_on_cpu
+from texvent.simulation.clips.scan import TILE, simulate_on_cpu
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.esim.simulator import EsimSimulator
 from texvent.simulation.random.draws import frame_keys
@@ -26,10 +26,13 @@ LOG_EPS = 0.05
 ALL = ClipOutputs(bins=4, intervals_per_window=2, counts=True, latest=True, events=True)
 
 
-def some_clips() -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """[B, T + 1, H, W] uint8 that wanders, and times."""
+def some_clips(
+    height: int = HEIGHT, width: int = WIDTH
+) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """[B, T + 1, H, W] uint8 that wanders but for a pause, and times."""
     rng = np.random.default_rng(5)
-    steps = rng.normal(0, 25, (CLIPS, INTERVALS + 1, HEIGHT, WIDTH)).cumsum(axis=1)
+    steps = rng.normal(0, 25, (CLIPS, INTERVALS + 1, height, width)).cumsum(axis=1)
+    steps[:, 3] = steps[:, 2]
     gaps = rng.integers(900, 4000, (CLIPS, INTERVALS))
     times_us = np.concatenate([np.zeros((CLIPS, 1), np.int64), gaps.cumsum(axis=1)], axis=1)
     return np.clip(90 + steps, 0, 255).astype(np.uint8), times_us
@@ -65,15 +68,19 @@ def events_of(made: Any, size: tuple[int, int] = (HEIGHT, WIDTH)) -> list[EventS
     return found
 
 
-@pytest.mark.parametrize("refractory_us", [0, 900])
-def test_without_noise_the_events_are_those_of_esim(refractory_us):
-    frames, times_us = some_clips()
+TILED = (3, TILE // 2 + 3)
+"""Height and width of clips of two tiles, the last one of no whole words."""
+
+
+@pytest.mark.parametrize(("refractory_us", "size"), [(0, (HEIGHT, WIDTH)), (900, TILED)])
+def test_without_noise_the_events_are_those_of_esim(refractory_us, size):
+    frames, times_us = some_clips(*size)
     made = simulate_on_cpu(frames, times_us, pixels_of(REFRACTORY_US=refractory_us), ALL)
     config = EsimConfig(
         contrast_threshold_on=0.3, contrast_threshold_off=0.2, log_eps=LOG_EPS,
         refractory_period_us=refractory_us,
     )  # fmt: skip
-    for clip, events in enumerate(events_of(made)):
+    for clip, events in enumerate(events_of(made, size)):
         simulator = EsimSimulator(config)
         frame_by_frame = zip(frames[clip], times_us[clip].tolist(), strict=True)
         expected = EventStream.concat(simulator.step(Frame(*one)) for one in frame_by_frame)
@@ -82,18 +89,20 @@ def test_without_noise_the_events_are_those_of_esim(refractory_us):
                               expected.to_structured()[["x", "y", "t", "p"]])  # fmt: skip
 
 
-@pytest.mark.parametrize("columns", [{}, EVERYTHING], ids=["plain", "everything"])
-def test_arrays_are_the_representations_of_the_events(columns):
-    frames, times_us = some_clips()
+@pytest.mark.parametrize(
+    ("columns", "size"), [({}, (HEIGHT, WIDTH)), (EVERYTHING, TILED)], ids=["plain", "everything"]
+)
+def test_arrays_are_the_representations_of_the_events(columns, size):
+    frames, times_us = some_clips(*size)
     made = simulate_on_cpu(frames, times_us, pixels_of(**columns), ALL)
-    for clip, events in enumerate(events_of(made)):
+    for clip, events in enumerate(events_of(made, size)):
         edges = times_us[clip, :: ALL.intervals_per_window].tolist()
         assert len(events) == made.counts[clip].sum()
         for window, (start, stop) in enumerate(itertools.pairwise(edges)):
             part = events.cut(start, stop)
             assert np.array_equal(made.grids[clip, window], voxel_e2vid(part, bins=ALL.bins))
             assert np.array_equal(made.counts[clip, window], event_frame(part, "count"))
-            latest = np.full((2, HEIGHT, WIDTH), -1)
+            latest = np.full((2, *size), -1)
             latest[part.p, part.y, part.x] = part.t - start
             assert np.array_equal(made.latest[clip, window], latest)
 

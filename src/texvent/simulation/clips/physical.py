@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.frames import Frame
-from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs
-from texvent.simulation.clips.scan import (
+from texvent.simulation.clips.arrays import (
     FoundEvents,
     MadeArrays,
     make_arrays,
     spread_events,
     words_of,
 )
+from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.simulator import PhysicalSimulator
 
@@ -61,18 +61,20 @@ def _run_clip(
 ) -> NDArray[np.int64]:
     _, height, width = frames.shape
     area, per = height * width, outputs.intervals_per_window
-    sums, words = np.zeros(area * (outputs.bins + 1), np.int64), [np.empty(0, np.int64)]
+    area, per, words = height * width, outputs.intervals_per_window, [np.empty(0, np.int64)]
     simulator.step(Frame(frames[0], int(times_us[0])))
     for first in range(0, len(frames) - 1, per):
         packets = [
             simulator.step(Frame(frames[at], int(times_us[at])))
             for at in range(first + 1, first + per + 1)
         ]
-        pixel = np.concatenate([one.y.astype(np.int64) * width + one.x for one in packets])
-        t_us = np.concatenate([one.t for one in packets])
-        is_on = np.concatenate([one.p for one in packets]).astype(np.int64)
+        opened_us = int(times_us[first])
+        since_us = np.concatenate([(one.t - opened_us).astype(np.int32) for one in packets])
+        cell = np.concatenate(
+            [(one.y.astype(np.int32) * width + one.x) * 2 + one.p for one in packets]
+        )
+        found = FoundEvents(since_us, cell.astype(np.int32), np.array([0, len(cell)]))
         if outputs.events:
-            words.append(words_of(pixel, t_us, is_on, area))
-        found = FoundEvents(pixel, t_us.copy(), 2 * is_on - 1)
-        spread_events(found, len(pixel), int(times_us[first]), first // per, made, sums)
+            words.append(words_of(found, opened_us, area))
+        spread_events(found, area, first // per, made)
     return np.concatenate(words)

@@ -1,57 +1,66 @@
-"""Clips on a CPU: one pass over the frames, window by window, compiled."""
+"""Clips on a CPU: one pass over the frames, window by window and tile by tile, compiled.
+
+Loops do one thing for all pixels of a tile, without branches, so that processors take eight or
+sixteen pixels at once. Pixels that fire are listed; of a list too, all first events are timed
+together, then all second ones.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.threads import run_parts
 from texvent.simulation.clips import pixels
+from texvent.simulation.clips.arrays import (
+    FoundEvents,
+    MadeArrays,
+    make_arrays,
+    spread_events,
+    words_of,
+)
+from texvent.simulation.clips.pixel_state import PixelArrays, begin_pixels, draw_noise
 from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs, ClipPixels, Float64Array
-from texvent.simulation.random.compiled_draws import draw_uniform_at, draw_word_at, place_of
+from texvent.simulation.random.compiled_draws import draw_word_at
 
-_1, _8, _32, _48 = (np.uint64(bits) for bits in (1, 8, 32, 48))
-_EVEN, _SUM = np.uint64(pixels.EVEN_BYTES), np.uint64(pixels.BYTE_SUM)
-_8_32, _15, _16 = (np.uint32(bits) for bits in (8, 15, 16))
-_EVEN_32, _LOW_16 = np.uint32(pixels.EVEN_BYTES & 0xFFFFFFFF), np.uint32(0xFFFF)
-_SPREAD, _MIX_1, _MIX_2 = (np.uint32(one) for one in pixels.NOISE_WORDS)
-_NOISE_MEAN, _NOISE_UNIT = pixels.NOISE_MEAN, pixels.NOISE_UNIT
-_MEAN, _UNIT = pixels.BYTES_MEAN, pixels.BYTES_UNIT
-_ON, _OFF, _PHASE = pixels.ON_DRAW, pixels.OFF_DRAW, pixels.PHASE_DRAW
-_CHOICE, _HOT, _NOISE = pixels.CHOICE_DRAW, pixels.HOT_DRAW, pixels.NOISE_DRAW
-_LOWEST, _LONG_AGO = pixels.LOWEST, pixels.LONG_AGO_US
+_32 = np.uint64(32)
+_NOISE_UNIT, _NOISE = pixels.NOISE_UNIT, pixels.NOISE_DRAW
+TILE = 4096
+"""Pixels of a tile, whose state stays in the cache of a core; a multiple of 8."""
+_LANES = 32
+"""Lists are worked on in multiples of this, as processors like it; the rest is never read."""
 
 
-class _Pixels(NamedTuple):
-    """State and constants of the pixels of one clip, [area] each."""
+class _Tile(NamedTuple):
+    """Room for an interval of a tile."""
 
-    reference: Float64Array
-    on: Float64Array
-    off: Float64Array
-    hot: Float64Array
-    hot_pixel: NDArray[np.int64]
-    """Flat indices of the pixels that are hot."""
-    fired_us: NDArray[np.int64]
-
-
-class FoundEvents(NamedTuple):
-    """Room for the events of a window."""
-
-    pixel: NDArray[np.int64]
-    t_us: NDArray[np.int64]
-    sign: NDArray[np.int64]
+    brightness: Float64Array
+    """[2, TILE] at two frames."""
+    noise: NDArray[np.int16]
+    moved: Float64Array
+    """What the references moved by."""
+    is_near: NDArray[np.uint8]
+    """Whether a threshold is reached."""
 
 
-class MadeArrays(NamedTuple):
-    """Outputs of one clip, by window; without rows where not asked for."""
+class _List(NamedTuple):
+    """Room for the pixels of a tile that fire, and those of them that fire once more."""
 
-    grids: NDArray[np.float32]
-    counts: NDArray[np.int32]
-    latest: NDArray[np.int32]
+    pixel: NDArray[np.uint32]
+    start: Float64Array
+    """Brightness over the reference at the first frame."""
+    length: Float64Array
+    """From it to that at the second frame."""
+    step: Float64Array
+    """Threshold that is crossed; negative: OFF."""
+    crossed: Float64Array
+    """All thresholds that are crossed, log units."""
+    crossings: NDArray[np.int32]
+    cell: NDArray[np.int32]
+    """Pixel · 2 + polarity."""
+    kept: NDArray[np.uint32]
 
 
 def simulate_on_cpu(
@@ -75,47 +84,6 @@ def simulate_on_cpu(
     return make_arrays(frames.shape, outputs, run)
 
 
-def make_arrays(
-    shape: tuple[int, ...],
-    outputs: ClipOutputs,
-    run: Callable[[int, MadeArrays], NDArray[np.int64]],
-) -> ClipArrays:
-    """Arrays of clips, each filled in by a thread.
-
-    Args:
-        shape: of the frames, [B, T + 1, H, W].
-        outputs: what is made.
-        run: fills in what is made of a clip, and returns its events as words, where asked for.
-
-    Returns:
-        NumPy arrays.
-    """
-    count, _, height, width = shape
-    windows, area = (shape[1] - 1) // outputs.intervals_per_window, height * width
-    of_grids = (count, windows, outputs.bins, area)
-    grids = np.zeros(of_grids if outputs.grids else (count, 0, 1, 1), np.float32)
-    pairs = (count, windows, 2, area)
-    counts = np.zeros(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
-    latest = np.full(pairs if outputs.latest else (count, 0, 1, 1), -1, np.int32)
-
-    def run_clip(clip: int) -> NDArray[np.int64]:
-        return run(clip, MadeArrays(grids[clip], counts[clip], latest[clip]))
-
-    words = run_parts(run_clip, range(count))
-    ends = np.cumsum([len(one) for one in words])
-
-    def shaped(array: NDArray[Any], *, is_asked: bool) -> NDArray[Any] | None:
-        return array.reshape(*array.shape[:-1], height, width) if is_asked else None
-
-    return ClipArrays(
-        shaped(grids, is_asked=outputs.grids),
-        shaped(counts, is_asked=outputs.counts),
-        shaped(latest, is_asked=outputs.latest),
-        np.concatenate(words) if outputs.events else None,
-        ends if outputs.events else None,
-    )
-
-
 def _run_clip(
     frames: NDArray[np.uint8],
     times_us: NDArray[np.int64],
@@ -126,177 +94,288 @@ def _run_clip(
 ) -> NDArray[np.int64]:
     """Fill in what is made of a clip, [T + 1, area]; its events as words, where asked for."""
     area, per = frames.shape[1], outputs.intervals_per_window
-    sums, room = np.zeros(area * (outputs.bins + 1), np.int64), _room(2 * area)
-    state, words = _begin(frames[0], width, *clip), [np.empty(0, np.int64)]
-    for first in range(0, len(frames) - 1, per):
-        span = first, first + per
-        while (total := _scan(frames, times_us, span, clip, state, room)) < 0:
-            room = _room(2 * len(room.pixel))
-        if outputs.events:
-            pixel, t_us, sign = (column[:total] for column in room)
-            words.append(words_of(pixel, t_us, sign > 0, area))
-        spread_events(room, total, int(times_us[first]), first // per, made, sums)
+    state, windows = begin_pixels(frames[0], width, *clip), (len(frames) - 1) // per
+    ends = np.zeros(-(-area // TILE) + 1, np.int64)
+    found = FoundEvents(np.empty(2 * area, np.int32), np.empty(2 * area, np.int32), ends)
+    if not outputs.events:
+        _scan(frames, times_us, (0, windows, per), clip, state, found, made)
+        return np.empty(0, np.int64)
+    words = []
+    for window in range(windows):
+        span = window, window + 1, per
+        found = _scan(frames, times_us, span, clip, state, found, made)
+        words.append(words_of(found, int(times_us[window * per]), area))
     return np.concatenate(words)
 
 
-def words_of(
-    pixel: NDArray[np.int64], t_us: NDArray[np.int64], is_on: NDArray[Any], area: int
-) -> NDArray[np.int64]:
-    """Events of a window as sorted words; see `pixels.ClipArrays`."""
-    return np.sort((t_us * area + pixel) << 1 | is_on)
-
-
-def _room(size: int) -> FoundEvents:
-    return FoundEvents(*(np.empty(size, np.int64) for _ in FoundEvents._fields))
-
-
-@jit(inline="always")
-def _normal(word: np.uint64) -> float:
-    pairs = (word & _EVEN) + ((word >> _8) & _EVEN)
-    return np.float64(np.int64((pairs * _SUM) >> _48) - _MEAN) * _UNIT
-
-
-@jit(inline="always")
-def _noise(pixel: Any, key: np.uint64) -> Any:
-    """Normal number of a pixel at a frame; see `pixels.NOISE_WORDS`."""
-    word = np.uint32(np.uint32(pixel) * _SPREAD + np.uint32(key))
-    word = np.uint32((word ^ (word >> _16)) * _MIX_1)
-    word = np.uint32((word ^ (word >> _15) ^ np.uint32(key >> _32)) * _MIX_2)
-    word ^= word >> _16
-    pairs = (word & _EVEN_32) + ((word >> _8_32) & _EVEN_32)
-    return np.float64(np.int32((pairs + (pairs >> _16)) & _LOW_16) - _NOISE_MEAN)
-
-
 @jit
-def _begin(
-    first: NDArray[np.uint8], width: int, numbers: Float64Array, key: np.uint64, table: Float64Array
-) -> _Pixels:
-    """Pixels of a clip that have seen its first frame."""
-    area = first.size
-    reference, on, off, hot = np.empty(area), np.empty(area), np.empty(area), np.zeros(area)
-    for i in range(area):
-        at = place_of(i // width, i % width)
-        on[i], off[i] = numbers[0], numbers[1]
-        if numbers[2] > 0:
-            spread = numbers[2] * _normal(draw_word_at(key, at, _ON))
-            on[i] = max(numbers[0] + numbers[0] * spread, _LOWEST)
-            spread = numbers[2] * _normal(draw_word_at(key, at, _OFF))
-            off[i] = max(numbers[1] + numbers[1] * spread, _LOWEST)
-        if draw_uniform_at(key, at, _CHOICE) < numbers[4]:
-            hot[i] = numbers[5] * _normal(draw_word_at(key, at, _HOT))
-        reference[i] = table[first[i]]
-        if numbers[7] > 0:
-            reference[i] += off[i] - draw_uniform_at(key, at, _PHASE) * (on[i] + off[i])
-    return _Pixels(reference, on, off, hot, np.flatnonzero(hot), np.full(area, _LONG_AGO))
-
-
-@jit(error_model="numpy")
 def _scan(
     frames: NDArray[np.uint8],
     times_us: NDArray[np.int64],
-    span: tuple[int, int],
+    span: tuple[int, int, int],
     clip: tuple[Float64Array, np.uint64, Float64Array],
-    state: _Pixels,
+    state: PixelArrays,
     found: FoundEvents,
-) -> int:
-    """Events of a window, not in order; −1, and nothing has moved, where there is no room."""
-    numbers, key, table = clip
-    reference, on, off, hot, hot_pixel, fired_us = state
-    noise_per_unit, refractory_us = numbers[3] * _NOISE_UNIT, np.int64(numbers[6])
-    kept, kept_us = reference.copy(), fired_us.copy()
-    near, total = np.empty(reference.size + 1, np.int64), 0
-    for interval in range(span[0], span[1]):
-        before, now, start_us = frames[interval], frames[interval + 1], times_us[interval]
-        duration = np.float64(times_us[interval + 1] - start_us)
-        frame_word = draw_word_at(key, np.uint64(0), _NOISE + interval)
-        if noise_per_unit > 0:
-            for i in range(reference.size):
-                reference[i] -= noise_per_unit * _noise(i, frame_word)
-        for i in hot_pixel:
-            reference[i] -= hot[i]
-        number = _list_near(now, table, reference, on, off, near)
-        for i in near[:number]:
-            noise = noise_per_unit * _noise(i, frame_word) + hot[i]
-            stop = table[now[i]] - reference[i]
-            start = table[before[i]] - (reference[i] + noise)
-            step = on[i] if stop > 0 else -off[i]
-            count = np.floor(stop / step)
-            # The quotient may be rounded across a whole number; what counts is the product.
-            count += 1.0 if abs(stop) >= (count + 1.0) * abs(step) else 0.0
-            count -= 1.0 if abs(stop) < count * abs(step) else 0.0
-            if total + count > found.pixel.size:
-                reference[:], fired_us[:] = kept, kept_us
-                return -1
-            for k in range(int(count)):
-                level = (k + 1.0) * step
-                is_before = start >= level if step > 0 else start <= level
-                share = 1.0 if stop == start else (level - start) / (stop - start)
-                share = 0.0 if is_before else min(max(share, 0.0), 1.0)
-                t_us = start_us + np.int64(min(np.floor(share * duration), duration - 1.0))
-                if t_us - fired_us[i] >= refractory_us:
-                    fired_us[i] = t_us
-                    found.pixel[total], found.t_us[total] = i, t_us
-                    found.sign[total] = 1 if step > 0 else -1
-                    total += 1
-            reference[i] += count * step
-    return total
+    made: MadeArrays,
+) -> FoundEvents:
+    """Simulate windows, and add their events to what is made.
+
+    Args:
+        frames: [T + 1, area].
+        times_us: [T + 1].
+        span: the first window, the end of the windows, and the intervals of each.
+        clip: row of `ClipPixels.numbers`, key, and brightness of a byte.
+        state: moves on.
+        found: room, whose content goes.
+        made: filled in.
+
+    Returns:
+        The events of the last window.
+    """
+    area = frames.shape[1]
+    tile = _Tile(
+        np.empty((2, TILE)), np.zeros(TILE, np.int16), np.empty(TILE), np.zeros(TILE, np.uint8)
+    )
+    size = TILE + _LANES
+    listed = _List(
+        np.zeros(size, np.uint32), np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size),
+        np.zeros(size, np.int32), np.zeros(size, np.int32), np.zeros(size, np.uint32),
+    )  # fmt: skip
+    for window in range(span[0], span[1]):
+        intervals, total = (window * span[2], (window + 1) * span[2]), 0
+        for first in range(0, area, TILE):
+            found.ends[first // TILE] = total
+            of_tile = _pixels_of(state, first, min(first + TILE, area), clip[0][2] > 0)
+            found, total = _scan_tile(
+                (frames, times_us), intervals, clip, of_tile, first, (tile, listed), found, total
+            )
+        found.ends[-1] = total
+        spread_events(found, TILE, window, made)
+    return found
 
 
-@jit(error_model="numpy")
-def _list_near(
-    now: NDArray[np.uint8],
-    table: Float64Array,
-    reference: Float64Array,
-    on: Float64Array,
-    off: Float64Array,
-    near: NDArray[np.int64],
-) -> int:
-    """List the pixels that have reached a threshold; how many."""
-    number = np.uint64(0)
-    for i in range(now.size):
-        change = table[now[i]] - reference[i]
-        near[number] = i
-        number += np.uint64((change >= on[i]) | (change <= -off[i]))
-    return int(number)
+@jit
+def _pixels_of(state: PixelArrays, first: int, stop: int, has_mismatch: bool) -> PixelArrays:
+    """Pixels of a tile; thresholds without mismatch are those of the first tile, in the cache."""
+    at = first if has_mismatch else 0
+    return PixelArrays(
+        state.reference[first:stop], state.on[at : at + stop - first],
+        state.off[at : at + stop - first], state.hot[first:stop], state.fired_us[first:stop],
+    )  # fmt: skip
 
 
-@jit(error_model="numpy")
-def spread_events(
+@jit
+def _scan_tile(
+    film: tuple[NDArray[np.uint8], NDArray[np.int64]],
+    intervals: tuple[int, int],
+    clip: tuple[Float64Array, np.uint64, Float64Array],
+    state: PixelArrays,
+    first: int,
+    room: tuple[_Tile, _List],
     found: FoundEvents,
     total: int,
-    start_us: int,
-    window: int,
-    made: MadeArrays,
-    sums: NDArray[np.int64],
+) -> tuple[FoundEvents, int]:
+    """Events of a tile in a window, behind those that were found; how many there are then."""
+    (frames, times_us), (numbers, key, table), (tile, listed) = film, clip, room
+    noise_per_unit, refractory_us = numbers[3] * _NOISE_UNIT, np.int64(numbers[6])
+    opened_us, size, side = times_us[intervals[0]], state.reference.size, 0
+    tile.is_near[size:] = 0
+    _look_up(table, frames[intervals[0], first : first + size], tile.brightness[0])
+    for interval in range(intervals[0], intervals[1]):
+        before, now = tile.brightness[side], frames[interval + 1, first : first + size]
+        if _differ(frames[interval, first : first + size], now):
+            side = 1 - side
+            _look_up(table, now, tile.brightness[side])
+        if noise_per_unit > 0:
+            word = draw_word_at(key, np.uint64(0), _NOISE + interval)
+            draw_noise(np.uint32(word), np.uint32(word >> _32), first, tile.noise[:size])
+        _move(state, tile.brightness[side], noise_per_unit, tile)
+        count = _list_near(tile.is_near.view(np.uint64), tile.is_near, listed.pixel)
+        if count > 0:
+            _measure(count, state, (before, tile.brightness[side]), tile.moved, listed)
+            _count_crossings(_whole(count), first, listed)
+            _move_on(count, listed, state.reference)
+            start_us = times_us[interval] - opened_us
+            times = np.float64(start_us), np.float64(times_us[interval + 1] - times_us[interval])
+            limits = opened_us, refractory_us, first
+            found, total = _fire(count, times, limits, listed, state.fired_us, found, total)
+    return found, total
+
+
+@jit
+def _fire(
+    count: int,
+    times: tuple[float, float],
+    limits: tuple[np.int64, np.int64, int],
+    listed: _List,
+    fired_us: NDArray[np.int64],
+    found: FoundEvents,
+    total: int,
+) -> tuple[FoundEvents, int]:
+    """Events of listed pixels in an interval, behind those that were found."""
+    crossed = 0
+    while count > 0:
+        if total + count + _LANES > found.t_us.size:
+            found = _widen(found, count)
+        t_us, cell = found.t_us[total:], found.cell[total:]
+        _time_crossings(_whole(count), crossed, times, listed, t_us, cell)
+        total += _drop_refractory(count, limits, fired_us, t_us, cell) if limits[1] > 0 else count
+        crossed += 1
+        count = _keep_crossing(count, crossed, listed)
+    return found, total
+
+
+@jit(inline="always")
+def _whole(count: int) -> int:
+    return (count + _LANES - 1) // _LANES * _LANES
+
+
+@jit
+def _widen(found: FoundEvents, count: int) -> FoundEvents:
+    """Twice the room, and more than `count`."""
+    more = np.empty(found.t_us.size + count + _LANES, np.int32)
+    t_us, cell = np.concatenate((found.t_us, more)), np.concatenate((found.cell, more))
+    return FoundEvents(t_us, cell, found.ends)
+
+
+@jit
+def _look_up(table: Float64Array, levels: NDArray[np.uint8], brightness: Float64Array) -> None:
+    for i in range(levels.size):
+        brightness[i] = table[levels[i]]
+
+
+@jit
+def _differ(before: NDArray[np.uint8], now: NDArray[np.uint8]) -> bool:
+    found = np.uint8(0)
+    for i in range(before.size):
+        found = np.uint8(found | np.uint8(before[i] ^ now[i]))
+    return bool(found != 0)
+
+
+@jit
+def _move(state: PixelArrays, brightness: Float64Array, noise_per_unit: float, tile: _Tile) -> None:
+    """Move references by noise, and mark the pixels that have reached a threshold."""
+    reference, on, off, hot, _ = state
+    noise, moved, is_near = tile.noise, tile.moved, tile.is_near
+    for i in range(reference.size):
+        shift = noise_per_unit * np.float64(np.int32(noise[i]))
+        reference[i] = (reference[i] - shift) - hot[i]
+        moved[i] = shift + hot[i]
+        change = brightness[i] - reference[i]
+        is_near[i] = np.uint8((change >= on[i]) | (change <= -off[i]))
+
+
+@jit
+def _list_near(
+    words: NDArray[np.uint64], is_near: NDArray[np.uint8], pixel: NDArray[np.uint32]
+) -> int:
+    """List the marked pixels; how many. `words` are the marks, eight at a time."""
+    count = np.uint64(0)
+    for at in range(words.size):
+        if words[at] != 0:
+            for i in range(8 * at, 8 * at + 8):
+                pixel[count] = i
+                count += np.uint64(is_near[i])
+    return int(count)
+
+
+@jit
+def _measure(
+    count: int,
+    state: PixelArrays,
+    brightness: tuple[Float64Array, Float64Array],
+    moved: Float64Array,
+    listed: _List,
 ) -> None:
-    """Add the events of a window to the arrays; `sums`, [area · (bins + 1)], is 0 around it."""
-    grids, counts, latest = made
-    first_us, last_us = np.int64(2**62), np.int64(0)
-    for n in range(total):
-        first_us, last_us = min(first_us, found.t_us[n]), max(last_us, found.t_us[n])
-    for n in range(total if counts.shape[0] else 0):
-        counts[window, (found.sign[n] + 1) // 2, found.pixel[n]] += 1
-    for n in range(total if latest.shape[0] else 0):
-        p, since = (found.sign[n] + 1) // 2, np.int32(found.t_us[n] - start_us)
-        latest[window, p, found.pixel[n]] = max(latest[window, p, found.pixel[n]], since)
-    if not grids.shape[0] or not total:
-        return
-    bins = grids.shape[1]
-    span = np.float64(np.int64(last_us - first_us) or 1)
-    for n in range(total):
-        # Whole numbers below 2⁵³: exact.
-        place = np.float64(found.t_us[n] - first_us) * (bins - 1)
-        time_bin = np.int64(place / span)
-        after = np.int64(place - time_bin * span)
-        cell = np.uint64(found.pixel[n] * (bins + 1) + time_bin)
-        found.t_us[n] = time_bin
-        sums[cell] += found.sign[n] * (np.int64(span) - after)
-        sums[cell + _1] += found.sign[n] * after
-    for n in range(total):
-        pixel, time_bin = found.pixel[n], found.t_us[n]
-        cell = np.uint64(pixel * (bins + 1) + time_bin)
-        if sums[cell] != 0:
-            grids[window, time_bin, pixel] = np.float32(sums[cell] / span)
-        if time_bin + 1 < bins and sums[cell + _1] != 0:
-            grids[window, time_bin + 1, pixel] = np.float32(sums[cell + _1] / span)
-        sums[cell], sums[cell + _1] = 0, 0
+    """Brightness of listed pixels over their references, and the step that they may cross."""
+    before, now = brightness
+    for j in range(count):
+        i = np.uint64(listed.pixel[j])
+        stop = now[i] - state.reference[i]
+        listed.start[j] = before[i] - (state.reference[i] + moved[i])
+        listed.length[j] = stop
+        # Both are read, so that nothing branches: the sign of noise cannot be predicted.
+        on, off = state.on[i], -state.off[i]
+        listed.step[j] = on if stop > 0 else off
+
+
+@jit(error_model="numpy")
+def _count_crossings(count: int, first: int, listed: _List) -> None:
+    """How often listed pixels cross; `length` was the brightness at the second frame."""
+    pixel, start, length, step, crossed, crossings, cell, _ = listed
+    for j in range(count):
+        stop, size, distance = length[j], abs(step[j]), abs(length[j])
+        number = np.floor(stop / step[j])
+        # The quotient may be rounded across a whole number; what counts is the product.
+        number += 1.0 if distance >= (number + 1.0) * size else 0.0
+        number -= 1.0 if distance < number * size else 0.0
+        crossed[j] = number * step[j]
+        length[j] = stop - start[j]
+        crossings[j] = np.int32(number)
+        cell[j] = np.int32((first + np.int32(pixel[j])) * 2 + np.int32(step[j] > 0))
+
+
+@jit
+def _move_on(count: int, listed: _List, reference: Float64Array) -> None:
+    for j in range(count):
+        reference[listed.pixel[j]] += listed.crossed[j]
+
+
+@jit(error_model="numpy")
+def _time_crossings(
+    count: int,
+    crossed: int,
+    times: tuple[float, float],
+    listed: _List,
+    t_us: NDArray[np.int32],
+    cell: NDArray[np.int32],
+) -> None:
+    """Events where listed pixels cross after `crossed` crossings.
+
+    A level that lay behind a pixel at the first frame already, because noise moved the reference,
+    is crossed at once.
+    """
+    start_us, duration = times
+    last, steps = duration - 1.0, crossed + 1.0
+    for j in range(count):
+        ahead = steps * listed.step[j] - listed.start[j]
+        share = ahead / listed.length[j]
+        share = share if ahead * listed.step[j] > 0 else 0.0
+        since = np.floor(share * duration)
+        t_us[j] = np.int32(start_us + (since if since < last else last))
+        cell[j] = listed.cell[j]
+
+
+@jit
+def _drop_refractory(
+    count: int,
+    limits: tuple[np.int64, np.int64, int],
+    fired_us: NDArray[np.int64],
+    t_us: NDArray[np.int32],
+    cell: NDArray[np.int32],
+) -> int:
+    """Keep the events of pixels that may fire again; how many."""
+    opened_us, refractory_us, first = limits
+    kept = 0
+    for n in range(count):
+        at, now_us = (cell[n] >> 1) - first, opened_us + t_us[n]
+        if now_us - fired_us[at] >= refractory_us:
+            fired_us[at] = now_us
+            t_us[kept], cell[kept] = t_us[n], cell[n]
+            kept += 1
+    return kept
+
+
+@jit
+def _keep_crossing(count: int, crossed: int, listed: _List) -> int:
+    """Keep the listed pixels that cross more often than `crossed` times; how many."""
+    _, start, length, step, _, crossings, cell, kept = listed
+    number = np.uint64(0)
+    for j in range(count):
+        kept[number] = j
+        number += np.uint64(crossings[j] > crossed)
+    for n in range(int(number)):
+        at = np.uint64(kept[n])
+        start[n], length[n], step[n] = start[at], length[at], step[at]
+        crossings[n], cell[n] = crossings[at], cell[at]
+    return int(number)
