@@ -1,4 +1,4 @@
-"""When a frame is shown: by a frame rate, by a list of times, or by a text file of times."""
+"""Times of frames that are given: by a frame rate, a list of times, or a text file of them."""
 
 from __future__ import annotations
 

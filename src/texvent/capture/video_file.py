@@ -379,7 +379,7 @@ def _damaged(path: Path, clock: PresentationClock, problem: str) -> FileFormatEr
 
 
 def _promised_end_us(stream: VideoStream, first_pts_us: Fraction) -> int | None:
-    """When the file's header says the video ends, counted from its first frame."""
+    """End of the video by its file's header, counted from its first frame."""
     if stream.duration and stream.time_base:
         return round(stream.duration * stream.time_base * MICROSECONDS)
     # Matroska and WebM: "00:00:01.200000000", the end on the file's own clock.

@@ -33,7 +33,6 @@ from texvent_scenes.models.limbs import Chain, read_legs
 from texvent_scenes.models.part_lines import Placed, read_parts
 from texvent_scenes.models.people.person import read_rider
 from texvent_scenes.models.postures import Postures, list_channels
-from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
 from texvent_scenes.models.shapes import (
     SAMPLE_POSES,
@@ -47,6 +46,7 @@ from texvent_scenes.models.shapes import (
 )
 from texvent_scenes.models.skeleton import Anchor, Body, PartGroup, read_anchor, read_skeleton
 from texvent_scenes.models.surfaces import Painted, paint_model, toned
+from texvent_scenes.models.tables import fill_in
 from texvent_scenes.rendered_scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {

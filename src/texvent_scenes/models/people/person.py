@@ -17,11 +17,10 @@ from texvent_scenes.models.limbs import read_limbs
 from texvent_scenes.models.materials import STEEL, Material
 from texvent_scenes.models.people.outfit import ADULT, KINDS, PersonKind, dress_person, put_on
 from texvent_scenes.models.postures import Postures
-from texvent_scenes.models.proportions import fill_in
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import ArticulatedModel, Point, point, rod, spike
 from texvent_scenes.models.skeleton import Anchor, Body, Maps, PartGroup, read_anchor, read_skeleton
-from texvent_scenes.models.tables import read_table
+from texvent_scenes.models.tables import fill_in, read_table
 from texvent_scenes.rendered_scene import Colour
 
 HEAD_SIZE = 0.23

@@ -29,7 +29,7 @@ from texvent_scenes.staging.tracks.track import sample_places
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
 _ROUNDING_M = 1e-9
-"""What lies just at its gap is apart, whichever way a processor rounds the last bit."""
+"""Slack of a gap: objects just at it are apart, whichever way a processor rounds the last bit."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
 _TURNING = ("spin", "roll", "sway", "dance", "fall")

@@ -12,9 +12,8 @@ from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
 from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.oscillations import LEANING, oscillations
 from texvent_scenes.staging.tracks.phase_keys import BOUNCY, DULL, NO_FLOOR_M, fallen_m, spin_lift
-from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
+from texvent_scenes.staging.tracks.phases import LEANING, PATH_KINDS, activity_of, oscillations
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})

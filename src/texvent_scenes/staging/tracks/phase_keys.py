@@ -13,14 +13,15 @@ from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
-from texvent_scenes.staging.tracks.oscillations import between, oscillations
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
     STEERED,
     YAWS,
     Phase,
     activity_of,
+    between,
     least_radius,
+    oscillations,
     schedule,
     speeds_of,
     usual_speed,

@@ -117,9 +117,16 @@ def scan_circuit(
     if tally.bad is not None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(state.output + home, output, mask=inside)
-        tl.store(state.level + home, level, mask=inside)
-        tl.store(state.since_us + home, since_us, mask=inside)
+        _store_pixels(state, (output, level, since_us), home, inside)
+
+
+@triton.jit
+def _store_pixels(state: tl.tuple, pixels: tl.tuple, home: tl.tensor, inside: tl.tensor) -> None:
+    """Bring output, level and time of the last event up to date."""
+    output, level, since_us = pixels
+    tl.store(state.output + home, output, mask=inside)
+    tl.store(state.level + home, level, mask=inside)
+    tl.store(state.since_us + home, since_us, mask=inside)
 
 
 @triton.jit
