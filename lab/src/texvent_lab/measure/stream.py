@@ -17,7 +17,7 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
 from pathlib import Path
@@ -174,7 +174,7 @@ def _count_events(plan: StreamPlan, device: str) -> float:
     return float(np.mean(numbers))
 
 
-def _time_plain(plan: StreamPlan, draws: dict[str, Any], numpy: PlainNumpy) -> dict[str, Any]:
+def _time_plain(plan: StreamPlan, draws: Mapping[str, Any], numpy: PlainNumpy) -> dict[str, Any]:
     """Seconds of one core per clip of a batch."""
     frames, times = Textures(plan).read(0, (), 0).frames[:, : plan.side, : plan.side], []
     for clip in range(plan.plain):
