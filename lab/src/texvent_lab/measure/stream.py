@@ -4,9 +4,11 @@
 
 Clips of 40 frames and 128x128 px with grids of 5 bins, from 8-bit clips in memory, everything drawn
 as V2V draws it; a grid spans five frames of the video, so that a clip has 200 intervals. The plain
-simulator is V2V's model, written down as arrays: one frame after the other, in one thread. On a CPU
-both are timed by the seconds of one core that they take, so that a busy machine counts little; on a
-GPU the stream by the clock.
+simulator is V2V's model, written down as arrays: one frame after the other, in one thread, once by
+the functions of NumPy that V2V's program calls and once by the fastest ones that do the same. Both
+make grids alone, of clips with the same draws; the plain one's have no times within a frame, and
+its time leaves out crops and batches. On a CPU both are timed by the seconds of one core that they
+take, so that a busy machine counts little, and the stream by the clock too; on a GPU by the clock.
 """
 
 from __future__ import annotations
@@ -15,11 +17,11 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,8 +46,8 @@ class StreamPlan:
     """Pixels of the stream; those of the plain simulator are V2V's."""
     repeats: int = 5
     """Batches that are timed; one before them is not."""
-    plain: int = 3
-    """Clips of the plain simulator."""
+    plain: int = 12
+    """Clips of the plain simulators, at most a batch."""
 
 
 class Textures:
@@ -77,25 +79,43 @@ class Textures:
         return Clip(np.stack(frames), np.arange(self._count) * 41_667)
 
 
+class PlainNumpy(NamedTuple):
+    """Functions that the plain simulator calls."""
+
+    normal: Callable[[tuple[int, ...]], NDArray[np.float64]]
+    floor_divide: Callable[[NDArray[np.float64], float], NDArray[np.float64]]
+
+
+def plain_kinds() -> dict[str, PlainNumpy]:
+    """The functions of V2V's program, and the fastest that do the same."""
+    generator, legacy = np.random.default_rng(0), np.random.RandomState(0)
+    return {
+        "v2v": PlainNumpy(lambda shape: legacy.randn(*shape), np.floor_divide),
+        "lean": PlainNumpy(generator.standard_normal, lambda one, by: np.floor(one / by)),
+    }
+
+
 def simulate_plainly(
-    frames: NDArray[np.uint8], drawn: dict[str, float], bins: int, rng: np.random.Generator
+    frames: NDArray[np.uint8], drawn: dict[str, float], bins: int, numpy: PlainNumpy
 ) -> NDArray[np.float32]:
     """Signed counts per pixel and interval, [W, bins, H, W], of a potential per pixel."""
     on, off = drawn["threshold_on"], drawn["threshold_off"]
-    shape = frames.shape[1:]
+    shape, rng = frames.shape[1:], np.random.default_rng(0)
     brightness = np.log(1e-3 + (frames / 255.0) ** 2.2)
     potential = rng.random(shape) * (on + off) - off
     is_hot = rng.random(shape) < drawn["hot_fraction"]
-    hot = np.where(is_hot, drawn.get("hot_noise", 0.0) * rng.standard_normal(shape), 0.0)
+    hot = np.where(is_hot, drawn.get("hot_noise", 0.0) * numpy.normal(shape), 0.0)
     counts = []
     for before, now in pairwise(brightness):
-        noise = drawn.get("noise", 0.0) * rng.standard_normal(shape)
-        potential = potential + (now - before) + noise + hot
-        up = np.where(potential >= on, np.floor(potential / on), 0.0)
-        down = np.where(potential <= -off, np.floor(-potential / off), 0.0)
-        potential = potential - up * on + down * off
+        potential += now - before
+        potential += drawn.get("noise", 0.0) * numpy.normal(shape)
+        potential += hot
+        up = np.where(potential >= on, numpy.floor_divide(potential, on), 0.0)
+        down = np.where(potential <= -off, numpy.floor_divide(-potential, off), 0.0)
+        potential -= up * on
+        potential += down * off
         counts.append(up - down)
-    return np.stack(counts).reshape(-1, bins, *shape).astype(np.float32)
+    return np.array(counts).reshape(-1, bins, *shape).astype(np.float32)
 
 
 def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
@@ -108,45 +128,61 @@ def measure(plan: StreamPlan, device: str) -> dict[str, Any]:
         if not is_cpu:
             torch.cuda.synchronize()
 
-    stream = EventStream(
-        Textures(plan), batch=plan.batch, frames=plan.frames, size=(plan.side, plan.side),
-        bins=plan.bins, frames_per_grid=plan.bins, outputs=("grids", "counts"), device=device,
-        randomize=plan.randomize,
-    )  # fmt: skip
-    batches = iter(stream)
+    batches = iter(_stream(plan, device, "grids"))
     first = next(batches)
     wait()
-    begin = clock()
-    times, events = [], []
-    for batch in islice(batches, plan.repeats):
+    begin, begin_s, times, clock_times = clock(), time.perf_counter(), [], []
+    for _ in islice(batches, plan.repeats):
         wait()
         times.append(clock() - begin)
-        events.append(float(batch.counts.sum()) / plan.batch)
-        begin = clock()
+        clock_times.append(time.perf_counter() - begin_s)
+        begin, begin_s = clock(), time.perf_counter()
     batches.close()
-    plain, rng = [], np.random.default_rng(0)
-    frames = Textures(plan).read(0, (), 0).frames[:, : plan.side, : plan.side]
-    for clip in range(plan.plain):
-        drawn = {name: float(values[clip]) for name, values in first.draws.items()}
-        begin = time.process_time()
-        simulate_plainly(frames, drawn, plan.bins, rng)
-        plain.append(time.process_time() - begin)
     per_clip = quartiles([one / plan.batch for one in times])
-    reference = quartiles(plain)
+    plain = {name: _time_plain(plan, first.draws, kind) for name, kind in plain_kinds().items()}
     return {
-        "schema": 1,
+        "schema": 2,
         "environment": describe_environment(),
         "device": device if is_cpu else torch.cuda.get_device_name(),
+        "cores": os.cpu_count(),
         "load_average": rounded(os.getloadavg()[0]),
         "randomize": plan.randomize,
         "clip": {"frames": plan.frames, "side": plan.side, "bins": plan.bins},
-        "events_per_clip": rounded(float(np.mean(events))),
+        "events_per_clip": rounded(_count_events(plan, device)),
         "stream_s_per_clip": per_clip,
         "stream_clips_per_hour": rounded(HOUR / per_clip["median"]),
-        "plain_s_per_clip": reference,
-        "plain_clips_per_hour": rounded(HOUR / reference["median"]),
-        "ratio": rounded(reference["median"] / per_clip["median"]),
+        "stream_clock_s_per_clip": quartiles([one / plan.batch for one in clock_times]),
+        "plain_s_per_clip": plain,
+        "ratio": {name: rounded(one["median"] / per_clip["median"]) for name, one in plain.items()},
     }
+
+
+def _stream(plan: StreamPlan, device: str, output: str) -> EventStream:
+    return EventStream(
+        Textures(plan), batch=plan.batch, frames=plan.frames, size=(plan.side, plan.side),
+        bins=plan.bins, frames_per_grid=plan.bins, outputs=(output,), device=device,
+        randomize=plan.randomize,
+    )  # fmt: skip
+
+
+def _count_events(plan: StreamPlan, device: str) -> float:
+    """Mean events of the clips that are timed."""
+    batches = iter(_stream(plan, device, "counts"))
+    next(batches)
+    numbers = [float(batch.counts.sum()) / plan.batch for batch in islice(batches, plan.repeats)]
+    batches.close()
+    return float(np.mean(numbers))
+
+
+def _time_plain(plan: StreamPlan, draws: Mapping[str, Any], numpy: PlainNumpy) -> dict[str, Any]:
+    """Seconds of one core per clip of a batch."""
+    frames, times = Textures(plan).read(0, (), 0).frames[:, : plan.side, : plan.side], []
+    for clip in range(plan.plain):
+        drawn = {name: float(values[clip]) for name, values in draws.items()}
+        begin = time.process_time()
+        simulate_plainly(frames, drawn, plan.bins, numpy)
+        times.append(time.process_time() - begin)
+    return quartiles(times)
 
 
 def main() -> int:

@@ -144,13 +144,14 @@ class RifeInterpolator:
 
     def _estimate(self, images: Sequence[Tensor], positions: Sequence[float]) -> IntermediateFlow:
         """The motion at each instant anew."""
-        torch, count = import_torch(), len(positions)
+        count = len(positions)
         at = to_device(np.array(positions, np.float32)[:, None, None, None], self._device)
         padded = [one.expand(count, -1, -1, -1) for one in self._padded(images)]
-        half = torch.autocast("cuda", torch.float16, enabled=self._device.type == "cuda")
-        with half:
-            motion = self._network(*padded, at)
-        return self._cropped(images, motion)
+        if self._device.type == "cpu":
+            return self._cropped(images, self._network(*padded, at))
+        from texvent.interpolate.rife.network import estimate_in_half  # needs torch
+
+        return self._cropped(images, estimate_in_half(self._network, *padded, at))
 
     def _lumas_at(
         self, prepared: Any, lumas: Sequence[Tensor], positions: Sequence[float]

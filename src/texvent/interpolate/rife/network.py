@@ -39,12 +39,19 @@ class _Recording(NamedTuple):
     """Written by it."""
 
 
-class RecordedNetwork:
-    """The network at the middle of pairs of one size after the other; float16, flows float32.
+def estimate_in_half(network: RifeNetwork, first: Tensor, second: Tensor, *at: Tensor) -> Any:
+    """The motion of a pair by arithmetic in float16; arguments as of `RifeNetwork.forward`.
 
-    Deviation: the flows differ from the float32 network's by the rounding of float16; how much is
-        not measured yet.
+    Deviation: the flows differ from the float32 network's by the rounding of float16;
+        `tests/interpolate/rife/test_half.py` bounds what that does to events.
     """
+    # Without the cache: casts of the weights that lived on outside would not be replayed.
+    with torch.autocast(first.device.type, torch.float16, cache_enabled=False):
+        return network(first, second, *at)
+
+
+class RecordedNetwork:
+    """The network at the middle of pairs of one size after the other; float16, flows float32."""
 
     def __init__(self, network: RifeNetwork) -> None:
         self._network = network
@@ -70,18 +77,13 @@ class RecordedNetwork:
         aside.wait_stream(torch.cuda.current_stream())
         with torch.cuda.stream(aside):
             for _ in range(WARM_UPS):
-                self._run(images)
+                estimate_in_half(self._network, *images)
         torch.cuda.current_stream().wait_stream(aside)
         graph = torch.cuda.CUDAGraph()
         # Other threads go on: only this thread's calls must be ones that can be recorded.
         with _one_records, torch.cuda.graph(graph, capture_error_mode="thread_local"):
-            motion = self._run(images)
+            motion = estimate_in_half(self._network, *images)
         return _Recording(graph, images, motion)
-
-    def _run(self, images: tuple[Tensor, Tensor]) -> Any:
-        # Without the cache: casts of the weights that lived on outside would not be replayed.
-        with torch.autocast("cuda", torch.float16, cache_enabled=False):
-            return self._network(*images)
 
 
 torch: Any = require("torch", extra="rife")
