@@ -49,7 +49,7 @@ def test_every_kind_of_preview_is_whole_beside_any_others(
     if "html" in kinds:
         page = Path(f"{stem}.html").read_text("utf-8")
         events = f"{sum(len(packet) for _, packet in steps):,} events"
-        facts_shown = ("a bar moves right", "found late", "1234567", events)
+        facts_shown = ("a bar moves right", "Found late", "1234567", events)
         wanted = ("data:image/png;base64,", *facts_shown)
         assert [one for one in wanted if one not in page] == []
 
