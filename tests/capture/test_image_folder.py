@@ -271,14 +271,6 @@ def test_a_list_of_the_images_of_another_folder_is_refused(tmp_path):
         levels(tmp_path / "right", fps=None)
 
 
-@pytest.mark.parametrize("last", [9998, 9999])
-def test_numbers_of_a_camera_that_start_again_are_said(tmp_path, last):
-    for number in (1, 2, 3, last - 1, last):
-        cv2.imwrite(str(tmp_path / f"DSC_{number:04}.png"), np.full((4, 6), 90, np.uint8))
-    with pytest.warns(TexventWarning, match=rf"start again behind DSC_{last}\.png"):
-        levels(tmp_path)
-
-
 @pytest.mark.parametrize("name", ["../private/frame0.png", "{}/private/frame0.png"])
 def test_a_list_names_no_image_of_another_folder(tmp_path, name):
     save_images(tmp_path / "private")

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import combinations
 from pathlib import Path
 
 import av
@@ -12,7 +13,7 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.sensor import SensorSize
-from texvent.view.preview import Preview
+from texvent.view.preview import PREVIEW_KINDS, Preview
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
@@ -25,20 +26,32 @@ def write_preview(stem: Path, steps: Steps, **options: object) -> Preview:
     return preview
 
 
-def test_video_image_and_page_appear_beside_the_stem(tmp_path: Path, steps: Steps) -> None:
-    preview = write_preview(
-        tmp_path / "out.v1", steps, metadata={"prompt": "a bar moves right", "seed": 0}
-    )
-    names = sorted(path.name for path in tmp_path.iterdir())
-    assert names == ["out.v1.html", "out.v1.mp4", "out.v1.png"]
-    assert sorted(path.name for path in preview.paths) == names
-    with av.open(str(tmp_path / "out.v1.mp4")) as video:
-        assert len(list(video.decode(video=0))) == 5
-    assert cv2.imread(str(tmp_path / "out.v1.png")) is not None
-    page = (tmp_path / "out.v1.html").read_text("utf-8")
-    assert "data:image/png;base64," in page
-    assert "a bar moves right" in page
-    assert f"{sum(len(packet) for _, packet in steps):,} events" in page
+@pytest.mark.parametrize(
+    "kinds", [one for n in (1, 2, 4) for one in combinations(PREVIEW_KINDS, n)]
+)
+def test_every_kind_of_preview_is_whole_beside_any_others(
+    tmp_path: Path, steps: Steps, kinds: tuple[str, ...]
+) -> None:
+    facts = {"prompt": "a bar moves right", "seed": 0}
+    stem = tmp_path / "out.v1"
+    with Preview(stem, size=SIZE, fps=Fraction(30), kinds=kinds, metadata=facts) as preview:
+        for step in steps:
+            preview.append(*step)
+        preview.add_metadata({"found_late": 1234567})
+    names = [f"out.v1.{kind}" for kind in kinds]
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)
+    assert [path.name for path in preview.paths] == names
+    for kind in {"mp4", "gif"} & {*kinds}:
+        with av.open(f"{stem}.{kind}") as video:
+            assert len(list(video.decode(video=0))) == 5
+    if "png" in kinds:
+        assert cv2.imread(f"{stem}.png") is not None
+    if "html" in kinds:
+        page = Path(f"{stem}.html").read_text("utf-8")
+        events = f"{sum(len(packet) for _, packet in steps):,} events"
+        facts_shown = ("a bar moves right", "Found late", "1234567", events)
+        wanted = ("data:image/png;base64,", *facts_shown)
+        assert [one for one in wanted if one not in page] == []
 
 
 def test_of_one_frame_that_frame_is_shown(tmp_path: Path, steps: Steps) -> None:

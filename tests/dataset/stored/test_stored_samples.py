@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tarfile
 from concurrent.futures import ThreadPoolExecutor
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 from tests.dataset.stored.written_set import LABELS, SIZE, random_events, write_set, write_shard
 
 import texvent.dataset
+from texvent.dataset.stored.sample_files import SampleFiles
 from texvent.dataset.stored.stored_samples import StoredSamples
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
@@ -195,6 +197,16 @@ def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, val
         file.write(value)
     with pytest.raises(FileFormatError, match=message):
         texvent.dataset.open(tmp_path).events(0)
+
+
+def test_a_sample_that_lacks_columns_is_damaged(folder, written):
+    path = folder / "esim" / "test-000000.tar"
+    places = json.loads(path.with_suffix(".json").read_text())["samples"][1]["members"]
+    for number in range(4):
+        for kept in combinations(("x.npy", "y.npy", "t.npy", "p.npy"), number):
+            sample = SampleFiles(path, "k000", {name: places[name] for name in kept}, SIZE)
+            with pytest.raises(FileFormatError, match=r"k000 of .*tar is damaged: column . is mis"):
+                sample.columns()
 
 
 def test_opening_and_reading_loads_no_heavy_package(folder, written):

@@ -5,6 +5,8 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import TexventWarning
 from texvent.runtime.files.file_names import in_natural_order, numbering_gap
@@ -58,6 +60,20 @@ def test_names_are_sorted_by_the_numbers_in_them(stems, doubt):
         assert in_natural_order(mixed) == paths
     if doubt:
         assert len(said) == 1
+
+
+@given(st.integers(2, 5), st.sampled_from([0, 1]), st.integers(0, 1), st.data())
+def test_numbers_of_a_camera_that_start_again_are_said(width, first, dropped, data):
+    full = 10**width
+    begin = data.draw(st.integers(first + 1, full - 1))
+    last = begin + data.draw(st.integers(1, (full - first) // 2 - 2))
+    taken = [first + (one - first) % (full - first) for one in range(begin, last + 1)]
+    starts_again = last >= full
+    lost = {full - 1} if dropped and starts_again and begin < full - 1 else set()
+    paths = [Path(f"DSC_{one:0{width}}.png") for one in sorted({*taken} - lost)]
+    said = rf"start again behind DSC_{full - 1 - len(lost)}\.png"
+    with pytest.warns(TexventWarning, match=said) if starts_again else nullcontext():
+        assert in_natural_order(paths) == paths
         assert numbering_gap(paths) is None
 
 
