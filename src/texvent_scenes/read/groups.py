@@ -138,6 +138,7 @@ class GroupReader:
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
         tail = [self._take() for _ in range(self._tail() if head else 0)]
+        head = self._shared_head(article, modifiers) if modifiers and not (head or unknown) else head
         known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         if self._token().text == "of" and self._starts_group(1):
@@ -147,6 +148,22 @@ class GroupReader:
             self._take()
         lost = [*lost, *unknown, *tail[:-1]]
         return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
+
+    def _shared_head(self, article: str, modifiers: Sequence[Token]) -> Token | None:
+        """Head of the group that "and" adds, if both count or both have articles.
+
+        As in "three red and three blue balls".
+        """
+        start, other = self._at, None
+        if self._token().text == "and" and self._starts_group(1):
+            self._take()
+            other = self._group()
+            self._at = start
+        if other is None or other.head is None or not other.head.has("noun"):
+            return None
+        both = [(bool(one), any(map(_counts, words)))
+                for one, words in ((article, modifiers), (other.article, other.modifiers))]  # fmt: skip
+        return other.head if both[0] == both[1] and any(both[0]) else None
 
     def _tail(self) -> int:
         """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""

@@ -73,7 +73,7 @@ class _SentenceReader:
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
-                self._draft.show(head)
+                self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_camera = goes_on or clause.about == "camera"
         is_ego = not is_camera and self._is_ego(clause)
@@ -84,7 +84,7 @@ class _SentenceReader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
-        known = len(self._draft.things)
+        known, where = len(self._draft.things), self._nearest
         told = subjects = self._find_subjects(clause)
         self._before = self._nearest
         first = clause.verb.at if clause.verb is not None else 0
@@ -102,6 +102,8 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        for index in subjects if clause.about == "where" and where else ():  # "a pier where he stands"
+            self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
             self._phases += 1
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
@@ -165,6 +167,7 @@ class _SentenceReader:
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
             return subjects, objects, clause.after
         agents = [index for group in by.groups for index in self._name(group)]
+        self._draft.mark(by.preposition, "shown" if agents else "lost")
         return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
 
     def _find_subjects(self, clause: Clause) -> list[int]:
@@ -358,8 +361,11 @@ class _SentenceReader:
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
+        if token.text == "onto" and any(draft.falls(index) for index in subjects):
+            kind = "on"
         if not phrase.groups:
-            is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
+            own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
+            is_own = bool(set(self._nearest) & own)  # nothing else is named here
             others: Sequence[int] = subjects
             about: Sequence[int] = self._earlier if is_own else self._nearest
             if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
@@ -373,6 +379,7 @@ class _SentenceReader:
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         heads = [group.head for group in phrase.groups if group.head is not None]
+        words = [*heads, *(one for group in phrase.groups for one in (*group.unknown, *group.modifiers))]
         if not targets:
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
@@ -382,10 +389,15 @@ class _SentenceReader:
                 draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
+            draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
+        elif kind == "with":
+            draft.show(token)
+        if not targets and any(map(draft.shows, words)):
+            draft.show(token)
         return targets
 
     def _go_to_place(
