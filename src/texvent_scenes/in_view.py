@@ -23,6 +23,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.relation_check import BodyBoxes, Violation, body_of, find_violations
@@ -119,6 +120,7 @@ def find_unseen(
     violations = [*_list_words_of(description, unseen)]
     violations += [one for one in find_violations(description, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    violations += find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
     notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
