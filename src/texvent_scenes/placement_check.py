@@ -17,6 +17,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
 from texvent_scenes.staging.actors import Actor
@@ -33,8 +34,8 @@ _SHARED = frozenset({"on", "in", "at", "under", "hold", "wear", "ride", "push", 
 _ROOM_M, _ROOM = 0.06, 0.08
 """Gap below a body that is no gap: metres, and share of its height on top of that."""
 _SLIM, _CENTRAL = 0.2, 0.25
-"""Half of the middle of a body that nothing else may be in, and of its foot that something must
-be below, in extents of its box."""
+"""Half of the middle of a body that no larger one may have a part in, and of its foot that
+something must be below, in extents of its box."""
 _LEAST_INSTANTS = 2
 """Instants at which a fault is one."""
 _SHALLOW_M = 0.4
@@ -97,7 +98,7 @@ class _Bodies:
     ) -> None:
         self._description, self._actors, self._times = description, actors, times
         corners = np.array([[one.corners(time) for time in times] for one in actors])
-        corners = corners.reshape(len(actors), len(times), -1, 3)
+        corners = corners.reshape(len(actors), len(times), 8, 3)
         self._low, self._high = corners.min(axis=2), corners.max(axis=2)
         self._parts: dict[tuple[int, int], Float64Array] = {}
         self._bound: Mapping[int, set[int]] = {
@@ -166,8 +167,9 @@ class _Bodies:
         one = self._actors[number]
         if one.noun.habitat == "water" or one.track.anchor is not None:
             return False
-        tall = self._high[number, :, 2] - self._low[number, :, 2]
-        return int((self._low[number, :, 2] < -_ROOM_M - _ROOM * tall).sum()) >= _LEAST_INSTANTS
+        least = -_ROOM_M - _ROOM * (self._high[number, :, 2] - self._low[number, :, 2])
+        low = np.flatnonzero(self._low[number, :, 2] < least)  # its box may lean out of its shape
+        return sum(one.lowest_m(self._times[at]) < least[at] for at in low) >= _LEAST_INSTANTS
 
     def find_intersections(self) -> Iterator[Violation]:
         """Pairs of bodies, of which the middle of one is in the other."""
@@ -183,9 +185,10 @@ class _Bodies:
                                 "apart: one goes through the other")  # fmt: skip
 
     def _cross(self, first: int, second: int, at: int) -> bool:
-        for one, other in ((first, second), (second, first)):
-            low, high = self._low[one, at], self._high[one, at]
-            middle, slim = 0.5 * (low + high), _SLIM * (high - low)
-            if self._meets(middle - slim, middle + slim, other, at):
-                return True
-        return False
+        """Whether the middle of the smaller one is in a part of the other one."""
+        small, large = sorted((first, second), key=lambda one: self._actors[one].size_m)
+        if self._actors[large].noun.name in nouns_with("passage"):
+            return False
+        low, high = self._low[small, at], self._high[small, at]
+        middle, slim = 0.5 * (low + high), _SLIM * (high - low)
+        return self._meets(middle - slim, middle + slim, large, at)

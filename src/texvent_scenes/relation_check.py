@@ -179,7 +179,7 @@ def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
 
 
 def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    is_near = np.abs(_aside(one, other)) <= 1.5
+    is_near = np.abs(_aside(one, other)) <= 2.0
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 

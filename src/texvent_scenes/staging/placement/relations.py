@@ -162,7 +162,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
         "left of": (x, level, _ALONG_X),
         "right of": (-x, level, -_ALONG_X),
-        "behind": (-_look_past(subject, near, y), -y, -_AWAY),
+        "behind": (-_look_past(subject, group.half_at_rest(), y), -y, -_AWAY),
         "front": (_look_past(group, near, y), y, _AWAY),
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))

@@ -7,7 +7,7 @@ ways in opposite lanes; what else is on the ground off the road and the rails, u
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
-from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.actors import Actor, is_centred
 from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
 
 _CLEAR_M, _RAILS_M = 0.6, 1.3
@@ -81,6 +81,8 @@ def keep_to_zones(
         [n for n, one in enumerate(actors) if n not in fixed and one.object_index not in carried],
         {n for one in relations for n in (one.subject, *one.targets)}, duration_s,
     )  # fmt: skip
+    if place.ground not in (Ground.NONE, Ground.UNDERWATER):
+        work.keep_above_ground(n for n in range(len(actors)) if n not in fixed)
     if any(zone_of(one.noun) == "rails" for one in actors):
         work.clear_rails()
     if place.has_shore:
@@ -260,6 +262,16 @@ class _Zones:
             taken.append((low + step, high + step))
             for number in unit:
                 self._move(number, shift + step * along)
+
+    def keep_above_ground(self, numbers: Iterable[int]) -> None:
+        """What flies begins and ends no lower than on the ground."""
+        for number in numbers:
+            one = self.actors[number]
+            lows = [one.lowest_m(time) for time in self._times] if is_centred(one.noun) else [0.0]
+            if min(lows) < -_CLEAR_M and one.noun.habitat == "air":
+                x, y, z = one.track.start
+                track = replace(one.track, start=(x, y, z - min(lows)))
+                self.actors[number] = replace(one, track=track)
 
     def keep_ashore(self, half_m: float) -> None:
         """What is on the ground is on the near side of all that floats or swims."""
