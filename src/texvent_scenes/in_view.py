@@ -33,7 +33,6 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING
-from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
@@ -94,7 +93,7 @@ def find_unseen(
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
-    unseen = {*list_orphans(description)}
+    unseen = {*scene.missing}
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]
@@ -118,7 +117,11 @@ def find_unseen(
             continue
         unseen.add(index)
     violations = [*_list_words_of(description, unseen)]
-    violations += [one for one in find_violations(description, bodies)
+    bodied = {one.object_index for one in scene.actors} | scene.missing
+    apart = replace(description, relations=tuple(
+        one for one in description.relations if bodied.issuperset((one.subject, *one.targets))
+    ))  # fmt: skip
+    violations += [one for one in find_violations(apart, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     violations += find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])

@@ -66,9 +66,11 @@ def find_misplaced(
         name, said = f"the {one.noun.name}", description.objects[one.object_index]
         lost: list[str] = []
         if place.ground not in (Ground.NONE, Ground.UNDERWATER) and bodies.needs_support(number):
-            lost += [f"{name} above the ground with nothing below it"] * bodies.hangs(number)
+            if bodies.hangs(number):
+                lost.append(f"{name} above the ground with nothing below it")
         if place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.SEA) and not place.has_shore:
-            lost += [f"{name} partly under the ground"] * bodies.sinks(number)
+            if bodies.sinks(number):
+                lost.append(f"{name} partly under the ground")
         for text in lost:
             yield Violation("support", "", text)
             for relation in description.relations:
@@ -82,7 +84,7 @@ def find_misplaced(
             is_there = np.abs(feet) < half_m - _SHALLOW_M
             if is_there.all() and not bodies.is_on_another(number):
                 yield Violation("zone", "", f"{name} on the road")
-        if place.has_shore and one.noun.habitat in ("ground", "fixed"):
+        if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
             is_there = feet > _SHALLOW_M - half_m
             is_there &= feet < half_m - _SHALLOW_M if half_m else True
             if is_there.all() and not bodies.is_on_another(number):
@@ -160,7 +162,7 @@ class _Bodies:
         gaps: NDArray[np.bool_] = self._low[number, :, 2] > _ROOM_M + _ROOM * tall
         if self._actors[number].noun.name in PERSON_NOUNS and not gaps.all():
             return False  # it jumps
-        return sum(not self._is_borne(number, at) for at in np.flatnonzero(gaps)) >= _LEAST_INSTANTS
+        return sum(not self._is_borne(number, int(at)) for at in np.flatnonzero(gaps)) >= _LEAST_INSTANTS
 
     def sinks(self, number: int) -> bool:
         """Whether a part of it is under the ground at some instants."""

@@ -211,6 +211,10 @@ class SceneDraft:
             return "at"
         return "on" if noun in nouns_with("seat") | word_set("things", "ways") else "beside"
 
+    def is_person(self, index: int) -> bool:
+        """Whether an object is a person."""
+        return self.things[index]["noun"] in PERSON_NOUNS
+
     def goes_like(self, index: int, other: int) -> bool:
         """Whether an object goes, and another may go the same way: "drives behind a truck"."""
         mine, theirs = self.things[index], self.things[other]

@@ -131,6 +131,8 @@ class _SentenceReader:
         """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
         last = NO_TOKEN
         for one in after:
+            if isinstance(one, Phrase) and self._hangs_on_unknown(one):
+                continue
             if isinstance(one, Phrase):
                 who = self._choose_placed(one, last, subjects, told)
                 told = self._relate(one, who, moved) or moved
@@ -141,6 +143,12 @@ class _SentenceReader:
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
+    def _hangs_on_unknown(self, phrase: Phrase) -> bool:
+        """Whether it is part of what is not known: "a tray with glasses"."""
+        before = self._draft.tokens[phrase.preposition.at - 1]
+        is_noun = before.is_unknown and not before.text.endswith("ly") and before is not self._verb
+        return phrase.preposition.text == "with" and is_noun
+
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
     ) -> list[int]:
@@ -148,6 +156,9 @@ class _SentenceReader:
         draft = self._draft
         kind, before = (str(one and one.value) for one in
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
+        is_near = draft.tokens[phrase.preposition.at - 1].has("noun") and not set(self._nearest) & {*subjects}
+        if kind == "with" and is_near and all(map(draft.is_person, self._nearest)):
+            return self._nearest  # "passes a man with a suitcase"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told
@@ -332,12 +343,14 @@ class _SentenceReader:
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
-            draft.relate(index, act.relation or "", objects)
+            draft.relate(self._ridden(index, act.relation or ""), act.relation or "", objects)
         return list(objects if act.object and objects else subjects)
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
+        if act.kind == "move" and self._goes_on and self._ridden(index, "past") != index:
+            return  # it is ridden on: "rides a bicycle, passing a car"
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
@@ -412,7 +425,9 @@ class _SentenceReader:
         names = {one.value for head in heads for one in head.all("place")[:1]}
         on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
         is_in = on_foot and token.text in ("through", "in", "into")
-        if is_in or (token.text == "through" and place.has_shore):
+        going = [one for one in subjects if draft.things[one]["motions"]]
+        is_rest = token.text in ("across", "down", "up") and bool(subjects) and not going
+        if is_in or is_rest or (token.text == "through" and place.has_shore):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
@@ -434,10 +449,14 @@ class _SentenceReader:
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-        ridden = [one["to"][0] for one in thing["relations"] if one["kind"] == "ride"]
-        if ridden and kind in word_set("things", "passed") | {"through", "follow"}:
-            return draft.relate(ridden[0], kind, targets)
-        return bool(kind) and draft.relate(index, kind, targets)
+        return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
+
+    def _ridden(self, index: int, kind: str) -> int:
+        """What goes where its rider goes: "rides a bicycle past a tree"."""
+        relations = self._draft.things[index]["relations"]
+        ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
+        is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}
+        return ridden[0] if ridden and is_way else index
 
     def _choose_relation(self, kind: str, index: int, other: int) -> str:
         """The relation that is meant, which depends on what stands in it; "" = none."""
