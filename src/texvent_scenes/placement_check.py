@@ -179,7 +179,8 @@ class _Bodies:
                  and self._description.objects[one.object_index].position_m is None]  # fmt: skip
         for first, second in itertools.combinations(alone, 2):
             one, other = self._actors[first], self._actors[second]
-            if other.object_index in self._bound[one.object_index] - {one.object_index}:
+            is_shared = other.object_index in self._bound[one.object_index] - {one.object_index}
+            if is_shared or {one.noun.name, other.noun.name} & nouns_with("passage"):
                 continue
             met = sum(self._cross(first, second, at) for at in range(len(self._times)))
             if met >= _LEAST_INSTANTS:
@@ -189,8 +190,6 @@ class _Bodies:
     def _cross(self, first: int, second: int, at: int) -> bool:
         """Whether the middle of the smaller one is in a part of the other one."""
         small, large = sorted((first, second), key=lambda one: self._actors[one].size_m)
-        if self._actors[large].noun.name in nouns_with("passage"):
-            return False
         low, high = self._low[small, at], self._high[small, at]
         middle, slim = 0.5 * (low + high), _SLIM * (high - low)
         return self._meets(middle - slim, middle + slim, large, at)
