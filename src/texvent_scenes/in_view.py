@@ -100,7 +100,8 @@ def find_unseen(
         bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
         if not own:
             continue
-        most, lost = max(counts), counts.count(0)
+        most = max(counts)
+        lost = sum(views[one.instance].share < LEAST_SEEN for one in own)
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
@@ -110,7 +111,8 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")
-            continue
+            if 2 * lost <= len(counts):
+                continue
         elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
         else:

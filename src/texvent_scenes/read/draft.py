@@ -385,6 +385,8 @@ class SceneDraft:
             is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
             if token.has("small") and after.has("adverb", "negations") and self.shows(after):
                 self.show(token)  # "at 50 km/h", "with no cars"
+            if token.has("style") and " " in token.text:
+                self.show(token)  # "in front of the camera"
             fate = self._fates.get(token.at, "" if is_open else "lost")
             if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
                 fates[token.text] = fate

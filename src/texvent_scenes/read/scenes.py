@@ -445,6 +445,8 @@ class _SentenceReader:
                 return True  # it stands in the distance
             if not any(map(draft.can_go, (index, *targets))):
                 return False  # "a vase with roses", "a disc with a dot"
+        if kind == "on" and noun in word_set("things", "peaks"):
+            return False  # its slopes bear nothing
         kind = self._choose_relation(kind, index, targets[0])
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
