@@ -80,7 +80,10 @@ def find_misplaced(
             continue
         across = line.across(np.vstack([one.corners(time)[:, :2] for time in times]))
         feet = across.reshape(len(times), -1).mean(axis=1)
-        if place.has_road and zone_of(one.noun) == "pavement" and not one.goes_across:
+        if place.has_road and one.goes_across and zone_of(one.noun) == "pavement":
+            if np.ptp(feet) < half_m:
+                yield Violation("direction", "across", f"{name} crossing the road")
+        elif place.has_road and zone_of(one.noun) == "pavement":
             is_there = np.abs(feet) < half_m - _SHALLOW_M
             if is_there.all() and not bodies.is_on_another(number):
                 yield Violation("zone", "", f"{name} on the road")

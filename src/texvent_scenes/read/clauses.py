@@ -73,6 +73,9 @@ class _Parser(GroupReader):
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
+            is_passive = self._token().verbs("ed") and self._token(1).text == "by"
+            if word == "," and clause.has_subject and is_passive:  # "drives, followed by a van"
+                return Clause(about="same")
             if word == "," and clause.verb is not None and self._goes_on(clause.verb):
                 return Clause(about="same")
             is_doing = self._token().verbs("ing") and not self._token(1).has("noun")

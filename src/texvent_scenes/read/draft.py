@@ -211,6 +211,10 @@ class SceneDraft:
             return "at"
         return "on" if noun in nouns_with("seat") | word_set("things", "ways") else "beside"
 
+    def is_many(self, indices: Sequence[int]) -> bool:
+        """Whether objects are several bodies: "them"."""
+        return sum(self.things[index]["count"] for index in indices) > 1
+
     def is_person(self, index: int) -> bool:
         """Whether an object is a person."""
         return self.things[index]["noun"] in PERSON_NOUNS
@@ -403,9 +407,10 @@ class SceneDraft:
         for index, one in enumerate(self.things):
             going = one["motions"][:1] if self.walks(index) else []
             pairs = [to for each in one["relations"] if each["kind"] == "with" for to in each["to"]]
+            led = {key: going[0][key] for key in ("kind", "direction") if going and key in going[0]}
             for other in (self.things[to] for to in pairs if self.walks(to)):
-                is_led = going and going[0]["kind"] in ("walk", "run") and not other["motions"]
-                other["motions"] += [{"kind": going[0]["kind"]}] if is_led else []
+                if led.get("kind") in ("walk", "run", "move") and not other["motions"]:
+                    other["motions"].append(dict(led))
 
     def _build(self, prompt: str) -> Scene:
         """The scene; copies of objects that have most are left out until it holds them all."""

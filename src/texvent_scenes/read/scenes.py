@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, read_clauses
@@ -379,6 +379,8 @@ class _SentenceReader:
         if not phrase.groups:
             own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
             is_own = bool(set(self._nearest) & own)  # nothing else is named here
+            is_many = draft.tokens[token.at + 1].text == "them"
+            is_own |= is_many and not draft.is_many(self._nearest) and draft.is_many(self._earlier)
             others: Sequence[int] = subjects
             about: Sequence[int] = self._earlier if is_own else self._nearest
             if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
@@ -425,14 +427,24 @@ class _SentenceReader:
         names = {one.value for head in heads for one in head.all("place")[:1]}
         on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
         is_in = on_foot and token.text in ("through", "in", "into")
-        going = [one for one in subjects if draft.things[one]["motions"]]
-        is_rest = token.text in ("across", "down", "up") and bool(subjects) and not going
-        if is_in or is_rest or (token.text == "through" and place.has_shore):
+        if is_in or not self._shows_way(token, place, subjects):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
             if self._nouns[thing["noun"]].motion != "drive":
                 thing.setdefault("placement", "lane")
+
+    def _shows_way(self, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
+        """Whether a place shows a preposition: no "towards a park", "by a forest"."""
+        draft, kinds = self._draft, {one.value for one in token.all("relation")}
+        if token.text in ("across", "down", "up"):
+            return not subjects or any(draft.things[one]["motions"] for one in subjects)
+        if "above" in kinds:
+            return not any(map(draft.keeps_to_ground, subjects))
+        if token.text == "past" or (place.has_shore and token.text == "through"):
+            return False
+        is_bank = "beside" not in kinds or place.has_shore
+        return is_bank and (not kinds or bool(kinds & word_set("things", "places")))
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft

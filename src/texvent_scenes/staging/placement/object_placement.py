@@ -292,7 +292,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
-                    goes_across=said[0].direction == "across",
+                    goes_across=any(one.direction == "across" for one in said),
                 )
             )  # fmt: skip
         return actors

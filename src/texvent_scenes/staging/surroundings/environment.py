@@ -112,7 +112,7 @@ def _straight_road(
     drivers = [one for one in movers if one.noun.motion == "drive"]
     parked = [one for one in grounded if one.noun.motion == "drive" and one not in movers]
     if parked and not (drivers or has_pavement or any(one.goes_across for one in movers)):
-        return _road_beside(parked[0], grounded, 2.0 * lane_m)
+        return _road_beside(parked, grounded, 2.0 * lane_m)
     if drivers or (movers and not movers[0].goes_across):
         return _road_of(drivers or movers, lane_m, has_pavement=has_pavement)
     if movers:
@@ -122,7 +122,7 @@ def _straight_road(
         return RoadLine(movers[0].track.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     nouns = {one.noun.name for one in actors}
     if parked:
-        return _road_beside(parked[0], grounded, 2.0 * lane_m)
+        return _road_beside(parked, grounded, 2.0 * lane_m)
     may_be_beside = has_pavement or nouns & nouns_with("beside a road")
     if nouns and may_be_beside and not nouns & nouns_with("on a road"):
         farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
@@ -131,10 +131,10 @@ def _straight_road(
     return RoadLine(offset=(0.0, float(y)))
 
 
-def _road_beside(parked: Actor, actors: Sequence[Actor], half_m: float) -> RoadLine:
-    """The road at whose edge a vehicle stands, on the side where least of the others are on it."""
-    y = float(parked.middle(0.0)[1])
-    gap = max(half_m - 0.5 * parked.model.width - _KERB_M, 0.0)
+def _road_beside(parked: Sequence[Actor], actors: Sequence[Actor], half_m: float) -> RoadLine:
+    """The road at whose edge vehicles stand, on the side where least of the others are on it."""
+    y = float(parked[0].middle(0.0)[1])
+    gap = max(half_m - 0.5 * max(one.model.width for one in parked) - _KERB_M, 0.0)
     others = [one.middle(0.0)[1] for one in actors if one.noun.motion != "drive"]
     ways = {sign: sum(abs(each - y - sign * gap) < half_m for each in others) for sign in (-1, 1)}
     return RoadLine(offset=(0.0, y + min(ways, key=lambda sign: ways[sign]) * gap))
