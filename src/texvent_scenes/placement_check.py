@@ -38,6 +38,8 @@ _SLIM, _CENTRAL = 0.2, 0.25
 something must be below, in extents of its box."""
 _LEAST_INSTANTS = 2
 """Instants at which a fault is one."""
+_CROSSING = 0.7
+"""Least share of the way of one who crosses a road that leads across it."""
 _SHALLOW_M = 0.4
 """From an edge of a road or of water to what is beyond it."""
 
@@ -81,7 +83,8 @@ def find_misplaced(
         across = line.across(np.vstack([one.corners(time)[:, :2] for time in times]))
         feet = across.reshape(len(times), -1).mean(axis=1)
         if place.has_road and one.goes_across and zone_of(one.noun) == "pavement":
-            if np.ptp(feet) < half_m:
+            gone = np.linalg.norm(one.middle(times[-1])[:2] - one.middle(times[0])[:2])
+            if np.ptp(feet) < _CROSSING * gone or np.abs(feet).min() > half_m:
                 yield Violation("direction", "across", f"{name} crossing the road")
         elif place.has_road and zone_of(one.noun) == "pavement":
             is_there = np.abs(feet) < half_m - _SHALLOW_M

@@ -101,8 +101,8 @@ def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[
     zones = {one.object_index: "across" if one.goes_across else zone_of(one.noun) for one in actors}
     for one in description.relations:
         for target in one.targets:
-            is_mixed = zones.get(target) != zones.get(one.subject)
-            if one.kind in _LOOSE and is_mixed and "pavement" in (zones.get(target), zones.get(one.subject)):
+            both = {zones.get(target), zones.get(one.subject)}
+            if one.kind in _LOOSE and len(both) > 1 and both & {"pavement", "across"}:
                 continue
             old, new = unit[target], unit[one.subject]
             unit = [new if each == old else each for each in unit]
@@ -180,6 +180,14 @@ class _Zones:
                 continue
             if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
                 self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
+
+        for number in drivers:  # at rest on the edge of the road at most
+            one = self.actors[number]
+            limit = 2.0 * lane_m - 0.5 * one.model.width
+            across = float(road.across(np.array([one.middle(0.0)[:2]]))[0])
+            if not one.is_mover and abs(across) > limit > 0.0:
+                shift = math.copysign(limit, across) - across
+                self._move(number, shift * np.array([-math.sin(road.angle), math.cos(road.angle)]))
 
     def _line_up(
         self,
