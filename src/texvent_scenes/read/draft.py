@@ -209,7 +209,7 @@ class SceneDraft:
         noun = self.things[index]["noun"]
         if noun in word_set("things", "tables"):
             return "at"
-        return "on" if noun in nouns_with("seat") | word_set("things", "ways") else "beside"
+        return "on" if noun in nouns_with("seat") | nouns_with("way") else "beside"
 
     def is_many(self, indices: Sequence[int]) -> bool:
         """Whether objects are several bodies: "them"."""

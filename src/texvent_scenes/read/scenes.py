@@ -30,6 +30,7 @@ PLURAL_COUNT = 3
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _WATERS = frozenset({"sea", "lake", "river"})
+_SMALL = nouns_with("in hand or on something")
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -463,6 +464,13 @@ class _SentenceReader:
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
+        tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
+                and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
+        small = [one for one in targets if draft.things[one]["noun"] in _SMALL]
+        goes = any(one["kind"] != "stand" for one in thing["motions"])
+        for one in small if tops and kind in SPACED and not goes else ():
+            if not draft.things[one]["relations"]:
+                draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
         return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
 
     def _ridden(self, index: int, kind: str) -> int:
@@ -481,7 +489,7 @@ class _SentenceReader:
         if kind == "at" and noun not in word_set("things", "tables"):
             return "beside"
         if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
-            return "on" if noun in word_set("things", "ways") else ""
+            return "on" if noun in nouns_with("way") else ""
         if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
             return "" if "end_pace" in thing["motions"][0] else "follow"
         return kind
