@@ -125,7 +125,9 @@ def find_unseen(
     ))  # fmt: skip
     violations += [one for one in find_violations(apart, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
-    violations += find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
+    violations += find_misplaced(
+        description, scene.place, scene.environment(0.0), scene.actors, times
+    )
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
     notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(

@@ -1,5 +1,4 @@
-"""Placement check: bodies of a staged scene that stand on nothing, sink, go through others, or
-stand where their kind may not.
+"""Placement check: bodies that stand on nothing, sink, go through others or are in a wrong zone.
 
 Boxes at a few instants decide. What flies, swims or falls, is held, or is put at a place in metres
 needs no support.
@@ -8,6 +7,7 @@ needs no support.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -65,37 +65,35 @@ def find_misplaced(
     line = RoadLine(surroundings.road_angle, (x, y))
     half_m = float(surroundings.road_half_width) if place.ground is not Ground.LAKE else 0.0
     for number, one in enumerate(actors):
-        name, said = f"the {one.noun.name}", description.objects[one.object_index]
-        lost: list[str] = []
-        if place.ground not in (Ground.NONE, Ground.UNDERWATER) and bodies.needs_support(number):
-            if bodies.hangs(number):
-                lost.append(f"{name} above the ground with nothing below it")
-        if place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.SEA) and not place.has_shore:
-            if bodies.sinks(number):
-                lost.append(f"{name} partly under the ground")
-        for text in lost:
-            yield Violation("support", "", text)
-            for relation in description.relations:
-                if relation.subject == one.object_index and relation.kind in ("on", "above"):
-                    yield Violation("relation", relation.kind, "")
-        if said.placement == "lane" or not bodies.needs_support(number) or lost:
-            continue
-        across = line.across(np.vstack([one.corners(time)[:, :2] for time in times]))
-        feet = across.reshape(len(times), -1).mean(axis=1)
-        if place.has_road and one.goes_across and zone_of(one.noun) == "pavement":
-            gone = np.linalg.norm(one.middle(times[-1])[:2] - one.middle(times[0])[:2])
-            if np.ptp(feet) < _CROSSING * gone or np.abs(feet).min() > half_m:
-                yield Violation("direction", "across", f"{name} crossing the road")
-        elif place.has_road and zone_of(one.noun) == "pavement":
-            is_there = np.abs(feet) < half_m - _SHALLOW_M
-            if is_there.all() and not bodies.is_on_another(number):
-                yield Violation("zone", "", f"{name} on the road")
-        if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
-            is_there = feet > _SHALLOW_M - half_m
-            is_there &= feet < half_m - _SHALLOW_M if half_m else True
-            if is_there.all() and not bodies.is_on_another(number):
-                yield Violation("zone", "", f"{name} in the water")
+        lost = [*bodies.list_unborne(number, place)]
+        is_free = description.objects[one.object_index].placement == "lane"
+        if not (lost or is_free) and bodies.needs_support(number):
+            lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
+        for kind, value, text in lost:
+            yield Violation(kind, value, f"the {one.noun.name} {text}")
+        for relation in description.relations if lost else ():
+            if relation.subject == one.object_index and relation.kind in ("on", "above"):
+                yield Violation("relation", relation.kind, "")
     yield from bodies.find_intersections()
+
+
+def _list_strays(
+    one: Actor, place: PlaceModel, line: RoadLine, half_m: float, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Faults of a body on the road, on its way over it, or in the water beside a shore."""
+    corners = np.array([one.corners(time)[:, :2] for time in times])
+    feet = line.across(corners.reshape(-1, 2)).reshape(len(times), -1).mean(axis=1)
+    if place.has_road and zone_of(one.noun) == "pavement":
+        gone = np.linalg.norm(one.middle(times[-1])[:2] - one.middle(times[0])[:2])
+        is_beside = np.ptp(feet) < _CROSSING * gone or np.abs(feet).min() > half_m
+        if one.goes_across and is_beside:
+            yield Violation("direction", "across", "crossing the road")
+        elif not one.goes_across and (np.abs(feet) < half_m - _SHALLOW_M).all():
+            yield Violation("zone", "", "on the road")
+    if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
+        far_m = half_m or math.inf
+        if ((feet > _SHALLOW_M - half_m) & (feet < far_m - _SHALLOW_M)).all():
+            yield Violation("zone", "", "in the water")
 
 
 class _Bodies:
@@ -109,9 +107,7 @@ class _Bodies:
         corners = corners.reshape(len(actors), len(times), 8, 3)
         self._low, self._high = corners.min(axis=2), corners.max(axis=2)
         self._parts: dict[tuple[int, int], Float64Array] = {}
-        self._bound: Mapping[int, set[int]] = {
-            n: {n} for n in range(len(description.objects))
-        }
+        self._bound: Mapping[int, set[int]] = {n: {n} for n in range(len(description.objects))}
         for one in description.relations:
             for target in one.targets if one.kind in _SHARED else ():
                 self._bound[one.subject].add(target)
@@ -119,7 +115,10 @@ class _Bodies:
 
     def needs_support(self, number: int) -> bool:
         """Whether a body rests on the ground or on another one."""
-        one, said = self._actors[number], self._description.objects[self._actors[number].object_index]
+        one, said = (
+            self._actors[number],
+            self._description.objects[self._actors[number].object_index],
+        )
         does = {motion.kind for motion in said.motions} | {one.noun.motion}
         acts = {relation.kind for relation in self._description.relations
                 if one.object_index in relation.targets}  # fmt: skip
@@ -155,29 +154,43 @@ class _Bodies:
         foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * size[2]])
         top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * size[2]])
         return any(
-            self._meets(foot, top, other, at) for other in range(len(self._actors)) if other != number
+            self._meets(foot, top, other, at)
+            for other in range(len(self._actors))
+            if other != number
         )
 
-    def is_on_another(self, number: int) -> bool:
-        """Whether something else bears it."""
-        return any(self._is_borne(number, at) for at in range(len(self._times)))
+    def is_alone(self, number: int) -> bool:
+        """Whether nothing else bears it."""
+        return not any(self._is_borne(number, at) for at in range(len(self._times)))
 
-    def hangs(self, number: int) -> bool:
+    def list_unborne(self, number: int, place: PlaceModel) -> Iterator[Violation]:
+        """Faults of a body that hangs in the air or is under the ground."""
+        if place.ground in (Ground.NONE, Ground.UNDERWATER):
+            return
+        if self.needs_support(number) and self._hangs(number):
+            yield Violation("support", "", "above the ground with nothing below it")
+        if place.ground is not Ground.SEA and not place.has_shore and self._sinks(number):
+            yield Violation("support", "", "partly under the ground")
+
+    def _hangs(self, number: int) -> bool:
         """Whether nothing is below it at some instants."""
         tall = self._high[number, :, 2] - self._low[number, :, 2]
         gaps: NDArray[np.bool_] = self._low[number, :, 2] > _ROOM_M + _ROOM * tall
         if self._actors[number].noun.name in PERSON_NOUNS and not gaps.all():
             return False  # it jumps
-        return sum(not self._is_borne(number, int(at)) for at in np.flatnonzero(gaps)) >= _LEAST_INSTANTS
+        return (
+            sum(not self._is_borne(number, int(at)) for at in np.flatnonzero(gaps))
+            >= _LEAST_INSTANTS
+        )
 
-    def sinks(self, number: int) -> bool:
+    def _sinks(self, number: int) -> bool:
         """Whether a part of it is under the ground at some instants."""
         one = self._actors[number]
         if one.noun.habitat == "water" or one.track.anchor is not None:
             return False
         least = -_ROOM_M - _ROOM * (self._high[number, :, 2] - self._low[number, :, 2])
         low = np.flatnonzero(self._low[number, :, 2] < least)  # its box may lean out of its shape
-        return sum(one.lowest_m(self._times[at]) < least[at] for at in low) >= _LEAST_INSTANTS
+        return sum(one.lowest_m(self._times[int(at)]) < least[at] for at in low) >= _LEAST_INSTANTS
 
     def find_intersections(self) -> Iterator[Violation]:
         """Pairs of bodies, of which the middle of one is in the other."""

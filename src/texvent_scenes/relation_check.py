@@ -34,8 +34,8 @@ _LASTING = ("on", "in", "at", "with")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT = 0.1, 0.75, 0.5
-"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation; least
-share of the way by which what goes "towards" something comes nearer."""
+"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
+least share of the way by which what goes "towards" something comes nearer."""
 
 
 class Violation(NamedTuple):
@@ -132,7 +132,8 @@ def _holds(
         flags = [(_RULES[kind](body, other), _stay(body, other)) for other in others]
     is_lasting = kind in _LASTING
     return any(
-        (at_end and is_lasting and held[-2:].all()) or np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
+        (at_end and is_lasting and held[-2:].all())
+        or np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
         for held, stay in flags
     )
 

@@ -73,17 +73,7 @@ class _Parser(GroupReader):
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            is_passive = self._token().verbs("ed") and self._token(1).text == "by"
-            if word == "," and clause.has_subject and is_passive:  # "drives, followed by a van"
-                return Clause(about="same")
-            if word == "," and clause.verb is not None and self._goes_on(clause.verb):
-                return Clause(about="same")
-            is_doing = self._token().verbs("ing") and not self._token(1).has("noun")
-            if word == "," and clause.verb is not None and is_doing:  # "sits, reading"
-                return Clause(about="meanwhile")
-            is_list = clause.subjects and not (clause.verb or clause.after)
-            goes_on = self._starts_group() and not self._token().has("scene", "shot")
-            return None if word == "," and is_list and goes_on else Clause()
+            return self._go_on(clause) if word == "," else Clause()
         if token.has("conjunctions"):
             is_near = word == "where" and self._token(-1).has("noun") and self._starts_group(1)
             self._take()
@@ -102,6 +92,18 @@ class _Parser(GroupReader):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _go_on(self, clause: Clause) -> Clause | None:
+        """Beginning of the next clause after a comma; None: a list goes on."""
+        token, after = self._token(), self._token(1)
+        is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
+        if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
+            return Clause(about="same")
+        if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
+            return Clause(about="meanwhile")  # "sits, reading"
+        is_list = clause.subjects and not (clause.verb or clause.after)
+        goes_on = self._starts_group() and not token.has("scene", "shot")
+        return None if is_list and goes_on else Clause()
 
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
@@ -153,9 +155,7 @@ class _Parser(GroupReader):
         if not self._token().has("negations"):
             return None
         word, absent = self._take(), self._listed(self._group())
-        return replace(
-            clause, absent=(*clause.absent, *absent), negation=(*clause.negation, word)
-        )
+        return replace(clause, absent=(*clause.absent, *absent), negation=(*clause.negation, word))
 
     def _listed(self, first: Group) -> list[Group]:
         """Groups of a list that "and" or "or" ends, all with articles or none."""

@@ -213,11 +213,11 @@ class SceneDraft:
 
     def is_many(self, indices: Sequence[int]) -> bool:
         """Whether objects are several bodies: "them"."""
-        return sum(self.things[index]["count"] for index in indices) > 1
+        return sum(int(self.things[index]["count"]) for index in indices) > 1
 
     def is_person(self, index: int) -> bool:
         """Whether an object is a person."""
-        return self.things[index]["noun"] in PERSON_NOUNS
+        return str(self.things[index]["noun"]) in PERSON_NOUNS
 
     def goes_like(self, index: int, other: int) -> bool:
         """Whether an object goes, and another may go the same way: "drives behind a truck"."""

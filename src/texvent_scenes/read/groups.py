@@ -138,7 +138,9 @@ class GroupReader:
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
         tail = [self._take() for _ in range(self._tail() if head else 0)]
-        head = self._shared_head(article, modifiers) if modifiers and not (head or unknown) else head
+        head = (
+            self._shared_head(article, modifiers) if modifiers and not (head or unknown) else head
+        )
         known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         if self._token().text == "of" and self._starts_group(1):
@@ -161,9 +163,9 @@ class GroupReader:
             self._at = start
         if other is None or other.head is None or not other.head.has("noun"):
             return None
-        both = [(bool(one), any(map(_counts, words)))
-                for one, words in ((article, modifiers), (other.article, other.modifiers))]  # fmt: skip
-        return other.head if both[0] == both[1] and any(both[0]) else None
+        mine = bool(article), any(map(_counts, modifiers))
+        both = mine, (bool(other.article), any(map(_counts, other.modifiers)))
+        return other.head if both[0] == both[1] and any(mine) else None
 
     def _tail(self) -> int:
         """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""

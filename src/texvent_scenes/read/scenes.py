@@ -103,7 +103,9 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
-        for index in subjects if clause.about == "where" and where else ():  # "a pier where he stands"
+        for index in (
+            subjects if clause.about == "where" and where else ()
+        ):  # "a pier where he stands"
             self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
             self._phases += 1
@@ -157,7 +159,9 @@ class _SentenceReader:
         draft = self._draft
         kind, before = (str(one and one.value) for one in
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
-        is_near = draft.tokens[phrase.preposition.at - 1].has("noun") and not set(self._nearest) & {*subjects}
+        is_near = draft.tokens[phrase.preposition.at - 1].has("noun") and not set(self._nearest) & {
+            *subjects
+        }
         if kind == "with" and is_near and all(map(draft.is_person, self._nearest)):
             return self._nearest  # "passes a man with a suitcase"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
@@ -378,24 +382,14 @@ class _SentenceReader:
         if token.text == "onto" and any(draft.falls(index) for index in subjects):
             kind = "on"
         if not phrase.groups:
-            own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
-            is_own = bool(set(self._nearest) & own)  # nothing else is named here
-            is_many = draft.tokens[token.at + 1].text == "them"
-            is_own |= is_many and not draft.is_many(self._nearest) and draft.is_many(self._earlier)
-            others: Sequence[int] = subjects
-            about: Sequence[int] = self._earlier if is_own else self._nearest
-            if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
-                others, about = self._nearest, subjects
-            others = others if kind and about else []
-            is_so = any([self._relate_one(kind, one, about) for one in others])
-            draft.mark(token, "shown" if is_so else "lost")
+            self._relate_back(kind, token, subjects)
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         heads = [group.head for group in phrase.groups if group.head is not None]
-        words = [*heads, *(one for group in phrase.groups for one in (*group.unknown, *group.modifiers))]
+        words = [one for group in phrase.groups for one in (*group.unknown, *group.modifiers)]
         if not targets:
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
@@ -410,11 +404,22 @@ class _SentenceReader:
             able = () if kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
-        elif kind == "with":
-            draft.show(token)
-        if not targets and any(map(draft.shows, words)):
+        if any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
+
+    def _relate_back(self, kind: str, token: Token, subjects: Sequence[int]) -> None:
+        """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
+        draft, nearest = self._draft, self._nearest
+        own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
+        is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
+        is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
+        others, about = subjects, self._earlier if is_own else nearest
+        if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
+            others, about = nearest, subjects
+        others = others if kind and about else []
+        is_so = any([self._relate_one(kind, one, about) for one in others])
+        draft.mark(token, "shown" if is_so else "lost")
 
     def _go_to_place(
         self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]

@@ -271,8 +271,8 @@ def _stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> 
     going = Key(going_s, plan.speed_m_s, activity=activity_of(plan.motion.kind))
     keys = (replace(going, duration_s=0.0), going,
             Key(plan.duration_s - going_s, ramp_s=0.05, activity="stand"))  # fmt: skip
-    path = centred(Track((0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m), plan.duration_s)
-    group.plan = replace(plan, path=replace(path, is_facing=plan.is_facing))
+    path = Track((0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing)
+    group.plan = replace(plan, path=centred(path, plan.duration_s))
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:

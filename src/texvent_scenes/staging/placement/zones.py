@@ -180,8 +180,11 @@ class _Zones:
                 continue
             if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
                 self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
+        self._keep_on_road(drivers, lane_m, road)
 
-        for number in drivers:  # at rest on the edge of the road at most
+    def _keep_on_road(self, drivers: Sequence[int], lane_m: float, road: RoadLine) -> None:
+        """Vehicles at rest stand on the edge of the road at most."""
+        for number in drivers:
             one = self.actors[number]
             limit = 2.0 * lane_m - 0.5 * one.model.width
             across = float(road.across(np.array([one.middle(0.0)[:2]]))[0])
@@ -290,7 +293,9 @@ class _Zones:
         for unit in self._units:
             members = [self.actors[number] for number in unit]
             if all(one.noun.habitat == "ground" and not is_afloat(one) for one in members):
-                far = max(float(one.corners(time)[:, 1].max()) for one in members for time in self._times)
+                far = max(
+                    float(one.corners(time)[:, 1].max()) for one in members for time in self._times
+                )
                 for number in unit if far > edge else ():
                     self._move(number, np.array([0.0, edge - far]))
 

@@ -210,7 +210,9 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     else:
         gap = -_NEARER * path.framing.distance_m
         away = np.array([-math.sin(angle), math.cos(angle)])
-        ways = [[(one.middle(0.0)[:2] - (x, y)) @ away for one in each] for each in (on_land, swimmers)]
+        ways = [
+            [(one.middle(0.0)[:2] - (x, y)) @ away for one in each] for each in (on_land, swimmers)
+        ]
         if on_land and max(ways[0]) < min(ways[1]):  # between both
             gap = 0.5 * float(max(ways[0]) + min(ways[1]))
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
