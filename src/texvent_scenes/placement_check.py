@@ -190,7 +190,8 @@ class _Bodies:
             return False
         least = -_ROOM_M - _ROOM * (self._high[number, :, 2] - self._low[number, :, 2])
         low = np.flatnonzero(self._low[number, :, 2] < least)  # its box may lean out of its shape
-        return sum(one.lowest_m(self._times[int(at)]) < least[at] for at in low) >= _LEAST_INSTANTS
+        under = [one.lowest_m(self._times[int(at)]) < least[at] for at in low]
+        return bool(sum(under) >= _LEAST_INSTANTS)
 
     def find_intersections(self) -> Iterator[Violation]:
         """Pairs of bodies, of which the middle of one is in the other."""

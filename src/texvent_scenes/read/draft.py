@@ -195,10 +195,6 @@ class SceneDraft:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
 
-    def falls(self, index: int) -> bool:
-        """Whether an object falls, and so ends on what is below it."""
-        return any(one["kind"] == "fall" for one in self.things[index]["motions"])
-
     def list_held(self, owners: Sequence[int]) -> Iterator[int]:
         """Objects that some hold or wear."""
         for relation in (one for owner in owners for one in self.things[owner]["relations"]):
@@ -214,10 +210,6 @@ class SceneDraft:
     def is_many(self, indices: Sequence[int]) -> bool:
         """Whether objects are several bodies: "them"."""
         return sum(int(self.things[index]["count"]) for index in indices) > 1
-
-    def is_person(self, index: int) -> bool:
-        """Whether an object is a person."""
-        return str(self.things[index]["noun"]) in PERSON_NOUNS
 
     def goes_like(self, index: int, other: int) -> bool:
         """Whether an object goes, and another may go the same way: "drives behind a truck"."""
@@ -402,16 +394,6 @@ class SceneDraft:
             not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
         )
 
-    def _lead_companions(self) -> None:
-        """Let those on foot that somebody walks or runs "with" do so too."""
-        for index, one in enumerate(self.things):
-            going = one["motions"][:1] if self.walks(index) else []
-            pairs = [to for each in one["relations"] if each["kind"] == "with" for to in each["to"]]
-            led = {key: going[0][key] for key in ("kind", "direction") if going and key in going[0]}
-            for other in (self.things[to] for to in pairs if self.walks(to)):
-                if led.get("kind") in ("walk", "run", "move") and not other["motions"]:
-                    other["motions"].append(dict(led))
-
     def _build(self, prompt: str) -> Scene:
         """The scene; copies of objects that have most are left out until it holds them all."""
         while sum(one["count"] for one in self.things) > MAX_BODIES:
@@ -421,7 +403,6 @@ class SceneDraft:
                 _reach_speed(motion, self.nouns[one["noun"]])
             if any(each.get("direction") == _OPPOSITE for each in one["motions"]):
                 self._halve(index)
-        self._lead_companions()
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
             done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")

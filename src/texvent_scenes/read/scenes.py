@@ -103,9 +103,7 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
-        for index in (
-            subjects if clause.about == "where" and where else ()
-        ):  # "a pier where he stands"
+        for index in subjects if clause.about == "where" and where else ():
             self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
             self._phases += 1
@@ -159,11 +157,10 @@ class _SentenceReader:
         draft = self._draft
         kind, before = (str(one and one.value) for one in
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
-        is_near = draft.tokens[phrase.preposition.at - 1].has("noun") and not set(self._nearest) & {
-            *subjects
-        }
-        if kind == "with" and is_near and all(map(draft.is_person, self._nearest)):
-            return self._nearest  # "passes a man with a suitcase"
+        if kind == "with" and draft.tokens[phrase.preposition.at - 1].has("noun"):
+            others = {draft.things[index]["noun"] for index in {*self._nearest} - {*subjects}}
+            if others and others <= PERSON_NOUNS:
+                return self._nearest  # "passes a man with a suitcase"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told
@@ -379,8 +376,8 @@ class _SentenceReader:
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
-        if token.text == "onto" and any(draft.falls(index) for index in subjects):
-            kind = "on"
+        does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
+        kind = "on" if token.text == "onto" and "fall" in does else kind
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []
@@ -404,7 +401,7 @@ class _SentenceReader:
             able = () if kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
-        if any(map(draft.shows, (*heads, *words))):
+        if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
 
@@ -414,7 +411,8 @@ class _SentenceReader:
         own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
         is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
-        others, about = subjects, self._earlier if is_own else nearest
+        others: Sequence[int] = subjects
+        about: Sequence[int] = self._earlier if is_own else nearest
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
         others = others if kind and about else []
@@ -447,10 +445,9 @@ class _SentenceReader:
             return not subjects or any(draft.things[one]["motions"] for one in subjects)
         if "above" in kinds:
             return not any(map(draft.keeps_to_ground, subjects))
-        if token.text == "past" or (place.has_shore and token.text == "through"):
-            return False
+        is_past = token.text == "past" or (place.has_shore and token.text == "through")
         is_bank = "beside" not in kinds or place.has_shore
-        return is_bank and (not kinds or bool(kinds & word_set("things", "places")))
+        return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
@@ -471,11 +468,11 @@ class _SentenceReader:
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
         tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
                 and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
-        small = [one for one in targets if draft.things[one]["noun"] in _SMALL]
-        goes = any(one["kind"] != "stand" for one in thing["motions"])
-        for one in small if tops and kind in SPACED and not goes else ():
-            if not draft.things[one]["relations"]:
-                draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
+        small = [one for one in targets if draft.things[one]["noun"] in _SMALL
+                 and not draft.things[one]["relations"]]  # fmt: skip
+        is_still = all(one["kind"] == "stand" for one in thing["motions"])
+        for one in small if tops and kind in SPACED and is_still else ():
+            draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
         return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
 
     def _ridden(self, index: int, kind: str) -> int:

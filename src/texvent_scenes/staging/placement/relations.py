@@ -263,15 +263,17 @@ def _stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> 
     plan, own = group.plan, group.models[0]
     turn = plan.yaw - target.plan.yaw
     sides = (support.high[0] - support.low[0], support.high[1] - support.low[1])
-    ways = [float(side) / max(abs(share), 1e-6)
-            for side, share in zip(sides, (math.cos(turn), math.sin(turn)), strict=True)]  # fmt: skip
+    shares = abs(math.cos(turn)), abs(math.sin(turn))
+    ways = [float(side) / max(share, 1e-6) for side, share in zip(sides, shares, strict=True)]
     going_s = (min(ways) - own.length) / max(plan.speed_m_s, 1e-6)
     if target.noun.name in nouns_with("way") or not _LEAST_GOING_S < going_s < plan.duration_s:
         return
     going = Key(going_s, plan.speed_m_s, activity=activity_of(plan.motion.kind))
     keys = (replace(going, duration_s=0.0), going,
             Key(plan.duration_s - going_s, ramp_s=0.05, activity="stand"))  # fmt: skip
-    path = Track((0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing)
+    path = Track(
+        (0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing
+    )  # fmt: skip
     group.plan = replace(plan, path=centred(path, plan.duration_s))
 
 

@@ -102,7 +102,8 @@ def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[
     for one in description.relations:
         for target in one.targets:
             both = {zones.get(target), zones.get(one.subject)}
-            if one.kind in _LOOSE and len(both) > 1 and both & {"pavement", "across"}:
+            is_near = one.kind in _LOOSE and one.distance_m is None
+            if is_near and len(both) > 1 and both & {"pavement", "across"}:
                 continue
             old, new = unit[target], unit[one.subject]
             unit = [new if each == old else each for each in unit]
