@@ -50,7 +50,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
     )
-    description = _darken(_move_others(replace(description, objects=objects), nouns))
+    description = _lead_companions(replace(description, objects=objects), nouns)
+    description = _darken(_move_others(description, nouns))
     place = _choose_place(description, nouns)
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
@@ -87,6 +88,19 @@ def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> Scene
     new = {n: replace(objects[n], motions=(one,)) for n, one in motions.items()
            if not objects[n].motions}  # fmt: skip
     return _change(description, new)
+
+
+def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Those on foot that somebody walks or runs "with" do so too."""
+    objects, led = description.objects, dict[int, Motion]()
+    pairs = ((one.subject, to) for one in description.relations if one.kind == "with"
+             for to in one.targets)  # fmt: skip
+    for subject, to in pairs:
+        motion = objects[subject].motion
+        on_foot = all(nouns[objects[n].noun].motion == "walk" for n in (subject, to))
+        if motion is not None and motion.kind in ("walk", "run") and on_foot:
+            led[to] = Motion(motion.kind, motion.direction)
+    return _move(description, led)
 
 
 def _set_far(description: SceneDescription) -> SceneDescription:

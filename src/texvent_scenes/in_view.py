@@ -23,6 +23,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.relation_check import BodyBoxes, Violation, body_of, find_violations
@@ -32,7 +33,6 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING
-from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
@@ -93,14 +93,15 @@ def find_unseen(
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
-    unseen = {*list_orphans(description)}
+    unseen = {*scene.missing}
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]
         bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
         if not own:
             continue
-        most, lost = max(counts), counts.count(0)
+        most = max(counts)
+        lost = sum(views[one.instance].share < LEAST_SEEN for one in own)
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
@@ -110,15 +111,23 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")
-            continue
+            if 2 * lost <= len(counts):
+                continue
         elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
         else:
             continue
         unseen.add(index)
     violations = [*_list_words_of(description, unseen)]
-    violations += [one for one in find_violations(description, bodies)
+    bodied = {one.object_index for one in scene.actors} | scene.missing
+    apart = replace(description, relations=tuple(
+        one for one in description.relations if bodied.issuperset((one.subject, *one.targets))
+    ))  # fmt: skip
+    violations += [one for one in find_violations(apart, bodies)
                if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    violations += find_misplaced(
+        description, scene.place, scene.environment(0.0), scene.actors, times
+    )
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
     notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(

@@ -163,7 +163,8 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
         raise InputError(f"nothing of {shown(prompt)} is in the scene that the model wrote")
     added = ", ".join(dict.fromkeys(check.invented))
     words = {one.text: check.used.isdisjoint(meanings_of(one.senses)) for one in tokens
-             if not (one.is_sign or is_grammar(one))}  # fmt: skip
+             if not (one.is_sign or is_grammar(one) or one.has("relation", "small", "negations"))
+             }  # fmt: skip
     report = PromptReport(
         shown=tuple(word for word, is_lost in words.items() if not is_lost),
         not_understood=tuple(word for word, is_lost in words.items() if is_lost),

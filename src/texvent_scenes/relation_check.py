@@ -33,8 +33,9 @@ _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 _LASTING = ("on", "in", "at", "with")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_LEAST_DISPLACEMENT, _MOST_COPIES = 0.1, 0.75
-"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation."""
+_LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT = 0.1, 0.75, 0.5
+"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
+least share of the way by which what goes "towards" something comes nearer."""
 
 
 class Violation(NamedTuple):
@@ -94,7 +95,8 @@ def find_violations(
         kind = "in" if is_flat else one.kind
         if kind not in (*_RULES, "between") or one.subject in one.targets:
             continue
-        held = [_holds(kind, body, others) for body in own]
+        goes_on = len(description.objects[one.subject].motions) > 1
+        held = [_holds(kind, body, others, at_end=goes_on) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = one.kind.replace("front", "in front of")
@@ -116,8 +118,13 @@ def find_violations(
                              f"{motion.direction}")  # fmt: skip
 
 
-def _holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes]) -> bool:
-    """Whether a body is so to another one, or between two of them, for long enough."""
+def _holds(
+    kind: str, body: BodyBoxes, others: Sequence[BodyBoxes], *, at_end: bool = False
+) -> bool:
+    """Whether a body is so to another one, or between two of them, for long enough.
+
+    `at_end`: it does several things one after the other, and so is there when the last is done.
+    """
     if kind == "between":
         pairs = itertools.combinations(others, 2)
         flags = [(_is_between(body, *pair), _stay(body, *pair)) for pair in pairs]
@@ -125,7 +132,8 @@ def _holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes]) -> bool:
         flags = [(_RULES[kind](body, other), _stay(body, other)) for other in others]
     is_lasting = kind in _LASTING
     return any(
-        np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
+        (at_end and is_lasting and held[-2:].all())
+        or np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
         for held, stay in flags
     )
 
@@ -179,13 +187,17 @@ def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
 
 
 def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    is_near = np.abs(_aside(one, other)) <= 1.5
+    is_near = np.abs(_aside(one, other)) <= 2.0
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 
 def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    away = np.linalg.norm(one.middle - other.middle, axis=1)
-    return np.asarray(sign * (away - away[0]) > _LEAST_DISPLACEMENT * one.size.max())
+    """Whether it has come so much nearer or gone away, and not mostly past it."""
+    off = one.middle - other.middle
+    away, way = np.linalg.norm(off, axis=1), off - off[0]
+    gone = sign * (away - away[0])
+    is_direct = gone >= _DIRECT * np.linalg.norm(way, axis=1)
+    return np.asarray((gone > _LEAST_DISPLACEMENT * one.size.max()) & is_direct)
 
 
 def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
@@ -210,9 +222,15 @@ def _is_near(one: BodyBoxes, other: BodyBoxes, share: float) -> _Flags:
 
 
 def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it is near, and as high: not on a desk under which the other one lies."""
-    apart = np.abs(one.middle - other.middle)[:, 2] - 0.5 * (one.size + other.size)[:, 2]
-    return np.asarray(_is_near(one, other, 3.0) & (apart <= 0.5 * one.size.max(axis=1)))
+    """Whether it is near, and as high: not on a desk under which the other one lies.
+
+    The gap is at most 1.5 times the geometric mean of both extents: a ball 8 m from a house is not
+    next to it, a car that far is.
+    """
+    apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
+    gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
+    extent = np.sqrt(one.size.max(axis=1) * other.size.max(axis=1))
+    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.5 * one.size.max(axis=1)))
 
 
 def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:

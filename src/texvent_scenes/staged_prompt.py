@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -39,12 +40,17 @@ def stage(
     nouns = tuple(named[one.noun] for one in description.objects)
     contents = tuple(tuple(one.values()) for one in files)
     scene, unseen = _staged(description, nouns, contents, seed, size, duration_s)
+    shown = without_words(said.shown, unseen.violations)
+    lines = (*said.not_shown, *scene.not_shown,
+             *filter(None, (one.line for one in unseen.violations)))  # fmt: skip
+    told = " ".join((*lines, *unseen.out_of_view, *unseen.too_small)).casefold()
+    lost = (one for one in said.shown if one not in shown
+            and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
     report = replace(
         said,
-        shown=without_words(said.shown, unseen.violations),
+        shown=shown,
         notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes),
-        not_shown=(*said.not_shown, *scene.not_shown,
-                   *filter(None, (one.line for one in unseen.violations))),
+        not_shown=(*lines, *lost),
         out_of_view=unseen.out_of_view,
         too_small=unseen.too_small,
     )  # fmt: skip

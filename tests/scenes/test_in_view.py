@@ -237,7 +237,8 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a propeller at 6000 rpm", "6000 rpm", None),
         ("a man on the right waves", "on the right", "the man on the right"),
         ("a red ball on the left and a cube on the right", "on the right", None),
-        ("a bottle on a desk beside a laptop", "beside", "the bottle beside the laptop"),
+        ("a bottle on a desk beside a dog", "beside", "the bottle beside the dog"),
+        ("a bottle on a desk beside a laptop", "beside", None),
         ("a bottle beside a laptop on a desk", "beside", None),
         ("a dog runs beside a cyclist", "beside", None),
         ("a dog on a wet road", "wet", None),
@@ -255,7 +256,8 @@ def test_what_is_said_of_a_body_that_nobody_sees_is_not_shown(table, is_red):
     """As "a man takes off his red hat": red is shown where another thing is red."""
     prompt = f"a man takes off his red hat. a {table} table"
     report = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).report(prompt)
-    assert [line.partition(" (")[0] for line in report.not_shown] == ["the hat"]
+    words = ["the hat"] if is_red else ["the hat", "red"]
+    assert [line.partition(" (")[0] for line in report.not_shown] == words
     assert {"man", "table", table} <= {*report.shown}
     assert ("red" in report.shown) is is_red
     assert "hat" not in report.shown

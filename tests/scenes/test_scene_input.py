@@ -21,7 +21,7 @@ SENTENCE = "a red car drives left past two trees at dusk"
 
 def test_the_scene_of_a_sentence_gives_its_events():
     reading = texvent.read(SENTENCE)
-    assert reading.shown == ("red", "car", "drives", "left", "past", "two", "trees", "dusk")
+    assert reading.shown == ("red", "car", "drives", "left", "past", "two", "trees", "at", "dusk")
     assert reading.substituted == reading.not_understood == ()
     events, of_sentence = (texvent.generate(one, **OPTIONS) for one in (reading.scene, SENTENCE))
     assert events == of_sentence

@@ -21,9 +21,12 @@ class Clause:
     after: tuple[Phrase | Token, ...] = ()
     """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
+    negation: tuple[Token, ...] = ()
+    """Words that deny these."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
-    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping". "where":
+    they are by its last group."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -70,17 +73,11 @@ class _Parser(GroupReader):
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            if word == "," and clause.verb is not None and self._goes_on(clause.verb):
-                return Clause(about="same")
-            is_doing = self._token().verbs("ing") and not self._token(1).has("noun")
-            if word == "," and clause.verb is not None and is_doing:  # "sits, reading"
-                return Clause(about="meanwhile")
-            is_list = clause.subjects and not (clause.verb or clause.after)
-            goes_on = self._starts_group() and not self._token().has("scene", "shot")
-            return None if word == "," and is_list and goes_on else Clause()
+            return self._go_on(clause) if word == "," else Clause()
         if token.has("conjunctions"):
+            is_near = word == "where" and self._token(-1).has("noun") and self._starts_group(1)
             self._take()
-            return Clause(about="then") if word == "then" else Clause()
+            return Clause(about="where" if is_near else word if word == "then" else "")
         if (second := self._begin_with_verb(clause)) is not None:
             return second
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
@@ -95,6 +92,18 @@ class _Parser(GroupReader):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _go_on(self, clause: Clause) -> Clause | None:
+        """Beginning of the next clause after a comma; None: a list goes on."""
+        token, after = self._token(), self._token(1)
+        is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
+        if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
+            return Clause(about="same")
+        if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
+            return Clause(about="meanwhile")  # "sits, reading"
+        is_list = clause.subjects and not (clause.verb or clause.after)
+        goes_on = self._starts_group() and not token.has("scene", "shot")
+        return None if is_list and goes_on else Clause()
 
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
@@ -145,8 +154,8 @@ class _Parser(GroupReader):
         """As "without cars"; a verb that is denied is not understood."""
         if not self._token().has("negations"):
             return None
-        self._take()
-        return replace(clause, absent=(*clause.absent, *self._listed(self._group())))
+        word, absent = self._take(), self._listed(self._group())
+        return replace(clause, absent=(*clause.absent, *absent), negation=(*clause.negation, word))
 
     def _listed(self, first: Group) -> list[Group]:
         """Groups of a list that "and" or "or" ends, all with articles or none."""
@@ -196,7 +205,8 @@ class _Parser(GroupReader):
     def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
         is_doing = token.text in _IS and self._token(1).text.endswith("ing")
-        if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
+        is_other = token.text in ("and", "or") or token.text in word_set("things", "degrees")
+        if not token.has("relation", "small") or is_other or is_doing:
             return None
         is_before = self._token(1).has("pronouns") and not self._starts_group(1)  # no "her car"
         is_back = token.has("relation") and is_before

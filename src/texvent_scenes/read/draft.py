@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
@@ -13,23 +13,23 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import read_table
+from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
+from texvent_scenes.read.lexicon import NO_TOKEN, Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
 
 _UNTURNED, _OPPOSITE = ("handheld", "static"), "opposite"
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
-_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
-            "relation", "camera")  # fmt: skip
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
 
 def is_grammar(token: Token) -> bool:
-    """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
-    return token.has(*_GRAMMAR)
+    """Whether a token says nothing by itself: "the", "is", "while", "footage"."""
+    is_order = token.text in word_set("things", "order")
+    return (token.has(*_GRAMMAR) and not is_order) or token.text in word_set("things", "grammar")
 
 
 def split_move(phrase: str) -> dict[str, Any]:
@@ -194,6 +194,22 @@ class SceneDraft:
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
+
+    def list_held(self, owners: Sequence[int]) -> Iterator[int]:
+        """Objects that some hold or wear."""
+        for relation in (one for owner in owners for one in self.things[owner]["relations"]):
+            yield from relation["to"] if relation["kind"] in ("wear", "hold") else ()
+
+    def place_by(self, index: int) -> str:
+        """Relation of those who are where an object is: "a sofa where a girl reads"."""
+        noun = self.things[index]["noun"]
+        if noun in word_set("things", "tables"):
+            return "at"
+        return "on" if noun in nouns_with("seat") | nouns_with("way") else "beside"
+
+    def is_many(self, indices: Sequence[int]) -> bool:
+        """Whether objects are several bodies: "them"."""
+        return sum(int(self.things[index]["count"]) for index in indices) > 1
 
     def goes_like(self, index: int, other: int) -> bool:
         """Whether an object goes, and another may go the same way: "drives behind a truck"."""
@@ -360,8 +376,13 @@ class SceneDraft:
     def reading(self, prompt: str) -> Reading:
         """The scene, and its words; one that is lost at one place of the prompt is not shown."""
         fates: dict[str, str] = {}
-        for token in self.tokens:
+        for token, after in zip(self.tokens, (*self.tokens[1:], NO_TOKEN), strict=False):
             is_open = token.is_sign or is_grammar(token)
+            is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
+            if token.has("small") and after.has("adverb", "negations") and self.shows(after):
+                self.show(token)  # "at 50 km/h", "with no cars"
+            if token.has("style") and " " in token.text:
+                self.show(token)  # "in front of the camera"
             fate = self._fates.get(token.at, "" if is_open else "lost")
             if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
                 fates[token.text] = fate

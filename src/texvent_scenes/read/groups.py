@@ -138,6 +138,7 @@ class GroupReader:
         if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
         tail = [self._take() for _ in range(self._tail() if head else 0)]
+        head = head or self._shared_head(article, [] if unknown else modifiers)
         known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         if self._token().text == "of" and self._starts_group(1):
@@ -147,6 +148,16 @@ class GroupReader:
             self._take()
         lost = [*lost, *unknown, *tail[:-1]]
         return Group(head, (*known, *tail[-1:]), tuple(lost), article, of)
+
+    def _shared_head(self, article: str, modifiers: Sequence[Token]) -> Token | None:
+        """Head of the group after "and", if both count: "two red and two blue cars"."""
+        mine, start = (bool(article), any(map(_counts, modifiers))), self._at
+        if not (any(mine) and modifiers and self._token().text == "and" and self._starts_group(1)):
+            return None
+        self._take()
+        other, self._at = self._group(), start
+        is_like = mine == (bool(other.article), any(map(_counts, other.modifiers)))
+        return other.head if is_like and other.head and other.head.has("noun") else None
 
     def _tail(self) -> int:
         """Number of words after a noun that add nothing to it: "checkerboard test pattern"."""

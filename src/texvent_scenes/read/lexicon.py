@@ -350,7 +350,7 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things), "steps out from behind a car" (no view).
+    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
@@ -365,6 +365,8 @@ def _without_chance(
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
         and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
+        and not (after in articles and one.kind == "verb" and one.value.who == "plain"
+                 and one.value.relation is None and words[end] in word_set("things", "particles"))
     )  # fmt: skip
 
 

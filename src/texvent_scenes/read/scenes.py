@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.clauses import Clause, read_clauses
@@ -30,6 +30,7 @@ PLURAL_COUNT = 3
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _WATERS = frozenset({"sea", "lake", "river"})
+_SMALL = nouns_with("in hand or on something")
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -73,7 +74,7 @@ class _SentenceReader:
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
-                self._draft.show(head)
+                self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_camera = goes_on or clause.about == "camera"
         is_ego = not is_camera and self._is_ego(clause)
@@ -84,7 +85,7 @@ class _SentenceReader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
-        known = len(self._draft.things)
+        known, where = len(self._draft.things), self._nearest
         told = subjects = self._find_subjects(clause)
         self._before = self._nearest
         first = clause.verb.at if clause.verb is not None else 0
@@ -102,6 +103,8 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        for index in subjects if clause.about == "where" and where else ():
+            self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
             self._phases += 1
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
@@ -129,6 +132,8 @@ class _SentenceReader:
         """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
         last = NO_TOKEN
         for one in after:
+            if isinstance(one, Phrase) and self._hangs_on_unknown(one):
+                continue
             if isinstance(one, Phrase):
                 who = self._choose_placed(one, last, subjects, told)
                 told = self._relate(one, who, moved) or moved
@@ -139,6 +144,12 @@ class _SentenceReader:
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
+    def _hangs_on_unknown(self, phrase: Phrase) -> bool:
+        """Whether it is part of what is not known: "a tray with glasses"."""
+        before = self._draft.tokens[phrase.preposition.at - 1]
+        is_noun = before.is_unknown and not before.text.endswith("ly") and before is not self._verb
+        return phrase.preposition.text == "with" and is_noun
+
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
     ) -> list[int]:
@@ -146,6 +157,10 @@ class _SentenceReader:
         draft = self._draft
         kind, before = (str(one and one.value) for one in
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
+        if kind == "with" and draft.tokens[phrase.preposition.at - 1].has("noun"):
+            others = {draft.things[index]["noun"] for index in {*self._nearest} - {*subjects}}
+            if others and others <= PERSON_NOUNS:
+                return self._nearest  # "passes a man with a suitcase"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told
@@ -165,6 +180,7 @@ class _SentenceReader:
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
             return subjects, objects, clause.after
         agents = [index for group in by.groups for index in self._name(group)]
+        self._draft.mark(by.preposition, "shown" if agents else "lost")
         return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
 
     def _find_subjects(self, clause: Clause) -> list[int]:
@@ -329,12 +345,14 @@ class _SentenceReader:
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
-            draft.relate(index, act.relation or "", objects)
+            draft.relate(self._ridden(index, act.relation or ""), act.relation or "", objects)
         return list(objects if act.object and objects else subjects)
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
+        if act.kind == "move" and self._goes_on and self._ridden(index, "past") != index:
+            return  # it is ridden on: "rides a bicycle, passing a car"
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
@@ -358,21 +376,17 @@ class _SentenceReader:
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
+        does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
+        kind = "on" if token.text == "onto" and "fall" in does else kind
         if not phrase.groups:
-            is_own = bool(set(self._nearest) & set(subjects))  # nothing else is named here
-            others: Sequence[int] = subjects
-            about: Sequence[int] = self._earlier if is_own else self._nearest
-            if not is_own and self._nearest is not self._before:  # "passes a tree, a dog behind it"
-                others, about = self._nearest, subjects
-            others = others if kind and about else []
-            is_so = any([self._relate_one(kind, one, about) for one in others])
-            draft.mark(token, "shown" if is_so else "lost")
+            self._relate_back(kind, token, subjects)
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         heads = [group.head for group in phrase.groups if group.head is not None]
+        words = [one for group in phrase.groups for one in (*group.unknown, *group.modifiers)]
         if not targets:
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
@@ -382,11 +396,28 @@ class _SentenceReader:
                 draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
+            draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
+        if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
+            draft.show(token)
         return targets
+
+    def _relate_back(self, kind: str, token: Token, subjects: Sequence[int]) -> None:
+        """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
+        draft, nearest = self._draft, self._nearest
+        own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
+        is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
+        is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
+        others: Sequence[int] = subjects
+        about: Sequence[int] = self._earlier if is_own else nearest
+        if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
+            others, about = nearest, subjects
+        others = others if kind and about else []
+        is_so = any([self._relate_one(kind, one, about) for one in others])
+        draft.mark(token, "shown" if is_so else "lost")
 
     def _go_to_place(
         self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]
@@ -400,12 +431,23 @@ class _SentenceReader:
         names = {one.value for head in heads for one in head.all("place")[:1]}
         on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
         is_in = on_foot and token.text in ("through", "in", "into")
-        if is_in or (token.text == "through" and place.has_shore):
+        if is_in or not self._shows_way(token, place, subjects):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
             if self._nouns[thing["noun"]].motion != "drive":
                 thing.setdefault("placement", "lane")
+
+    def _shows_way(self, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
+        """Whether a place shows a preposition: no "towards a park", "by a forest"."""
+        draft, kinds = self._draft, {one.value for one in token.all("relation")}
+        if token.text in ("across", "down", "up"):
+            return not subjects or any(draft.things[one]["motions"] for one in subjects)
+        if "above" in kinds:
+            return not any(map(draft.keeps_to_ground, subjects))
+        is_past = token.text == "past" or (place.has_shore and token.text == "through")
+        is_bank = "beside" not in kinds or place.has_shore
+        return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
@@ -418,14 +460,27 @@ class _SentenceReader:
                 return True  # it stands in the distance
             if not any(map(draft.can_go, (index, *targets))):
                 return False  # "a vase with roses", "a disc with a dot"
+        if kind == "on" and noun in word_set("things", "peaks"):
+            return False  # its slopes bear nothing
         kind = self._choose_relation(kind, index, targets[0])
         sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-        ridden = [one["to"][0] for one in thing["relations"] if one["kind"] == "ride"]
-        if ridden and kind in word_set("things", "passed") | {"through", "follow"}:
-            return draft.relate(ridden[0], kind, targets)
-        return bool(kind) and draft.relate(index, kind, targets)
+        tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
+                and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
+        small = [one for one in targets if draft.things[one]["noun"] in _SMALL
+                 and not draft.things[one]["relations"]]  # fmt: skip
+        is_still = all(one["kind"] == "stand" for one in thing["motions"])
+        for one in small if tops and kind in SPACED and is_still else ():
+            draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
+        return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
+
+    def _ridden(self, index: int, kind: str) -> int:
+        """What goes where its rider goes: "rides a bicycle past a tree"."""
+        relations = self._draft.things[index]["relations"]
+        ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
+        is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}
+        return ridden[0] if ridden and is_way else index
 
     def _choose_relation(self, kind: str, index: int, other: int) -> str:
         """The relation that is meant, which depends on what stands in it; "" = none."""
@@ -436,7 +491,7 @@ class _SentenceReader:
         if kind == "at" and noun not in word_set("things", "tables"):
             return "beside"
         if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
-            return "on" if noun in word_set("things", "ways") else ""
+            return "on" if noun in nouns_with("way") else ""
         if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
             return "" if "end_pace" in thing["motions"][0] else "follow"
         return kind

@@ -173,6 +173,11 @@ class Actor:
             self._corners[time_s] = corners
         return self._corners[time_s]
 
+    def lowest_m(self, time_s: float) -> float:
+        """Height of its lowest point in the world, m."""
+        placed = self.place(time_s)
+        return float(bounds(moved(placed.parts, placed.to_world))[0][2])
+
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Least and greatest body coordinates: of a body with limbs, at that instant."""
         pose = self.pose(time_s)

@@ -75,6 +75,8 @@ class ComposedScene:
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     notes: tuple[str, ...] = ()
     """Decisions that the scene leaves open, as sentences, such as where the roads cross."""
+    missing: frozenset[int] = frozenset()
+    """Objects that nobody holds and that have no place."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
@@ -161,7 +163,7 @@ def compose_scene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         tuple(f"the roads cross at ({x:.3g}, {y:.3g}) m" for x, y, _ in view.road.crossings)
-        if ground.has_road else (),
+        if ground.has_road else (), placer.orphans,
     )  # fmt: skip
 
 

@@ -79,6 +79,7 @@ class ObjectPlacer:
         self._level_m = level_m
         """Height of the origin of what lives in the air and in the water, in own sizes."""
         self.groups: dict[int, ObjectGroup] = {}
+        self.orphans = frozenset(list_orphans(self._description))
         self.not_shown: list[str] = []
         """Objects that have no place, and why."""
         self._travel = travel
@@ -89,13 +90,12 @@ class ObjectPlacer:
         """Every copy of every object, with its track."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
-        orphans = {*list_orphans(self._description)}
         self.not_shown = [
             f"the {objects[n].noun} (nobody has it and nothing carries it: say who or where)"
-            for n in sorted(orphans)
+            for n in sorted(self.orphans)
         ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
-            if index not in orphans:
+            if index not in self.orphans:
                 self._place(index, frozenset())
         actors: list[Actor] = []
         for index in sorted(self.groups):
@@ -292,7 +292,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
-                    goes_across=said[0].direction == "across",
+                    goes_across=any(one.direction == "across" for one in said),
                 )
             )  # fmt: skip
         return actors

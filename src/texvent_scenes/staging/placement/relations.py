@@ -25,7 +25,7 @@ from texvent_scenes.staging.placement.object_groups import (
     list_around,
 )
 from texvent_scenes.staging.tracks.keys import Key
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
 from texvent_scenes.staging.tracks.track import Track, centred
 
 
@@ -63,6 +63,8 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
+_LEAST_GOING_S = 0.1
+"""Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -162,7 +164,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
         "left of": (x, level, _ALONG_X),
         "right of": (-x, level, -_ALONG_X),
-        "behind": (-_look_past(subject, near, y), -y, -_AWAY),
+        "behind": (-_look_past(subject, group.half_at_rest(), y), -y, -_AWAY),
         "front": (_look_past(group, near, y), y, _AWAY),
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
@@ -227,6 +229,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     _line_up(group, target, support, neighbours)
     if kind == "stand":
         _carry_along(group, target, support)
+    elif group.plan.is_path and not target.plan.motion.is_moving:
+        _stop_at_edge(group, target, support)
     if is_person and kind in ("lie", "stand"):
         body = target.models[0]
         is_across = kind == "lie" and body.width > body.length
@@ -252,6 +256,25 @@ def _carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> N
     slide = replace(group.plan.motion, kind="slide")
     path = centred(path, duration_s)
     group.plan = replace(group.plan, motion=slide, yaw=yaw, path=path, is_facing=False)
+
+
+def _stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have what goes along a table cross it once and stay there, where the clip is longer."""
+    plan, own = group.plan, group.models[0]
+    turn = plan.yaw - target.plan.yaw
+    sides = (support.high[0] - support.low[0], support.high[1] - support.low[1])
+    shares = abs(math.cos(turn)), abs(math.sin(turn))
+    ways = [float(side) / max(share, 1e-6) for side, share in zip(sides, shares, strict=True)]
+    going_s = (min(ways) - own.length) / max(plan.speed_m_s, 1e-6)
+    if target.noun.name in nouns_with("way") or not _LEAST_GOING_S < going_s < plan.duration_s:
+        return
+    going = Key(going_s, plan.speed_m_s, activity=activity_of(plan.motion.kind))
+    keys = (replace(going, duration_s=0.0), going,
+            Key(plan.duration_s - going_s, ramp_s=0.05, activity="stand"))  # fmt: skip
+    path = Track(
+        (0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing
+    )  # fmt: skip
+    group.plan = replace(plan, path=centred(path, plan.duration_s))
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:

@@ -7,7 +7,7 @@ ways in opposite lanes; what else is on the ground off the road and the rails, u
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,21 +17,26 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.surroundings.environment import RoadLine, find_road
+from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.staging.actors import Actor, is_centred
+from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
 
 _CLEAR_M, _RAILS_M = 0.6, 1.3
 """From the edge of a road or of rails to what stands beside it; half the width of rails."""
 _PARALLEL, _CROSSING = 0.35, 0.5
 """Sines of the angle to the road below which something goes along it, and above which it crosses.
 """
+_SHORE_M = 1.2
+"""From who stands at the shore to what floats."""
 _INSTANTS = 9
 _CARRYING = frozenset(
     {"on", "in", "hold", "wear", "ride", "push", "kick", "throw", "collide", "towards", "from",
      "away from", "through", "around"}
 )  # fmt: skip
 """Relations that hang on how a body is turned."""
+_LOOSE = frozenset({"beside", "front", "behind", "left of", "right of", "past", "towards", "with",
+                    "away from", "at"})  # fmt: skip
+"""Relations that hold as well where one of the two is moved to its zone."""
 
 
 def zone_of(noun: Noun) -> str:
@@ -74,11 +79,15 @@ def keep_to_zones(
     work = _Zones(
         list(actors), [unit for unit in units if fixed.isdisjoint(unit)],
         [n for n, one in enumerate(actors) if n not in fixed and one.object_index not in carried],
-        duration_s,
+        {n for one in relations for n in (one.subject, *one.targets)}, duration_s,
     )  # fmt: skip
+    if place.ground not in (Ground.NONE, Ground.UNDERWATER):
+        work.keep_above_ground(n for n in range(len(actors)) if n not in fixed)
     if any(zone_of(one.noun) == "rails" for one in actors):
         work.clear_rails()
-    if place.has_road and any(zone_of(one.noun) == "road" for one in actors):
+    if place.has_shore:
+        work.keep_ashore(place.road_m if place.ground is Ground.RIVER else 0.0)
+    if place.has_road and any(zone_of(one.noun) == "road" or one.goes_across for one in actors):
         work.use_lanes(0.5 * place.road_m, find_road(description, place, work.actors, 0.0))
         road = find_road(description, place, work.actors, 0.0)
         work.lead_across(road)
@@ -89,8 +98,13 @@ def keep_to_zones(
 def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[list[int]]:
     """Numbers of the actors that relations hold together."""
     unit = list(range(len(description.objects)))
+    zones = {one.object_index: "across" if one.goes_across else zone_of(one.noun) for one in actors}
     for one in description.relations:
         for target in one.targets:
+            both = {zones.get(target), zones.get(one.subject)}
+            is_near = one.kind in _LOOSE and one.distance_m is None
+            if is_near and len(both) > 1 and both & {"pavement", "across"}:
+                continue
             old, new = unit[target], unit[one.subject]
             unit = [new if each == old else each for each in unit]
     alone = {n for n in unit if unit.count(n) == 1}
@@ -110,9 +124,10 @@ class _Zones:
         actors: list[Actor],
         units: Sequence[list[int]],
         turned: Sequence[int],
+        related: Collection[int],
         duration_s: float,
     ) -> None:
-        self.actors, self._units, self._turned = actors, units, turned
+        self.actors, self._units, self._turned, self._related = actors, units, turned, related
         self._free = {unit[0] for unit in units if len(unit) == 1}
         self._times = np.linspace(0.0, duration_s, _INSTANTS)
 
@@ -166,6 +181,17 @@ class _Zones:
                 continue
             if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
                 self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
+        self._keep_on_road(drivers, lane_m, road)
+
+    def _keep_on_road(self, drivers: Sequence[int], lane_m: float, road: RoadLine) -> None:
+        """Vehicles at rest stand on the edge of the road at most."""
+        for number in drivers:
+            one = self.actors[number]
+            limit = 2.0 * lane_m - 0.5 * one.model.width
+            across = float(road.across(np.array([one.middle(0.0)[:2]]))[0])
+            if not one.is_mover and abs(across) > limit > 0.0:
+                shift = math.copysign(limit, across) - across
+                self._move(number, shift * np.array([-math.sin(road.angle), math.cos(road.angle)]))
 
     def _line_up(
         self,
@@ -234,6 +260,9 @@ class _Zones:
             if across.min() >= half_m or across.max() <= -half_m:
                 continue
             side = math.copysign(1.0, left[1]) if abs(left[1]) > 0.1 else 1.0
+            mean = float(across.mean())
+            if members[0].object_index in self._related and abs(mean) > 0.4 * half_m:
+                side = math.copysign(1.0, mean)
             edge = across.min() if side > 0.0 else across.max()
             shift = (side * (half_m + _CLEAR_M) - float(edge)) * left
             places = (corners - line.offset) @ along
@@ -245,6 +274,31 @@ class _Zones:
             taken.append((low + step, high + step))
             for number in unit:
                 self._move(number, shift + step * along)
+
+    def keep_above_ground(self, numbers: Iterable[int]) -> None:
+        """What flies begins and ends no lower than on the ground."""
+        for number in numbers:
+            one = self.actors[number]
+            lows = [one.lowest_m(time) for time in self._times] if is_centred(one.noun) else [0.0]
+            if min(lows) < -_CLEAR_M and one.noun.habitat == "air":
+                x, y, z = one.track.start
+                track = replace(one.track, start=(x, y, z - min(lows)))
+                self.actors[number] = replace(one, track=track)
+
+    def keep_ashore(self, half_m: float) -> None:
+        """What is on the ground is on the near side of all that floats or swims."""
+        afloat = [one for one in self.actors if is_afloat(one)]
+        if not afloat:
+            return
+        edge = min(float(one.corners(0.0)[:, 1].min()) for one in afloat) - half_m - _SHORE_M
+        for unit in self._units:
+            members = [self.actors[number] for number in unit]
+            if all(one.noun.habitat == "ground" and not is_afloat(one) for one in members):
+                far = max(
+                    float(one.corners(time)[:, 1].max()) for one in members for time in self._times
+                )
+                for number in unit if far > edge else ():
+                    self._move(number, np.array([0.0, edge - far]))
 
     def lead_across(self, line: RoadLine) -> None:
         """Those who cross do so at right angles, beyond where vehicles come."""

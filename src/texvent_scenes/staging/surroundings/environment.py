@@ -38,6 +38,8 @@ _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
 _PAVEMENT_M, _VERGE_M = 1.4, 0.5
 """Distances from the edge of the road to pedestrians and to standing objects beside it."""
+_KERB_M = 0.2
+"""From the edge of the road to a vehicle that stands there."""
 _ROADSIDE = 1.4
 """Distance of walkers from the middle of a road without pavement, in lanes."""
 _USUAL_S = 2.0
@@ -108,6 +110,9 @@ def _straight_road(
     # Ducks cross a road too.
     movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
     drivers = [one for one in movers if one.noun.motion == "drive"]
+    parked = [one for one in grounded if one.noun.motion == "drive" and one not in movers]
+    if parked and not (drivers or has_pavement or any(one.goes_across for one in movers)):
+        return _road_beside(parked, grounded, 2.0 * lane_m)
     if drivers or (movers and not movers[0].goes_across):
         return _road_of(drivers or movers, lane_m, has_pavement=has_pavement)
     if movers:
@@ -116,13 +121,23 @@ def _straight_road(
         x, y, _ = middle.middle(0.5 * _USUAL_S)
         return RoadLine(movers[0].track.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     nouns = {one.noun.name for one in actors}
-    drive = any(one.noun.motion == "drive" for one in actors)
-    may_be_beside = not drive and (has_pavement or nouns & nouns_with("beside a road"))
+    if parked:
+        return _road_beside(parked, grounded, 2.0 * lane_m)
+    may_be_beside = has_pavement or nouns & nouns_with("beside a road")
     if nouns and may_be_beside and not nouns & nouns_with("on a road"):
         farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
         return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
     y = grounded[0].track.at(0.0).position[1] if grounded else usual_y
     return RoadLine(offset=(0.0, float(y)))
+
+
+def _road_beside(parked: Sequence[Actor], actors: Sequence[Actor], half_m: float) -> RoadLine:
+    """The road at whose edge vehicles stand, on the side where least of the others are on it."""
+    y = float(parked[0].middle(0.0)[1])
+    gap = max(half_m - 0.5 * max(one.model.width for one in parked) - _KERB_M, 0.0)
+    others = [one.middle(0.0)[1] for one in actors if one.noun.motion != "drive"]
+    ways = {sign: sum(abs(each - y - sign * gap) < half_m for each in others) for sign in (-1, 1)}
+    return RoadLine(offset=(0.0, y + min(ways, key=lambda sign: ways[sign]) * gap))
 
 
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
@@ -163,6 +178,12 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     ]  # fmt: skip
 
 
+def is_afloat(actor: Actor) -> bool:
+    """Whether it is in water or on it, by itself."""
+    is_of_water = actor.noun.habitat == "water" and actor.track.anchor is None
+    return is_of_water or actor.track.at(0.0).activity in _AFLOAT
+
+
 def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
@@ -172,10 +193,9 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
-    swimmers = [
-        one for one in actors if one.track.at(0.0).activity in _AFLOAT
-        or (one.noun.habitat == "water" and one.track.anchor is None)
-    ]  # fmt: skip
+    swimmers = [one for one in actors if is_afloat(one)]
+    on_land = [one for one in actors if one.noun.habitat == "ground" and one.track.anchor is None
+               and one not in swimmers]  # fmt: skip
     gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
     if not actors:
         gap = half
@@ -189,6 +209,12 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
         gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + _LEAST_BANK_M)
     else:
         gap = -_NEARER * path.framing.distance_m
+        away = np.array([-math.sin(angle), math.cos(angle)])
+        ways = [
+            [(one.middle(0.0)[:2] - (x, y)) @ away for one in each] for each in (on_land, swimmers)
+        ]
+        if on_land and max(ways[0]) < min(ways[1]):  # between both
+            gap = 0.5 * float(max(ways[0]) + min(ways[1]))
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
 

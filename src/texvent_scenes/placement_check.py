@@ -1,0 +1,215 @@
+"""Placement check: bodies that stand on nothing, sink, go through others or are in a wrong zone.
+
+Boxes at a few instants decide. What flies, swims or falls, is held, or is put at a place in metres
+needs no support.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.relation_check import Violation
+from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.placement.zones import zone_of
+from texvent_scenes.staging.surroundings.environment import RoadLine
+
+_FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
+                   "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
+                   "dive", "spin", "sway"})  # fmt: skip
+"""Motions that need no support."""
+_SHARED = frozenset({"on", "in", "at", "under", "hold", "wear", "ride", "push", "kick", "throw",
+                     "collide", "through", "with", "from", "follow"})  # fmt: skip
+"""Relations in which two bodies may touch."""
+_ROOM_M, _ROOM = 0.06, 0.08
+"""Gap below a body that is no gap: metres, and share of its height on top of that."""
+_SLIM, _CENTRAL = 0.2, 0.25
+"""Half of the middle of a body that no larger one may have a part in, and of its foot that
+something must be below, in extents of its box."""
+_LEAST_INSTANTS = 2
+"""Instants at which a fault is one."""
+_CROSSING = 0.7
+"""Least share of the way of one who crosses a road that leads across it."""
+_SHALLOW_M = 0.4
+"""From an edge of a road or of water to what is beyond it."""
+
+
+def find_misplaced(
+    description: SceneDescription,
+    place: PlaceModel,
+    surroundings: Environment,
+    actors: Sequence[Actor],
+    times: Sequence[float],
+) -> Iterator[Violation]:
+    """Bodies that are where they cannot be; words that say so are not shown.
+
+    Args:
+        description: the scene.
+        place: its ground and road.
+        surroundings: where that road or the water is.
+        actors: bodies of its objects.
+        times: instants, s.
+    """
+    bodies = _Bodies(description, actors, times)
+    x, y = map(float, surroundings.road_offset)
+    line = RoadLine(surroundings.road_angle, (x, y))
+    half_m = float(surroundings.road_half_width) if place.ground is not Ground.LAKE else 0.0
+    for number, one in enumerate(actors):
+        lost = [*bodies.list_unborne(number, place)]
+        is_free = description.objects[one.object_index].placement == "lane"
+        if not (lost or is_free) and bodies.needs_support(number):
+            lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
+        for kind, value, text in lost:
+            yield Violation(kind, value, f"the {one.noun.name} {text}")
+        for relation in description.relations if lost else ():
+            if relation.subject == one.object_index and relation.kind in ("on", "above"):
+                yield Violation("relation", relation.kind, "")
+    yield from bodies.find_intersections()
+
+
+def _list_strays(
+    one: Actor, place: PlaceModel, line: RoadLine, half_m: float, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Faults of a body on the road, on its way over it, or in the water beside a shore."""
+    corners = np.array([one.corners(time)[:, :2] for time in times])
+    feet = line.across(corners.reshape(-1, 2)).reshape(len(times), -1).mean(axis=1)
+    if place.has_road and zone_of(one.noun) == "pavement":
+        gone = np.linalg.norm(one.middle(times[-1])[:2] - one.middle(times[0])[:2])
+        is_beside = np.ptp(feet) < _CROSSING * gone or np.abs(feet).min() > half_m
+        if one.goes_across and is_beside:
+            yield Violation("direction", "across", "crossing the road")
+        elif not one.goes_across and (np.abs(feet) < half_m - _SHALLOW_M).all():
+            yield Violation("zone", "", "on the road")
+    if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
+        far_m = half_m or math.inf
+        if ((feet > _SHALLOW_M - half_m) & (feet < far_m - _SHALLOW_M)).all():
+            yield Violation("zone", "", "in the water")
+
+
+class _Bodies:
+    """Boxes of actors and of their parts at the instants."""
+
+    def __init__(
+        self, description: SceneDescription, actors: Sequence[Actor], times: Sequence[float]
+    ) -> None:
+        self._description, self._actors, self._times = description, actors, times
+        corners = np.array([[one.corners(time) for time in times] for one in actors])
+        corners = corners.reshape(len(actors), len(times), 8, 3)
+        self._low, self._high = corners.min(axis=2), corners.max(axis=2)
+        self._parts: dict[tuple[int, int], Float64Array] = {}
+        self._bound: Mapping[int, set[int]] = {n: {n} for n in range(len(description.objects))}
+        for one in description.relations:
+            for target in one.targets if one.kind in _SHARED else ():
+                self._bound[one.subject].add(target)
+                self._bound[target].add(one.subject)
+
+    def needs_support(self, number: int) -> bool:
+        """Whether a body rests on the ground or on another one."""
+        one, said = (
+            self._actors[number],
+            self._description.objects[self._actors[number].object_index],
+        )
+        does = {motion.kind for motion in said.motions} | {one.noun.motion}
+        acts = {relation.kind for relation in self._description.relations
+                if one.object_index in relation.targets}  # fmt: skip
+        is_put = said.position_m is not None or said.height_m is not None
+        is_free = bool(does & _FREE) or bool(acts & {"throw", "kick", "hold", "wear", "collide"})
+        is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
+        is_above = any(relation.kind == "above" and relation.subject == one.object_index
+                       for relation in self._description.relations)  # fmt: skip
+        return (
+            one.noun.habitat in ("ground", "fixed") and one.track.anchor is None
+            and not (is_put or is_free) and (is_body or not is_above)
+        )  # fmt: skip
+
+    def _list_parts(self, number: int, at: int) -> Float64Array:
+        """[k, 2, 3] boxes around its parts at an instant, m."""
+        if (number, at) not in self._parts:
+            shapes = self._actors[number].place(self._times[at])
+            parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
+            self._parts[number, at] = np.array(parts).reshape(-1, 2, 3)
+        return self._parts[number, at]
+
+    def _meets(self, low: Float64Array, high: Float64Array, number: int, at: int) -> bool:
+        """Whether a part of a body is in a box at an instant."""
+        if (low > self._high[number, at]).any() or (high < self._low[number, at]).any():
+            return False
+        parts = self._list_parts(number, at)
+        return bool(((parts[:, 0] < high) & (parts[:, 1] > low)).all(axis=1).any())
+
+    def _is_borne(self, number: int, at: int) -> bool:
+        """Whether another body is below the middle of its foot, or holds it."""
+        low, high = self._low[number, at], self._high[number, at]
+        middle, size = 0.5 * (low + high), high - low
+        foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * size[2]])
+        top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * size[2]])
+        return any(
+            self._meets(foot, top, other, at)
+            for other in range(len(self._actors))
+            if other != number
+        )
+
+    def is_alone(self, number: int) -> bool:
+        """Whether nothing else bears it."""
+        return not any(self._is_borne(number, at) for at in range(len(self._times)))
+
+    def list_unborne(self, number: int, place: PlaceModel) -> Iterator[Violation]:
+        """Faults of a body that hangs in the air or is under the ground."""
+        if place.ground in (Ground.NONE, Ground.UNDERWATER):
+            return
+        if self.needs_support(number) and self._hangs(number):
+            yield Violation("support", "", "above the ground with nothing below it")
+        if place.ground is not Ground.SEA and not place.has_shore and self._sinks(number):
+            yield Violation("support", "", "partly under the ground")
+
+    def _hangs(self, number: int) -> bool:
+        """Whether nothing is below it at some instants."""
+        tall = self._high[number, :, 2] - self._low[number, :, 2]
+        gaps: NDArray[np.bool_] = self._low[number, :, 2] > _ROOM_M + _ROOM * tall
+        if self._actors[number].noun.name in PERSON_NOUNS and not gaps.all():
+            return False  # it jumps
+        return (
+            sum(not self._is_borne(number, int(at)) for at in np.flatnonzero(gaps))
+            >= _LEAST_INSTANTS
+        )
+
+    def _sinks(self, number: int) -> bool:
+        """Whether a part of it is under the ground at some instants."""
+        one = self._actors[number]
+        if one.noun.habitat == "water" or one.track.anchor is not None:
+            return False
+        least = -_ROOM_M - _ROOM * (self._high[number, :, 2] - self._low[number, :, 2])
+        low = np.flatnonzero(self._low[number, :, 2] < least)  # its box may lean out of its shape
+        under = [one.lowest_m(self._times[int(at)]) < least[at] for at in low]
+        return bool(sum(under) >= _LEAST_INSTANTS)
+
+    def find_intersections(self) -> Iterator[Violation]:
+        """Pairs of bodies, of which the middle of one is in the other."""
+        alone = [n for n, one in enumerate(self._actors) if one.track.anchor is None
+                 and self._description.objects[one.object_index].position_m is None]  # fmt: skip
+        for first, second in itertools.combinations(alone, 2):
+            one, other = self._actors[first], self._actors[second]
+            is_shared = other.object_index in self._bound[one.object_index] - {one.object_index}
+            if is_shared or {one.noun.name, other.noun.name} & nouns_with("passage"):
+                continue
+            met = sum(self._cross(first, second, at) for at in range(len(self._times)))
+            if met >= _LEAST_INSTANTS:
+                yield Violation("support", "", f"the {one.noun.name} and the {other.noun.name} "
+                                "apart: one goes through the other")  # fmt: skip
+
+    def _cross(self, first: int, second: int, at: int) -> bool:
+        """Whether the middle of the smaller one is in a part of the other one."""
+        small, large = sorted((first, second), key=lambda one: self._actors[one].size_m)
+        low, high = self._low[small, at], self._high[small, at]
+        middle, slim = 0.5 * (low + high), _SLIM * (high - low)
+        return self._meets(middle - slim, middle + slim, large, at)

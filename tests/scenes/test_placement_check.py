@@ -1,0 +1,160 @@
+"""Bodies stand on something, in no other body, and where their kind may, or the report says so."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.scenes.staged import DURATION_S, SIZE, stage, thing
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.placement_check import find_misplaced
+from texvent_scenes.scene_input import understand
+from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.compose import compose_scene
+from texvent_scenes.staging.surroundings.environment import RoadLine
+
+TIMES_S = np.linspace(0.0, DURATION_S, 7)
+
+
+def staged(text):
+    said = understand(text, NOUNS)
+    return said, compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
+
+
+def faults(said, scene, actors=None):
+    found = find_misplaced(
+        said, scene.place, scene.environment(0.0), actors or scene.actors, TIMES_S
+    )
+    return [one.line for one in found if one.line]
+
+
+def road_of(scene):
+    seen = scene.environment(0.0)
+    x, y = map(float, seen.road_offset)
+    return RoadLine(seen.road_angle, (x, y)), float(seen.road_half_width)
+
+
+def across(scene, noun):
+    """[n] metres from the line of the road or shore to the corners of a body over the clip."""
+    body = next(one for one in scene.actors if one.noun.name == noun)
+    return road_of(scene)[0].across(np.vstack([body.corners(t)[:, :2] for t in TIMES_S]))
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a robot arm above a conveyor belt", "robot arm"), ("a metronome above a piano", "metronome"),
+     ("a horse above a house", "horse")],
+)  # fmt: skip
+def test_what_neither_flies_nor_stands_on_something_is_named(text, noun):
+    said, scene = staged(text)
+    if not any(one.kind == "above" for one in said.relations):  # refused by the reader
+        assert "above" in said.words.not_understood
+        return
+    assert faults(said, scene) == [f"the {noun} above the ground with nothing below it"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a drone hovers above a car", "a cat walks across a table", "a man rides a horse",
+     "a boy jumps", "a kite flies over a beach", "a ball falls onto a table",
+     "two boxes on a shelf", "a woman sits on a bench next to a tree", "a bird lands on a fence",
+     "a train in a tunnel", "a man carries a box past a dog", "a boat on a lake",
+     "a person does a handstand", "a car drives on a road", "a book on a desk in an office",
+     "a balloon rises", "three dogs run"],
+)  # fmt: skip
+def test_what_stands_flies_or_is_held_has_no_fault(text):
+    assert faults(*staged(text)) == []
+
+
+@pytest.mark.parametrize(
+    ("shift", "line"),
+    [((0.0, 0.0, -0.5), "the dog partly under the ground"),
+     ((0.0, 0.0, 1.0), "the dog above the ground with nothing below it"),
+     ((0.0, 0.0, 0.0), None)],
+)  # fmt: skip
+def test_a_body_that_is_lifted_hangs_and_one_that_is_lowered_sinks(shift, line):
+    dog = thing("dog", ("stand",))
+    scene = stage(dog)
+    (one,) = scene.actors
+    start = tuple(np.add(one.track.start, shift))
+    moved = replace(one, track=replace(one.track, start=start))
+    said = SceneDescription(objects=(dog,), place=Place("grass", is_empty=True))
+    assert faults(said, scene, [moved]) == ([line] if line else [])
+
+
+@pytest.mark.parametrize("apart_m", [0.0, 3.0])
+def test_bodies_in_the_same_place_go_through_each_other(apart_m):
+    objects = thing("man", ("stand",)), thing("barrel", ("stand",))
+    scene = stage(*objects)
+    man, barrel = scene.actors
+    x, y, _ = man.track.start
+    other = replace(barrel, track=replace(barrel.track, start=(x + apart_m, y, 0.0)))
+    said = SceneDescription(objects=objects, place=Place("grass", is_empty=True))
+    lines = ["the man and the barrel apart: one goes through the other"]
+    assert faults(said, scene, [man, other]) == ([] if apart_m else lines)
+
+
+@pytest.mark.parametrize("noun", ["drone", "bird", "airplane", "balloon", "butterfly", "kite"])
+@pytest.mark.parametrize("way", ["up", "down"])
+def test_nothing_flies_below_the_ground(noun, way):
+    (one,) = stage(thing(noun, ("fly", way))).actors
+    assert min(one.lowest_m(t) for t in np.linspace(0.0, DURATION_S, 9)) > -0.61
+
+
+@pytest.mark.parametrize(
+    ("text", "vehicle", "other"),
+    [("a bench next to a parked car on a street", "car", "bench"),
+     ("a man stands in front of a van on a road", "van", "man"),
+     ("a dog sits behind a parked truck", "truck", "dog")],
+)  # fmt: skip
+def test_a_vehicle_at_rest_stands_at_the_edge_of_its_road_and_others_beside_it(
+    text, vehicle, other
+):
+    said, scene = staged(text)
+    half_m = road_of(scene)[1]
+    assert half_m - 0.5 < np.abs(across(scene, vehicle)).max() < half_m + 0.05
+    assert np.abs(across(scene, other)).min() >= half_m - 0.05
+    assert faults(said, scene) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a man crosses the street towards a bus stop", "bus stop"),
+     ("a woman crosses a road next to a bench", "bench"),
+     ("a dog crosses the road near a mailbox", "mailbox")],
+)  # fmt: skip
+def test_who_crosses_does_so_over_the_road_and_what_stands_by_is_beside_it(text, noun):
+    said, scene = staged(text)
+    assert np.abs(across(scene, noun)).min() >= road_of(scene)[1] - 0.05
+    assert faults(said, scene) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "dry", "wet"),
+    [("a man stands by a lake with ducks", "man", "duck"),
+     ("a girl and three swans at a pond", "girl", "swan"),
+     ("a dog walks along a river, a boat passes", "dog", "boat")],
+)  # fmt: skip
+def test_those_on_foot_stand_ashore_of_what_floats(text, dry, wet):
+    said, scene = staged(text)
+    half_m = road_of(scene)[1] if said.place.name == "river" else 0.0
+    assert across(scene, dry).max() < -half_m + 0.05
+    assert np.median(across(scene, wet)) > -half_m
+    assert faults(said, scene) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "top"),
+    [("a cat walks across a table", "cat", "table"),
+     ("a toy car rolls across a desk", "toy car", "desk"),
+     ("a ball rolls on a table", "ball", "table")],
+)  # fmt: skip
+def test_what_goes_along_a_table_stays_on_it(text, noun, top):
+    _, scene = staged(text)
+    bodies = {one.noun.name: one for one in scene.actors}
+    table = bodies[top].corners(0.0)
+    middles = np.array([bodies[noun].middle(t)[:2] for t in TIMES_S])
+    assert (middles > table[:, :2].min(axis=0)).all()
+    assert (middles < table[:, :2].max(axis=0)).all()
+    assert np.ptp(middles, axis=0).max() > 0.3
