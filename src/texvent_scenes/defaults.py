@@ -167,6 +167,8 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
     direction = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
     belt_m_s = trait_value("belt speed", noun.name)
+    if direction == "left" and belt_m_s is not None and noun.name in nouns_with("flat pattern"):
+        direction = "clockwise"  # backwards: its belt runs to the right of who sees its front
     if motion.rate_hz is not None and own_hz is not None:
         pace = motion.rate_hz / own_hz
     elif motion.speed_m_s is not None and belt_m_s is not None:

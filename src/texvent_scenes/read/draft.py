@@ -331,6 +331,9 @@ class SceneDraft:
             elif not self.set_scene(token):
                 continue
             self.show(token)
+        if name == "plain":  # "a plain black background": alone, the word has several senses
+            said = (one for one in self.tokens if one.text == name and one.at < head.at)
+            self.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
         self.set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
         if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):

@@ -47,6 +47,7 @@ _ALIKE = (
     ("clockwise", "counter-clockwise"),
 )
 """Directions of travel and of turns: if one of them changes something, each says something."""
+_OPPOSITE = (("left", "right"), ("towards", "away"), ("forward", "backward"), ("up", "down"))
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
@@ -120,6 +121,8 @@ class _Body:
         given = getattr(one.motions[number], name)
         is_headed = name == "direction" and one.heading_deg is not None
         probes = (given,) if is_headed else _probes(given)
+        if name == "direction" and self.noun.is_working:  # it may go to and fro along one way
+            probes = next((pair for pair in _OPPOSITE if given in pair), probes)
         return any(self.differ(_with(one, number, **{name: probe}), without) for probe in probes)
 
     def does(self, one: SceneObject, number: int) -> bool:

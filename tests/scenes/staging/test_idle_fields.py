@@ -212,8 +212,9 @@ def test_words_whose_fields_change_nothing_are_not_shown():
     words = understand("a red car drives left quickly at 20 km/h", NOUNS).words
     assert "quickly" not in words.shown
     assert words.not_shown == ("quickly (speed_m_s takes its place; leave one of them out)",)
-    words = understand("a grating moves right and a car drives right", NOUNS).words
+    words = understand("a grating moves up and a car drives right", NOUNS).words
     assert "right" in words.shown
+    assert [one.partition(" (")[0] for one in words.not_shown] == ["up"]
     prompt = "a dog drives at 600 rpm on wet grass"
     words, reading = understand(prompt, NOUNS).words, read(prompt)
     assert [one.partition(" (")[0] for one in words.not_shown] == ["600 rpm", "wet"]

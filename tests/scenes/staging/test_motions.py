@@ -208,6 +208,19 @@ def test_a_flat_pattern_faces_the_camera_all_along(noun, said):
     np.testing.assert_allclose(fronts, np.tile([0.0, -1.0, 0.0], (4, 1)), atol=1e-9)
 
 
+@pytest.mark.parametrize(("said", "sign"), [("right", 1), ("left", -1), (None, 1)])
+def test_a_grating_drifts_where_it_is_told_to(said, sign):
+    (does,) = decide_motions((Motion("move", said),), NOUNS["grating"])
+    actor = stage(thing("grating", (does.kind, does.direction)), place=None).actors[0]
+    placed = [actor.place(time) for time in (1.0, 1.1)]
+    to_right = [
+        [(one.to_world[:, :3] @ part.to_body[:, 3])[0] for part in one.parts] for one in placed
+    ]
+    drift = np.diff(to_right, axis=0)[0, 2:-1]  # bars that no edge of the board cuts
+    size = actor.model.height / 1.2
+    np.testing.assert_allclose(drift, sign * 0.0216 * size, rtol=1e-6)
+
+
 def test_a_flat_pattern_turns_clockwise_for_the_viewer():
     path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].track
     up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]

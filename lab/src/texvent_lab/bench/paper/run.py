@@ -66,7 +66,10 @@ ENTRIES: Mapping[str, Entry] = {
 get motion compensation; the others get the frames alone. `find_columns` has those that can run."""
 CLASSIFIER = ClassNetwork(name="resnet34", representation="binary-event-image")
 """N-ImageNet's published classifier."""
-OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
+OWN_MODELS = (
+    "the other simulators are texvent's models of them; docs/simulators.md of its repository says "
+    "how close"
+)
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
 PROMPT = "a red car drives left past two trees at dusk"
 TIMED_PAIRS, REPEATS = 12, 3
@@ -165,8 +168,9 @@ def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
     if config.rvt_weights is None or not config.sources:
         return Measured(
             needs=[
-                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from, and how one is "
-                "trained here) and a recording, such as texvent data pull slider_depth"
+                "EQS; --rvt-weights FILE (docs/metrics.md of texvent's repository says where it "
+                "comes from, and how one is trained here) and a recording, such as texvent data "
+                "pull slider_depth"
             ]
         )
     eqs = load_eqs(config.rvt_weights)
