@@ -1,6 +1,7 @@
 """Trainings of reconstruction that differ in one property of the clips, and their scores."""
 
 import sys
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from texvent.dataset import read_specification
 from texvent.dataset.generation.recipe import Recipe
 from texvent.errors import ConfigError
+from texvent.settings.config_files import read_document as read_configuration
 from texvent_lab.bench.document import read_document
 from texvent_lab.bench.page import page_files
 from texvent_lab.bench.reconstruction.factors import FactorScore, factors_table
@@ -43,6 +45,9 @@ training = "training.toml"
 [factors."as it is"]
 [factors."threshold .4"]
 options = {contrast_threshold = 0.4}
+[factors."frame times"]
+video = {fps = 40}
+options = {interpolate = "none", timestamp_rule = "end"}
 [factors.esim]
 specification = "tiny.toml"
 variant = "esim"
@@ -101,12 +106,25 @@ def test_what_cannot_be_changed_is_refused(folder, changes, message):
 
 def test_each_factor_has_a_training_of_its_own(folder):
     found = trainings(folder / "factors.toml", folder / "work", None)
-    assert list(found) == ["as it is", "threshold .4", "esim"]
+    assert list(found) == ["as it is", "threshold .4", "frame times", "esim"]
+    slow = read_specification(found["frame times"].data.specification)
+    assert slow.options["fps"] == 40
     assert found["esim"].data.variant == "esim"
     written = read_specification(found["threshold .4"].data.specification)
     assert written.variants[0].options == {"contrast_threshold": 0.4}
     with pytest.raises(ConfigError, match="unknown factor 'noise'"):
         trainings(folder / "factors.toml", folder / "work", ["noise"])
+
+
+def test_every_factor_of_the_repository_can_be_made(tmp_path):
+    configs = Path(__file__).parents[3] / "configs/training"
+    factors = read_configuration(configs / "reconstruction-factors.toml")["factors"]
+    names = [name for name, one in factors.items() if "specification" not in one]  # of own films
+    found = trainings(configs / "reconstruction-factors.toml", tmp_path, names, Scale(clips=12))
+    assert len(found) == len(names) > 5
+    for config in found.values():
+        clips = Recipe.of(read_specification(config.data.specification)).clips
+        assert clips.counts == {"train": 12, "validation": 2}
 
 
 def test_the_command_names_what_will_not_do(folder, monkeypatch, capsys):
@@ -136,17 +154,17 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     write_recording(folder / "bar")
     monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))  # without LPIPS' weights
     words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
-    words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,threshold .4"]
+    words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,frame times"]
     words += ["--clips", "1", "--epochs", "1"]
     monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
     assert main() == 0
     rows = read_document(folder / "a.json")["rows"]
-    assert [one["factor"] for one in rows] == ["as it is", "threshold .4"]
+    assert [one["factor"] for one in rows] == ["as it is", "frame times"]
     assert {len(values) for one in rows for values in one["scores"].values()} == {1}
     monkeypatch.setattr(sys, "argv", [*sys.argv, "--overwrite"])
     assert main() == 0
     assert read_document(folder / "a.json")["rows"] == rows
-    assert "| threshold .4 |" in capsys.readouterr().out
+    assert "| frame times |" in capsys.readouterr().out
     document = read_document(folder / "a.json")
     assert document["protocol"] == {"networks per row": 1, "clips": 1, "epochs": 1}
     pages = page_files(document, "reconstruction-factors.json")

@@ -10,8 +10,9 @@ last epoch, since two clips that validate cannot choose one. Trainings are kept.
     python -m texvent_lab.measure.reconstruction_factors reconstruction-factors.toml slider_depth
         --work work -o factors.json
 
-The file names the training and, per factor, `options` of the simulator, a number of `scenes`, each
-simulated so often that clips are as many, or another `specification` and its `variant`.
+The file names the training and, per factor, `options` of the simulator, those of the `video`, a
+number of `scenes`, each made so often that clips are as many, or another `specification` and its
+`variant`.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.run import read_training
 from texvent_lab.train.schedule import Hardware
 
-KEYS = ("options", "scenes", "specification", "variant")
+KEYS = ("options", "video", "scenes", "specification", "variant")
 
 
 @dataclass(frozen=True)
@@ -74,8 +75,9 @@ def changed(
     Args:
         spec: sources of the clips.
         variant: of it.
-        changes: `options`, and the number of `scenes` of its training clips, each with other seeds
-            so often that clips are as many; those of other splits stay.
+        changes: `options` of the simulator, those of the `video`, and the number of `scenes` of its
+            training clips, each with other seeds so often that clips are as many; those of other
+            splits stay.
         listed: file to write, that lists the clips where some are left out.
         clips: to learn from; None: all.
 
@@ -86,7 +88,11 @@ def changed(
     if variant not in known:
         raise ConfigError(f"unknown variant {shown(variant)}; {suggest(variant, tuple(known))}")
     options = {**known[variant].options, **changes.get("options", {})}
-    spec = dataclasses.replace(spec, variants=(Variant(name=variant, options=options),))
+    spec = dataclasses.replace(
+        spec,
+        options={**spec.options, **changes.get("video", {})},
+        variants=(Variant(name=variant, options=options),),
+    )
     count = changes.get("scenes")
     if count is None and clips is None:
         return spec
