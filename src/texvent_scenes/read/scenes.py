@@ -476,7 +476,7 @@ class _SentenceReader:
         return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
 
     def _ridden(self, index: int, kind: str) -> int:
-        """What goes where its rider goes: "rides a bicycle past a tree"."""
+        """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
         relations = self._draft.things[index]["relations"]
         ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
         is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}

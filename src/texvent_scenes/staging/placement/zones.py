@@ -276,7 +276,7 @@ class _Zones:
                 self._move(number, shift + step * along)
 
     def keep_above_ground(self, numbers: Iterable[int]) -> None:
-        """What flies begins and ends no lower than on the ground."""
+        """Flights that begin and end no lower than on the ground."""
         for number in numbers:
             one = self.actors[number]
             lows = [one.lowest_m(time) for time in self._times] if is_centred(one.noun) else [0.0]
@@ -286,7 +286,7 @@ class _Zones:
                 self.actors[number] = replace(one, track=track)
 
     def keep_ashore(self, half_m: float) -> None:
-        """What is on the ground is on the near side of all that floats or swims."""
+        """Bodies on the ground, put on the near side of all that floats or swims."""
         afloat = [one for one in self.actors if is_afloat(one)]
         if not afloat:
             return

@@ -187,7 +187,7 @@ def simulate(run: Run, test: Test, name: str) -> str:
 
 
 def _simulator(run: Run, test: Test, arm: Arm) -> Simulate:
-    """What makes the events of an arm of the frames of a clip."""
+    """Maker of the events of an arm of the frames of a clip."""
     files = arm.events
     if files is not None:
         names = {run.frames_path(arm, one): clip_name(test, one) for one in arm.items}
