@@ -191,7 +191,7 @@ NO_DRAWS = ClipRanges(
     hot_noise=(0.0, 0.0), pause=(0.0, 0.0), flip=0.0, has_phase=False,
 )  # fmt: skip
 RECOMMENDED = PhysicalRanges(noise_curve="0:1 255:1", noise_scale=(0.05, 0.5))
-"""Ranges that teach most by docs/teaching.md: noise on every pixel, here .05 to .5 events per second,
+"""Ranges that teach most by docs/teaching.md: noise on every pixel, here .05 to .5 events a second,
 and thresholds within the range of cameras; the same as configs/training/recommended.toml."""
 Ranges: TypeAlias = ClipRanges | PhysicalRanges
 RANGES: Mapping[str, Ranges] = MappingProxyType(

@@ -14,8 +14,8 @@ from texvent_scenes import read as reader
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
-WORDS = """a an the this that these those his her its their it they them him he she and or but while as
-which who where when is are was were be of there then so also own"""
+WORDS = """a an the this that these those his her its their it they them him he she and or but while
+as which who where when is are was were be of there then so also own"""
 FUNCTION_WORDS = frozenset(WORDS.split())
 """Articles, pronouns, copulas and conjunctions: all other words of a sentence are accounted for."""
 SUBJECTS = ("a dog", "two red balls", "only one man", "some wugs", "a high-speed train",
