@@ -134,6 +134,7 @@ def test_who_crosses_does_so_over_the_road_and_what_stands_by_is_beside_it(text,
     ("text", "dry", "wet"),
     [("a man stands by a lake with ducks", "man", "duck"),
      ("a girl and three swans at a pond", "girl", "swan"),
+     ("a man sits on a bench by a lake while a duck swims", "bench", "duck"),
      ("a dog walks along a river, a boat passes", "dog", "boat")],
 )  # fmt: skip
 def test_those_on_foot_stand_ashore_of_what_floats(text, dry, wet):
