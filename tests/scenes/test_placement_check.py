@@ -57,6 +57,7 @@ def test_what_neither_flies_nor_stands_on_something_is_named(text, noun):
 @pytest.mark.parametrize(
     "text",
     ["a drone hovers above a car", "a cat walks across a table", "a man rides a horse",
+     "a cyclist rides past a parked van", "a bus passes a row of parked cars",
      "a boy jumps", "a kite flies over a beach", "a ball falls onto a table",
      "two boxes on a shelf", "a woman sits on a bench next to a tree", "a bird lands on a fence",
      "a train in a tunnel", "a man carries a box past a dog", "a boat on a lake",

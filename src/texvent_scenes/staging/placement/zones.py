@@ -196,7 +196,7 @@ class _Zones:
                 continue
             if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
                 self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
-        self._keep_on_road(drivers, lane_m, road)
+        self._keep_on_road([] if goers else drivers, lane_m, road)
 
     def _keep_on_road(self, drivers: Sequence[int], lane_m: float, road: RoadLine) -> None:
         """Vehicles at rest stand on the edge of the road at most, one behind the other."""
