@@ -57,6 +57,7 @@ def test_what_neither_flies_nor_stands_on_something_is_named(text, noun):
 @pytest.mark.parametrize(
     "text",
     ["a drone hovers above a car", "a cat walks across a table", "a man rides a horse",
+     "a cyclist rides past a parked van", "a bus passes a row of parked cars",
      "a boy jumps", "a kite flies over a beach", "a ball falls onto a table",
      "two boxes on a shelf", "a woman sits on a bench next to a tree", "a bird lands on a fence",
      "a train in a tunnel", "a man carries a box past a dog", "a boat on a lake",
@@ -134,6 +135,7 @@ def test_who_crosses_does_so_over_the_road_and_what_stands_by_is_beside_it(text,
     ("text", "dry", "wet"),
     [("a man stands by a lake with ducks", "man", "duck"),
      ("a girl and three swans at a pond", "girl", "swan"),
+     ("a man sits on a bench by a lake while a duck swims", "bench", "duck"),
      ("a dog walks along a river, a boat passes", "dog", "boat")],
 )  # fmt: skip
 def test_those_on_foot_stand_ashore_of_what_floats(text, dry, wet):

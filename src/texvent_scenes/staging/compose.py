@@ -52,8 +52,8 @@ _THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
 """Thread on which hangs what is in the air until it falls; its length, m."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
-_SUNK, _WADING = -0.18, -0.55
-"""Height of the origin of swimmers at the surface, in their sizes; of those with legs."""
+_SUNK, _WADING, _AWASH = -0.18, -0.55, -0.4
+"""Height of the origin of swimmers at the surface, in their sizes; of those with legs; of rocks."""
 
 
 @dataclass(frozen=True)
@@ -283,5 +283,6 @@ def _choose_levels(
             one.noun for one in description.objects if one.motion and one.motion.kind == "swim"
         } - {*swimmers, *PERSON_NOUNS}
         swimmers |= dict.fromkeys(wading, _WADING)
+        swimmers |= {"rock": _AWASH} if place.ground is Ground.SEA else {}
         return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
     return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

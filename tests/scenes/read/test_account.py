@@ -14,9 +14,13 @@ from texvent_scenes import read as reader
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
-WORDS = """a an the this that these those his her its their it they them him he she and or but while
-as which who where when is are was were be of there then so also own"""
-FUNCTION_WORDS = frozenset(WORDS.split())
+FUNCTION_WORDS = frozenset(
+    re.findall(
+        r"\w+",
+        "a an the this that these those his her its their it they them him he she and or but while "
+        "as which who where when is are was were be of there then so also own",
+    )
+)
 """Articles, pronouns, copulas and conjunctions: all other words of a sentence are accounted for."""
 SUBJECTS = ("a dog", "two red balls", "only one man", "some wugs", "a high-speed train",
             "a man in a red jacket", "four red and two green cubes", "a very small bird",

@@ -116,6 +116,21 @@ def _list_units(description: SceneDescription, actors: Sequence[Actor]) -> list[
     return list(groups.values())
 
 
+def _beyond(taken: list[tuple[float, float]], low: float, high: float) -> float:
+    """Metres to where an interval meets none that is taken, which it then is too."""
+    step = 0.0
+    for begin, end in sorted(taken):
+        if low + step < end + 0.3 and high + step > begin - 0.3:
+            step = end + 0.3 - low
+    taken.append((low + step, high + step))
+    return step
+
+
+def _keeps_afloat(one: Actor) -> bool:
+    """Whether it is no body on land: it floats, swims or flies."""
+    return is_afloat(one) or one.noun.habitat not in ("ground", "fixed")
+
+
 class _Zones:
     """Moves actors, one kind after the other."""
 
@@ -181,17 +196,21 @@ class _Zones:
                 continue
             if not is_bound and (one.is_mover or math.cos(turn) < 0.0):
                 self._line_up(number, line, lane_m, math.copysign(1.0, math.cos(turn)), ends)
-        self._keep_on_road(drivers, lane_m, road)
+        self._keep_on_road([] if goers else drivers, lane_m, road)
 
     def _keep_on_road(self, drivers: Sequence[int], lane_m: float, road: RoadLine) -> None:
-        """Vehicles at rest stand on the edge of the road at most."""
-        for number in drivers:
+        """Vehicles at rest stand on the edge of the road at most, one behind the other."""
+        along = np.array([math.cos(road.angle), math.sin(road.angle)])
+        taken: dict[float, list[tuple[float, float]]] = {-1.0: [], 1.0: []}
+        resting = [n for n in drivers if not self.actors[n].is_mover]
+        for number in resting:
             one = self.actors[number]
-            limit = 2.0 * lane_m - 0.5 * one.model.width
+            limit = max(2.0 * lane_m - 0.5 * one.model.width, 0.0)
             across = float(road.across(np.array([one.middle(0.0)[:2]]))[0])
-            if not one.is_mover and abs(across) > limit > 0.0:
-                shift = math.copysign(limit, across) - across
-                self._move(number, shift * np.array([-math.sin(road.angle), math.cos(road.angle)]))
+            shift = math.copysign(min(abs(across), limit), across) - across
+            rear, front = self._ends_m(number, road, 1.0)
+            step = _beyond(taken[math.copysign(1.0, across)], float(rear[0]), float(front[0]))
+            self._move(number, shift * np.array([-along[1], along[0]]) + step * along)
 
     def _line_up(
         self,
@@ -267,11 +286,7 @@ class _Zones:
             shift = (side * (half_m + _CLEAR_M) - float(edge)) * left
             places = (corners - line.offset) @ along
             low, high = float(places.min()), float(places.max())
-            step = 0.0
-            for begin, end in sorted(taken):
-                if low + step < end + 0.3 and high + step > begin - 0.3:
-                    step = end + 0.3 - low
-            taken.append((low + step, high + step))
+            step = _beyond(taken, low, high)
             for number in unit:
                 self._move(number, shift + step * along)
 
@@ -293,10 +308,10 @@ class _Zones:
         edge = min(float(one.corners(0.0)[:, 1].min()) for one in afloat) - half_m - _SHORE_M
         for unit in self._units:
             members = [self.actors[number] for number in unit]
-            if all(one.noun.habitat == "ground" and not is_afloat(one) for one in members):
-                far = max(
-                    float(one.corners(time)[:, 1].max()) for one in members for time in self._times
-                )
+            is_on_foot = any(one.noun.habitat == "ground" for one in members)
+            if is_on_foot and not any(map(_keeps_afloat, members)):
+                corners = np.vstack([one.corners(time) for one in members for time in self._times])
+                far = float(corners[:, 1].max())
                 for number in unit if far > edge else ():
                     self._move(number, np.array([0.0, edge - far]))
 
