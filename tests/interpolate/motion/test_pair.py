@@ -131,6 +131,19 @@ def test_vectors_that_are_not_given_are_those_of_the_nearest_pixel_that_arrives(
     np.testing.assert_array_equal(reverse_vectors(vectors, order), expected)
 
 
+@pytest.mark.parametrize(("missing", "number"), [("forward", 0), ("backward", 1)])
+def test_a_side_that_is_missing_is_the_other_one_turned_round(missing, number):
+    frames = bar_pair(start=4.0, step=6.0, wide=3.0)
+    given, own = frames[1 - number].motion, frames[number].motion
+    turned = reverse_vectors(given.backward if number == 0 else given.forward, given.depth)
+    images = []
+    for side in (None, turned):
+        motion = replace(own, **{missing: side})
+        pair = [replace(one, motion=motion) if one is frames[number] else one for one in frames]
+        images.append(MotionPair.of(*pair).draw(0.5))
+    np.testing.assert_array_equal(*images)
+
+
 def test_paths_are_curved_with_vectors_to_both_neighbours():
     """Constant acceleration: places 0, 1 and 4 px at three frames; 2.25 px halfway."""
     shape = (HEIGHT, WIDTH)
