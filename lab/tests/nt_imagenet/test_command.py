@@ -97,12 +97,15 @@ def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(
 
 
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(
-    data: Path, tmp_path: Path
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "nt"
     nt(data, out)
     before = {path: path.read_bytes() for path in out.iterdir()}
+    said = capsys.readouterr().out
     nt(data, out)
+    kept = "specification.toml was there already and is kept\n"
+    assert capsys.readouterr().out == said + kept
     assert {path: path.read_bytes() for path in out.iterdir()} == before
     (out / "specification.toml").write_text("mine")
     nt(data, out)

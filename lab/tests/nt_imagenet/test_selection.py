@@ -40,6 +40,7 @@ def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet: Path) -> N
 def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(
     n_imagenet: Path, tmp_path: Path
 ) -> None:
+    (n_imagenet / "extracted_val" / "notes.txt").touch()
     assert choose_classes(n_imagenet, 2) == WNIDS[:2]
     listed = tmp_path / "classes.txt"
     listed.write_text(f"{WNIDS[2]} great white shark\n\n{WNIDS[0]}\n")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import nullcontext
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import given
@@ -176,13 +178,38 @@ def test_a_picture_beside_the_videos_of_a_class_hides_none_and_patterns_find_eac
     assert found == {*videos, tmp_path / "bird"}
 
 
-@pytest.mark.parametrize("places", [("a.mp4", "b/0.png"), ("a.mp4", "0.png"), ("0.png", "b/0.png")])
-def test_kinds_of_frames_beside_those_that_are_taken_are_said(
-    tmp_path: Path, places: tuple[str, ...]
-) -> None:
-    for place in places:
-        (tmp_path / place).parent.mkdir(exist_ok=True)
-        (tmp_path / place).touch()
-    with pytest.warns(TexventWarning, match=r"holds (videos|images) and .* are taken alone"):
-        (sample,) = read_samples([tmp_path], seed=0)
-    assert sample.video in (tmp_path, tmp_path / "a.mp4")
+PLACES = (
+    *("a.mp4", "b.mp4", "0.png", "images/0.png", "notes.txt", ".kept/a.mp4", "masks/notes.txt"),
+    *(f"{one}/{file}" for one in ("cat", "dog") for file in ("c.mp4", "0.png", "images/0.png")),
+    "cat/far/0.png",
+)
+
+
+@given(st.sets(st.sampled_from(PLACES), min_size=1))
+def test_a_folder_of_anything_is_the_first_kind_of_frames_in_it(chosen: set[str]) -> None:
+    here = sorted(one for one in chosen if "/" not in one and one.endswith("mp4"))
+    classes = [one for one in ("cat", "dog") if any(place.startswith(one) for place in chosen)]
+    films = [f"{one}/c.mp4" for one in classes if f"{one}/c.mp4" in chosen]
+    still = [one for one in classes if f"{one}/c.mp4" not in chosen]
+    kinds = {
+        "videos": here,
+        "images": [""] if chosen & {"0.png", "images/0.png"} else [],
+        "folders of videos": films,
+        "folders of images": [
+            one for one in still if chosen & {f"{one}/0.png", f"{one}/images/0.png"}
+        ],
+    }
+    found = [kind for kind, places in kinds.items() if places]
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        for place in chosen:
+            (folder / place).parent.mkdir(parents=True, exist_ok=True)
+            (folder / place).touch()
+        if not found:
+            with pytest.raises(InputError, match="holds no video, no images and no folders of"):
+                read_samples([folder], seed=0)
+            return
+        said = rf"holds {' and '.join(found)}, of which the {found[0]} are taken alone"
+        with pytest.warns(TexventWarning, match=said) if found[1:] else nullcontext():
+            samples = read_samples([folder], seed=0)
+    assert [one.video for one in samples] == [folder / place for place in kinds[found[0]]]

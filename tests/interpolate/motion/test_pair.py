@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import floor
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from tests.interpolate.motion.scenes import (
 
 from texvent.frames import Frame, MotionVectors
 from texvent.interpolate.motion.interpolator import MotionPair
+from texvent.interpolate.motion.paths import reverse_vectors
 
 FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)
 
@@ -109,15 +111,37 @@ def test_without_depth_the_faster_thing_is_nearer():
     assert image[:, 4] == pytest.approx(160.0, abs=1.0)
 
 
-@pytest.mark.parametrize("missing", ["forward", "backward"])
-def test_of_two_vectors_that_arrive_at_a_pixel_the_nearer_one_is_turned_round(missing):
-    first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
-    one = first if missing == "forward" else second
-    one = replace(one, motion=replace(one.motion, **{missing: None}))
-    image = MotionPair.of(*((one, second) if one.t_us == 0 else (first, one))).draw(0.5)
-    # The bar has left its place in the other frame.
-    assert image[:, 5 if missing == "forward" else 11] == pytest.approx(160.0, abs=0.5)
-    assert image[:, 8] == pytest.approx(40.0, abs=0.5)
+@given(st.integers(0, 2**32), st.sampled_from([0.0, 0.2, 0.9]))
+def test_vectors_that_are_not_given_are_those_of_the_nearest_pixel_that_arrives(seed, unknown):
+    rng = np.random.default_rng(seed)
+    vectors = rng.uniform(-5, 5, (6, 8, 2)).astype(np.float32)
+    vectors[rng.random((6, 8)) < unknown] = np.nan
+    order = rng.integers(0, 9, (6, 8)).astype(np.float32)
+    sources = [(*one, *vectors[one].tolist()) for one in np.ndindex(6, 8)]
+    arrivals = [(floor(y + dy), floor(x + dx), y, x) for y, x, dx, dy in sources if dx == dx]
+    expected = np.full((6, 8, 2), np.nan)
+    for row, column in np.ndindex(6, 8):
+        here = [
+            (order[y, x], y, x)
+            for top, left, y, x in arrivals
+            if top in (row - 1, row) and left in (column - 1, column)
+        ]
+        if here:
+            expected[row, column] = -vectors[min(here)[1:]]
+    np.testing.assert_array_equal(reverse_vectors(vectors, order), expected)
+
+
+@pytest.mark.parametrize(("missing", "number"), [("forward", 0), ("backward", 1)])
+def test_a_side_that_is_missing_is_the_other_one_turned_round(missing, number):
+    frames = bar_pair(start=4.0, step=6.0, wide=3.0)
+    given, own = frames[1 - number].motion, frames[number].motion
+    turned = reverse_vectors(given.backward if number == 0 else given.forward, given.depth)
+    images = []
+    for side in (None, turned):
+        motion = replace(own, **{missing: side})
+        pair = [replace(one, motion=motion) if one is frames[number] else one for one in frames]
+        images.append(MotionPair.of(*pair).draw(0.5))
+    np.testing.assert_array_equal(*images)
 
 
 def test_paths_are_curved_with_vectors_to_both_neighbours():

@@ -12,11 +12,26 @@ from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.part_lines import read_parts
 from texvent_scenes.models.parts import read_nouns
+from texvent_scenes.models.people.person import Rider
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.surfaces import read_surface, shared_surfaces
 from texvent_scenes.rendered_scene import Texture
 
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
+
+
+def test_pedals_go_round_the_crank_forwards_with_the_wheels_and_are_opposite():
+    crank = (-0.05, 0.11, 0.3)
+    rider = Rider((-0.24, 0, 1), (0.1, 0, 1.44), (0.44, 0.24, 1.02), crank, wheel=0.34)
+    for quarters in range(9):
+        # 0.45 turns of the pedals to one of the wheels; a pedal that is up goes ahead.
+        distance_m = quarters / 4 / 0.45 * 2 * math.pi * 0.34
+        ahead, up = ((0, 1), (1, 0), (0, -1), (-1, 0))[quarters % 4]
+        for side, rod in zip((1, -1), rider.draw(0, distance_m), strict=False):
+            axle, pedal = (rod.to_body @ [0, 0, end, 1] for end in (-1, 1))
+            np.testing.assert_allclose(axle, [crank[0], side * 0.08, crank[2]], atol=1e-9)
+            turned = crank[0] + side * 0.17 * ahead, side * 0.11, crank[2] + side * 0.17 * up
+            np.testing.assert_allclose(pedal, turned, atol=1e-9)
 
 
 def test_every_noun_has_a_class_id():
