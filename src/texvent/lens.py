@@ -129,7 +129,7 @@ def distort(lens: Lens, points: Float64Array) -> Float64Array:
 def undistort(lens: Lens, points: Float64Array) -> Float64Array:
     """The inverse of `distort`, by Newton's method; anything where a lens folds, see `returns`.
 
-    This is the definition that the kernel `raycast.vectors.undistorted` is tested against.
+    This is the definition that the kernels of `raycast/vectors.py` are tested against.
     """
     target = np.asarray(points, dtype=np.float64)
     if lens.distortion == "none":

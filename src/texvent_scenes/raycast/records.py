@@ -30,7 +30,7 @@ MAX_CROSSINGS = 4
 
 INSTANT_RECORD = np.dtype(
     [
-        # Rays: see `rendered_scene.Rays`; `step` is the angle that one pixel covers, radians.
+        # Rays: see `texvent.camera.Rays`; `step` is the angle that one pixel covers, radians.
         ("origin", "f8", 3),
         ("corner", "f8", 3),
         ("right", "f8", 3),
@@ -85,7 +85,7 @@ INSTANT_RECORD = np.dtype(
         ("surface_sizes", "f8", (SURFACE_COUNT, 3)),
         ("gloss", "f8", (SURFACE_COUNT, 3)),  # of `surfaces.catalogue.gloss_rows`
         ("wall_colour", "f8", 3),
-        # Middles of a room's windows, metres, and how many there are: see `shading.indoors`.
+        # Middles of a room's windows, metres, and how many there are: see `shading.ambient`.
         ("windows", "f8", (MOST_WINDOWS, 3)),
         ("window_count", "i8"),
         ("wetness", "f8"),

@@ -11,12 +11,17 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import stage, thing
 
 from texvent.sensor import SensorSize
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
 from texvent_scenes.models.activities import ACTIVITIES, TO_AND_FROM_SEATS, TRAVELLING
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.raycast.render import render
 from texvent_scenes.rendered_scene import Ground
-from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.spec.scene import Motion, Scene, SceneObject
+from texvent_scenes.staging.placement.object_groups import GAP_M
+from texvent_scenes.staging.placement.object_groups import overlap as groups_overlap
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.surroundings.environment import RoadLine
 
 TIMES = np.linspace(0.0, 2.0, 9)
@@ -28,6 +33,18 @@ def overlap(first, second, time_s):
     low = np.maximum(boxes[0].min(axis=0), boxes[1].min(axis=0))
     high = np.minimum(boxes[0].max(axis=0), boxes[1].max(axis=0))
     return float(np.prod(np.maximum(high - low, 0.0)) / np.prod(np.ptp(boxes[0], axis=0)))
+
+
+@pytest.mark.parametrize(("noun", "other"), [("box", "man"), ("car", "tree"), ("dog", "horse")])
+def test_objects_just_at_their_gap_are_apart_whichever_way_the_last_bit_rounds(noun, other):
+    said = Scene(objects=(SceneObject(noun=noun), SceneObject(noun=other)))
+    placer = ObjectPlacer(
+        complete(to_description(said), NOUNS), NOUNS, seed=1, duration_s=1.0, level_m={}
+    )
+    one, two = map(placer.build_group, (0, 1))
+    side = float(one.half[0] + two.half[0] + GAP_M * min(one.size_m, two.size_m))
+    for reach, is_near in ((side - 1e-14, False), (side + 1e-14, False), (side - 1e-6, True)):
+        assert groups_overlap(np.array([reach, 0.0, 0.0]), one, two) == is_near
 
 
 @pytest.mark.parametrize(

@@ -190,8 +190,7 @@ class Reconstructor:
         """The images of a whole recording.
 
         Args:
-            slices: (instant in µs, the events up to it) in time order, as `packet_slices` cuts
-                them.
+            slices: (instant in µs, the events up to it) in time order.
 
         Yields:
             (instant, image), one per slice.

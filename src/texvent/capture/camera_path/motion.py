@@ -134,7 +134,7 @@ class Saccades:
 class Shake:
     """A camera held by hand: a sum of sinusoids along x and another along y.
 
-    There is one in each of `COUNT` equal bands between `LOWEST_HZ` and `HIGHEST_HZ`; its frequency
+    There is one in each of `count` equal bands from `lowest_hz` to `highest_hz`; its frequency
     and its phase are drawn from the seed, and its amplitude falls with the frequency as 1 / f.
     """
 

@@ -158,7 +158,7 @@ def _cut_into_segments(lanes: Float64Array, size: int, duration: float, is_limit
 def _enter_segment(
     lanes: Float64Array, size: int, segment: float, duration: float, optics: PhotoreceptorConstants
 ) -> None:
-    """The photoreceptors on the next segment; see `reference._CircuitPixels.enter_segment`."""
+    """The photoreceptors on the next segment; the tests have its definition."""
     per_level, most = optics.cutoff_per_level, optics.most_current
     for j in range(size):
         segments, length = lanes[L_SEGMENTS, j], lanes[L_SEGMENT_US, j]

@@ -299,7 +299,7 @@ def _draw_passages(lanes: Float64Array, places: Uint64Array, key: np.uint64, ord
 def _choose_directions(
     lanes: Float64Array, places: Uint64Array, key: np.uint64, order: int
 ) -> None:
-    """Send some lanes against the drift at random; see `reference.probability_along_drift`."""
+    """Send some lanes against the drift at random, by the probability of first passage."""
     for j in range(places.size):
         speed, variance = lanes[SPEED, j], lanes[VARIANCE, j]
         displacement = lanes[DIRECTION, j] * lanes[DISPLACEMENT, j]

@@ -104,6 +104,27 @@ def test_feet_do_not_slide_in_place(activity):
     assert np.ptp(ankles, axis=0).max() < 1e-6
 
 
+@pytest.mark.parametrize(
+    ("activity", "speed", "ends", "low_m", "duty"),
+    [("walk", 1.3, ("left foot", "right foot"), 0.08, 0.60),
+     ("run", 3.0, ("left foot", "right foot"), 0.08, 0.34),
+     ("crawl", 0.5, ("left hand", "right hand"), 0.05, 0.60),
+     ("crawl", 0.5, ("left foot", "right foot"), 0.09, 0.60)],
+)  # fmt: skip
+def test_feet_and_hands_of_who_goes_stay_where_they_are_set_down(
+    activity, speed, ends, low_m, duty
+):
+    times = np.arange(0.0, 4.0, 0.004)
+    bodies = [joints(activity, float(t), speed) for t in times]
+    for end in ends:
+        places = np.array([body[end][:, 3] for body in bodies])
+        is_down = places[:, 2] < low_m + 1e-9
+        assert is_down.mean() == pytest.approx(duty, abs=0.1)
+        both = is_down[1:] & is_down[:-1]
+        steps = np.diff(places[:, 0] + speed * times)
+        assert np.abs(steps[both]).max() < 1e-9
+
+
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
 
 

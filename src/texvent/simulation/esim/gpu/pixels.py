@@ -135,7 +135,7 @@ def stamp_crossings(
     Args:
         frames: `kernel_types.FrameLayout`.
         intervals: `kernel_types.Intervals`.
-        rules: `rules.EsimRules`.
+        rules: `EsimRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
         words: [n] int64, see `blocks_triton.pack_event`.
