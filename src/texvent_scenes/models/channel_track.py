@@ -16,6 +16,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
@@ -62,6 +63,16 @@ class ChannelTrack:
     series: Mapping[str, tuple[Series, ...]]
     keyed: tuple[KeyTrack, ...] = ()
 
+    @cached_property
+    def _steady(self) -> Values:
+        """Channels that are the same at all times."""
+        rest = (name for name in self.series if name not in self._moving)
+        return {name: tuple(one[0] for one in self.series[name]) for name in rest}
+
+    @cached_property
+    def _moving(self) -> Mapping[str, tuple[Series, ...]]:
+        return {name: row for name, row in self.series.items() if any(len(one) > 1 for one in row)}
+
     def at(self, time_s: float, *, once: bool = False) -> Values:
         """Values of all channels.
 
@@ -69,10 +80,9 @@ class ChannelTrack:
             time_s: the instant; of what happens about an instant of contact, from that on.
             once: whether what repeats happens only once.
         """
-        found: Values = {
-            name: tuple(_sum_up(one, time_s) for one in numbers)
-            for name, numbers in self.series.items()
-        }
+        found = dict(self._steady)
+        for name, rows in self._moving.items():
+            found[name] = tuple(_sum_up(one, time_s) for one in rows)
         for track in self.keyed:
             for name, numbers in track.at(time_s, once=once).items():
                 other = found.get(name, (0.0,) * len(numbers))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise, product
 from typing import Any
 
@@ -94,7 +95,7 @@ class Limb:
         The end is where `hand` or `foot` says; or where upper and lower part hang that `swing`
         turns forward. Where it has a `lead` it steps about that place.
         """
-        said = {name: values.get(f"{self.channels}.{name}") for name in _SAID}
+        said = {name: values.get(channel) for name, channel in self._channel_of.items()}
         end, is_free = said["hand"] or said["foot"], self.holds and said["fixed"] is None
         if end is None:
             if said["swing"] is None:
@@ -106,6 +107,11 @@ class Limb:
             end = (end[0] + x, end[1], end[2] + (said["rise"] or (1.0,))[0] * z)
             pitch += (said["toes"] or (0.0,))[0] * z / steps.gait.lift
         return self.at(end, said["elbow"] or said["knee"], is_free=is_free, pitch=pitch)
+
+    @cached_property
+    def _channel_of(self) -> Mapping[str, str]:
+        """Channel of a limb in tables → its name for this one."""
+        return {name: f"{self.channels}.{name}" for name in _SAID}
 
     def at(
         self, end: Numbers, bend: Numbers | None = None, *, is_free: bool = False,

@@ -7,7 +7,7 @@ theirs from the rows of a table of activities.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 
 from texvent_scenes.models.activities import USUAL, motion_of
 from texvent_scenes.models.channel_track import (
@@ -33,7 +33,7 @@ class Postures:
     limbs: tuple[Limb, ...] = ()
     walk: Walk | None = None
 
-    @property
+    @cached_property
     def standing(self) -> Values:
         """Channels of a body that stands: the usual row."""
         return self._complete(find_track(self.table, USUAL).at(0.0))
@@ -52,7 +52,7 @@ class Postures:
 
     def _hold(self, posture: Values, pose: Pose) -> Values:
         """The posture with the places where the pose holds the body."""
-        ends = {limb.name: limb for limb in self.limbs}
+        ends = {limb.name: limb for limb in self.limbs} if pose.grips else {}
         for name, (x, y, z) in pose.grips:
             limb = ends.get(name)
             if limb is None:
@@ -79,15 +79,13 @@ class Postures:
 
     def _step(self, steps: Steps | None) -> Values:
         """Standing, or stepping as far as the gait has it."""
-        values = find_track(self.table, USUAL).at(0.0)
-        if steps is not None and steps.gait.motion is not None:
-            moving = steps.gait.motion.at(steps.strides)
-            values |= moving | blend(
-                {name: values[name] for name in moving if name in values},
-                {name: numbers for name, numbers in moving.items() if name in values},
-                steps.amount,
-            )
-        return self._complete(values, steps)
+        if steps is None or steps.gait.motion is None or not steps.amount:
+            return self.standing
+        values, moving = find_track(self.table, USUAL).at(0.0), steps.gait.motion.at(steps.strides)
+        both = [name for name in moving if name in values]
+        here: Values = {name: values[name] for name in both}
+        there: Values = {name: moving[name] for name in both}
+        return self._complete({**values, **moving, **blend(here, there, steps.amount)}, steps)
 
     def _follow(self, activity: str, time_s: float, act_s: float | None = None) -> Values:
         """Channels that a row decides, of limbs all or none.
@@ -105,7 +103,7 @@ class Postures:
 
     def _complete(self, values: Values, steps: Steps | None = None) -> Values:
         """Channels with those of limbs as `limbs.Limb` has them."""
-        if not self.limbs:
+        if not (self.limbs and values):
             return values
         found = {n: numbers for n, numbers in values.items() if "." not in n or n.endswith("tool")}
         for limb in self.limbs:
