@@ -9,7 +9,7 @@ first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole 
 host's memory → packets; without its weights random ones take their place, which take as long.
 Videos of a model go from its decoder to the last packet (`generated_video.py`), and training
 batches are those of `stream.py`. The file is written after every row; none is begun after
-`Plan.seconds`. A part that fails is noted under "failed", and the next begins. `--tiny` tries all out.
+`Plan.seconds`. A part that fails is noted under "failed"; the next begins. `--tiny` tries all out.
 """
 
 from __future__ import annotations
