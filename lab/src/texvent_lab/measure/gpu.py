@@ -44,9 +44,8 @@ from texvent.simulation.gpu.launch import EXTRA
 from texvent.simulation.gpu.support import MODELS, RunDevice, find_model
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure import stream
-from texvent_lab.measure.films import moving_texture
 from texvent_lab.measure.flat_memory import measure_memory
-from texvent_lab.measure.generated_video import Wan, measure_generated
+from texvent_lab.measure.generated_video import Wan, measure_generated, moving_texture
 from texvent_lab.measure.real_size import PUBLISHED, measure_real_size
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
