@@ -9,6 +9,8 @@ import pytest
 FRAMES = 200
 ALLOWED = 1.05
 """Peak of twice the clip over peak of the clip. One clip's frames alone would add an eighth."""
+ALLOWED_KB = 16_000
+"""Growth of a process in 8,000 frames of 64x64 px; kept as they are they would take 33 MB."""
 
 SCRIPT = """
 import resource, sys
@@ -48,3 +50,42 @@ def test_twice_the_clip_takes_no_more_memory(tmp_path, extension, interpolate):
     once, twice = map(int, subprocess.check_output(words, text=True).split())
     assert Path(paths[1]).stat().st_size > 250_000
     assert twice <= ALLOWED * once
+
+
+STREAM = """
+from itertools import islice
+import numpy as np
+from texvent.training import Clip, EventStream
+
+def resident_kb():
+    status = open("/proc/self/status").read().splitlines()
+    return int(next(line for line in status if line.startswith("VmRSS")).split()[1])
+
+class Films:
+    known_truth = ()
+    def __len__(self):
+        return 8
+    def name(self, index):
+        return f"film {index}"
+    def read(self, index, truth, most_bytes):
+        levels = np.random.default_rng(index).integers(90, 130, (60, 80, 100), np.uint8)
+        return Clip(levels, np.arange(60) * 40_000)
+
+# Of eight films of half a megabyte three are held in memory, and two on disk.
+stream = EventStream(
+    Films(), batch=4, frames=25, size=(64, 64), device="cpu", seed=1, memory=1_500_000,
+    disk=1_000_000, outputs=("grids", "counts", "surfaces", "events"),
+)
+for number, batch in enumerate(islice(stream, 100)):
+    if number in (20, 99):
+        print(resident_kb())
+"""
+
+
+@pytest.mark.torch
+@pytest.mark.long
+def test_ten_thousand_frames_of_training_take_no_more_memory_than_two_thousand():
+    pytest.importorskip("torch")
+    words = [sys.executable, "-c", STREAM]
+    begun, ended = map(int, subprocess.check_output(words, text=True).split())
+    assert ended <= begun + ALLOWED_KB

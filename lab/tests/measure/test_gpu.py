@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import sys
+from dataclasses import replace
 
 import pytest
 
@@ -10,26 +12,18 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("triton")
 
 from texvent.generation.video_models.known_models import MODELS as VIDEO_MODELS  # noqa: E402
-from texvent.sensor import SensorSize  # noqa: E402
 from texvent.simulation.gpu.support import MODELS as ON_GPU  # noqa: E402
 from texvent.simulation.gpu.support import RunDevice  # noqa: E402
 from texvent_lab.measure import gpu  # noqa: E402
-from texvent_lab.measure.generated_video import Wan, measure_generated  # noqa: E402
+from texvent_lab.measure.generated_video import measure_generated  # noqa: E402
 from texvent_lab.measure.real_size import PUBLISHED, RealSize, measure_real_size  # noqa: E402
 
 pytestmark = pytest.mark.torch
-TINY = SensorSize(24, 16)
+TINY = gpu.SMALL
 
 
 def test_every_figure_is_measured_and_stored():
-    plan = gpu.Plan(
-        size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
-        copy_bytes=2**20, pair_sizes=(), wan=None, seconds=1e6,
-        streams=tuple(
-            gpu.stream.StreamPlan(1, 2, 8, 2, randomize, repeats=1, plain=1)
-            for randomize in ("v2v", "physical")
-        ),
-    )  # fmt: skip
+    plan = replace(gpu.TINY, pair_sizes=(), long_run=0, wan=None)
     saved: list[int] = []
     device = "cuda" if torch.cuda.is_available() else "cpu"
     document = gpu.measure(plan, device, lambda so_far: saved.append(len(json.dumps(so_far))))
@@ -55,14 +49,24 @@ def test_every_figure_is_measured_and_stored():
 
 
 @pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
+def test_the_whole_program_is_tried_out_without_a_gpu(tmp_path, capsys, monkeypatch):
+    pytest.importorskip("diffusers")
+    file = tmp_path / "gpu.json"
+    monkeypatch.setattr(sys, "argv", ["gpu", "--tiny", "--json", str(file)])
+    assert gpu.main() == 0
+    document = json.loads(file.read_text())
+    assert document["failed"] == {}
+    parts = {"pairs": 2, "stream": 2, "generated": 3, "simulation": 6, "memory": 1}
+    assert {name: len(document[name]) for name in parts} == parts
+    assert list(document["memory"][0]["after"]) == ["2", "20"]
+    assert "\nmemory: " in capsys.readouterr().out
+
+
+@pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
 def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
     pytest.importorskip("diffusers")
-    wan = Wan(
-        size=SensorSize(16, 16), frames=5, steps=1, heads=2, head_width=12, layers=1,
-        inner_width=32, text_width=32, decoder_width=4,
-    )  # fmt: skip
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
-    rows = list(measure_generated(wan, RunDevice(device)))
+    rows = list(measure_generated(gpu.TINY.wan, RunDevice(device)))
     assert [row["video"] for row in rows] == ["moving texture", "moving texture", "decoded noise"]
     for row in rows:
         assert (row["frames"], row["size"]) == (5, "16x16")
@@ -108,7 +112,7 @@ def test_a_part_that_fails_is_noted_and_the_next_begins(tmp_path, capsys):
     one = gpu.stream.StreamPlan(1, 2, 8, 2, repeats=1, plain=1)
     plan = gpu.Plan(
         size=TINY, densities=(), batches=(1,), frames=2, repeats=1, calls=1, copy_bytes=2**20,
-        pair_sizes=(TINY,), pairs=2, wan=None, streams=(one,), seconds=1e6,
+        pair_sizes=(TINY,), pairs=2, wan=None, streams=(one,), long_run=0, seconds=1e6,
     )  # fmt: skip
     device = "cuda" if torch.cuda.is_available() else "cpu"
     saved = []

@@ -16,8 +16,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from texvent.errors import InputError, MissingDependencyError
 from texvent.extending import require
+from texvent.frames import Video
 from texvent.generation.video_models.config import GeneratedVideoConfig
 from texvent.generation.videos.retries import generate_checked
 from texvent.generation.videos.stored_video import MadeVideo, to_16_bits_there, write_video
@@ -73,6 +76,16 @@ def measure_generated(
         print(f"the pipeline of real size was left out: {error}", file=sys.stderr)
         return
     yield _measure("decoded noise", decoded, options, chosen)
+
+
+def moving_texture(size: SensorSize, count: int) -> Video:
+    """Colour noise of 8 px that moves by 3 px per frame, at 25 frames per second."""
+    height, width = size.shape
+    random = np.random.default_rng(0)
+    cells = random.integers(40, 200, (height // 8 + 2, (width + 3 * count) // 8 + 2, 3))
+    wide = np.kron(cells, np.ones((8, 8, 1), np.int64)).astype(np.uint8)
+    frames = [wide[:height, 3 * index : 3 * index + width] for index in range(count)]
+    return Video(np.stack(frames), [40_000 * index for index in range(count)])
 
 
 def _measure(name: str, frames: Any, options: dict[str, Any], chosen: RunDevice) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Time of the GPU backend, beside the copy bandwidth of the same GPU in the same run.
 
-    python -m texvent_lab.measure.gpu [--json FILE] [--rife FILE] [--real-size MODEL]
+    python -m texvent_lab.measure.gpu [--json FILE] [--rife FILE] [--real-size MODEL] [--tiny]
 
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
 wait for their number included. A few calls follow each other without another wait, as in a loop
@@ -9,7 +9,7 @@ first clip of a batch, frame by frame with all cores. Pairs with RIFE are whole 
 host's memory → packets; without its weights random ones take their place, which take as long.
 Videos of a model go from its decoder to the last packet (`generated_video.py`), and training
 batches are those of `stream.py`. The file is written after every row; none is begun after
-`Plan.seconds`. A part that fails is noted under "failed", and the next one begins.
+`Plan.seconds`. A part that fails is noted under "failed"; the next begins. `--tiny` tries all out.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import json
+import os
 import sys
 import tempfile
 import time
@@ -43,7 +44,8 @@ from texvent.simulation.gpu.launch import EXTRA
 from texvent.simulation.gpu.support import MODELS, RunDevice, find_model
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure import stream
-from texvent_lab.measure.generated_video import Wan, measure_generated
+from texvent_lab.measure.flat_memory import measure_memory
+from texvent_lab.measure.generated_video import Wan, measure_generated, moving_texture
 from texvent_lab.measure.real_size import PUBLISHED, measure_real_size
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
@@ -79,8 +81,26 @@ class Plan:
         stream.StreamPlan(randomize="physical"),
     )
     """Training batches."""
+    long_run: int = 10_000
+    """Frames of the run whose memory is looked at."""
     seconds: float = 300.0
     """Time after which no row is begun."""
+
+
+SMALL = SensorSize(24, 16)
+TINY = Plan(
+    size=SMALL, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1, copy_bytes=2**20,
+    pair_sizes=(SMALL,), pairs=2, long_run=20, seconds=1e6,
+    wan=Wan(
+        size=SensorSize(16, 16), frames=5, steps=1, heads=2, head_width=12, layers=1,
+        inner_width=32, text_width=32, decoder_width=4,
+    ),
+    streams=tuple(
+        stream.StreamPlan(1, 2, 8, 2, randomize, repeats=1, plain=1)
+        for randomize in ("v2v", "physical")
+    ),
+)  # fmt: skip
+"""Every part, as small as it can be."""
 
 
 def measure(
@@ -106,6 +126,9 @@ def measure(
         if plan.wan is None
         else measure_generated(plan.wan, _chosen(device), weights),
         "simulation": measure_simulation(plan, device, copy["median"]),
+        "memory": ()
+        if not plan.long_run
+        else measure_memory(plan.pair_sizes[0], plan.long_run, _chosen(device)),
     }
     document: dict[str, Any] = {
         "schema": 2,
@@ -185,16 +208,6 @@ def measure_precision(video: Video, config: InterpolateConfig, device: Any) -> f
         (frame,) = kind(config, video, device=one).between(first, second, middle)
         images.append(frame.pixels)
     return rounded(float(np.abs(images[0] - images[1]).max()))
-
-
-def moving_texture(size: SensorSize, count: int) -> Video:
-    """Colour noise of 8 px that moves by 3 px per frame, at 25 frames per second."""
-    height, width = size.shape
-    random = np.random.default_rng(0)
-    cells = random.integers(40, 200, (height // 8 + 2, (width + 3 * count) // 8 + 2, 3))
-    wide = np.kron(cells, np.ones((8, 8, 1), np.int64)).astype(np.uint8)
-    frames = [wide[:height, 3 * index : 3 * index + width] for index in range(count)]
-    return Video(np.stack(frames), [40_000 * index for index in range(count)])
 
 
 def describe(device: str) -> dict[str, Any]:
@@ -340,6 +353,7 @@ def as_markdown(document: dict[str, Any]) -> str:
     lines.append(markdown_table(of_videos, made))
     for row in document["stream"]:
         lines += [f"{name}: {value}" for name, value in row.items()]
+    lines += [f"memory: {row}" for row in document["memory"]]
     lines += [f"failed: {name}: {reason}" for name, reason in document["failed"].items()]
     return "\n".join(lines)
 
@@ -356,8 +370,13 @@ def main() -> int:
     parser.add_argument(
         "--real-size", choices=PUBLISHED, help="a model of published size, random weights, alone"
     )
+    parser.add_argument("--tiny", action="store_true", help="try every part out, on a CPU too")
     chosen = parser.parse_args()
-    if not require("torch", extra=EXTRA).cuda.is_available():
+    is_there = require("torch", extra=EXTRA).cuda.is_available()
+    device = "cuda" if is_there else "cpu"
+    if not is_there:
+        os.environ.setdefault("TRITON_INTERPRET", "1")
+    if not is_there and not chosen.tiny:
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
 
@@ -367,11 +386,11 @@ def main() -> int:
 
     if chosen.real_size is not None:
         name = chosen.real_size
-        row = measure_real_size(name, PUBLISHED[name], "cuda", steps=8)
+        row = measure_real_size(name, PUBLISHED[name], device, steps=8)
         save(row)
         print(json.dumps(row, indent=1))
         return 0
-    document = measure(Plan(), "cuda", save, chosen.rife)
+    document = measure(TINY if chosen.tiny else Plan(), device, save, chosen.rife)
     print(as_markdown(document))
     return 1 if document["failed"] else 0
 

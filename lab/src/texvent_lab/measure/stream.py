@@ -44,7 +44,7 @@ class StreamPlan:
     bins: int = 5
     randomize: str = "v2v"
     """Pixels of the stream; those of the plain simulator are V2V's."""
-    repeats: int = 5
+    repeats: int = 15
     """Batches that are timed; one before them is not."""
     plain: int = 12
     """Clips of the plain simulators, at most a batch."""
