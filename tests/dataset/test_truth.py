@@ -279,6 +279,8 @@ def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path
     assert not make(video_set(filmed), tmp_path / "plain").failures
     rated = video_set(filmed, {"box_rate": 48}, options=fitted)
     assert not make(rated, tmp_path / "rated").failures
+    (shard,) = StoredDataset.open(tmp_path / "plain").shards()
+    assert [one.unboxed for one in shard.samples] == [("tree",)]
     (plain,) = texvent.dataset.open(tmp_path / "plain")
     wanted = np.load(filmed / "truth/boxes/bbox.npy")
     wanted = wanted[wanted["track_id"] == 1]

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -190,8 +190,10 @@ class SampleSink:
         parts: names of `CLIP_FILES`.
         classes: as `TruthSource` takes them.
         place_labels: `Labels.place` of the video, where boxes are those of its labels.
+        labelled: names of the classes that these labels show.
 
     Attributes:
+        unboxed: objects that are there, and have no boxes because `classes` leaves them out.
         members: file → content, known at the end; equal truth gives equal bytes.
         facts: of the truth, for the `json` of the sample, known at the end.
 
@@ -206,11 +208,15 @@ class SampleSink:
         classes: Mapping[str, str],
         *,
         place_labels: Callable[..., tuple[NDArray[np.void], NDArray[np.int64]]] | None = None,
+        labelled: Iterable[str] = (),
     ) -> None:
         self._parts = tuple(dict.fromkeys(parts))
         of_frames = [part for part in self._parts if place_labels is None or part != "boxes"]
         self.source = TruthSource(video, of_frames, classes)
         self._place_labels = place_labels
+        there = self.source.class_names.values() if place_labels is None else labelled
+        boxed = set(classes) if "boxes" in self._parts and classes else set(there)
+        self.unboxed = tuple(sorted(set(there) - boxed))
         self._times: list[int] = []
         self._rows: dict[str, dict[str, list[Any]]] = {}
         self.members: dict[str, bytes] = {}

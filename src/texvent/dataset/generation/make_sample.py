@@ -73,15 +73,16 @@ def record_truth(
     from texvent.truth.recorder import TruthRecorder  # brings the ray caster
     from texvent.truth.sinks import SampleSink
 
-    video, place = simulation.video, None
+    video, place, labelled = simulation.video, None, set[str]()
     if item.boxes is not None:
         capture: Any = simulation.settings.source
         size = as_size(video.metadata.get("size_before_fit", video.size))
         rate_hz = None if item.box_rate is None else Fraction(item.box_rate)
         labels, is_whole = read_labels(Path(item.boxes), size), capture.stop is None
+        labelled = {labels.names[one] for one in np.unique(labels.boxes["class_id"]).tolist()}
         place = partial(labels.place, fit=capture.fit, rate_hz=rate_hz, is_whole=is_whole)
-    classes = specification.class_of
-    return TruthRecorder(SampleSink(video, specification.truth, classes, place_labels=place))
+    truth, classes = specification.truth, specification.class_of
+    return TruthRecorder(SampleSink(video, truth, classes, place_labels=place, labelled=labelled))
 
 
 COLUMNS = ("x", "y", "t", "p")

@@ -235,11 +235,8 @@ class ShardSamples:
             preview=specification.previews,
             truth={} if truth is None else truth.members,
         )
-        stored = ClipTruth(members.__getitem__, key)
-        if "boxes" in stored.parts and specification.class_of:
-            unboxed = set(stored.instances.values()) - set(specification.class_of)
-            known["unboxed"] = tuple(sorted(unboxed))
-        return members, {**known, **count_boxes(stored)}
+        known["unboxed"] = () if truth is None else truth.unboxed
+        return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
 
 
 def _record(key: str, clip: NumberedClip, seed: int) -> SampleRecord:
