@@ -73,23 +73,26 @@ class MeshScene:
     camera_at: Callable[[float], PosedCamera] = front
     surroundings: Environment = field(default_factory=day)
     class_names: dict[int, str] = field(default_factory=lambda: {1: "thing"})
+    others: tuple[Mesh, ...] = ()
+    """Stand in the same place, before it in the scene's order."""
 
     def primitives(self, time_s: float) -> Primitives:
         mesh, to_body = self.placed
         move = self.move(time_s)
         to_world = move[:, :3] @ to_body
         to_world[:, 3] += move[:, 3] + [0.0, 0.0, 1.0]
-        meshes = np.empty(1, dtype=object)
-        meshes[0] = mesh
+        count = len(self.others) + 1
+        meshes = np.empty(count, dtype=object)
+        meshes[:] = [*self.others, mesh]
         return Primitives(
-            shape=np.array([Shape.MESH], dtype=np.int8),
-            to_world=to_world[None],
-            colour=np.ones((1, 3), dtype=np.float32),
-            second_colour=np.ones((1, 3), dtype=np.float32),
-            texture=np.zeros(1, dtype=np.int8),
-            texture_scale=np.ones(1, dtype=np.float32),
-            emission=np.zeros(1, dtype=np.float32),
-            instance=np.ones(1, dtype=np.int32),
+            shape=np.full(count, Shape.MESH, dtype=np.int8),
+            to_world=np.repeat(to_world[None], count, axis=0),
+            colour=np.ones((count, 3), dtype=np.float32),
+            second_colour=np.ones((count, 3), dtype=np.float32),
+            texture=np.zeros(count, dtype=np.int8),
+            texture_scale=np.ones(count, dtype=np.float32),
+            emission=np.zeros(count, dtype=np.float32),
+            instance=np.ones(count, dtype=np.int32),
             mesh=meshes,
         )
 

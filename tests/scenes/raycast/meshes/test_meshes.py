@@ -20,24 +20,27 @@ from texvent.sensor import SensorSize
 from texvent_scenes.mesh import make_mesh, recoloured, smooth_normals, triangle_normals
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.raycast.meshes.hit import hit_mesh
+from texvent_scenes.raycast.meshes.tree import tree_of
 from texvent_scenes.raycast.render import world_at
 
 SIZE = SensorSize(48, 36)
 
 
 @jit(error_model="numpy")
-def cast_many(instants, origins, directions, any_hit, depth, triangle):
+def cast_many(instants, root, origins, directions, any_hit, depth, triangle):
     for k in range(len(origins)):
         o = (origins[k, 0], origins[k, 1], origins[k, 2])
         d = (directions[k, 0], directions[k, 1], directions[k, 2])
-        depth[k], triangle[k] = hit_mesh(instants[0], 0, o, d, 0.0, any_hit)
+        depth[k], triangle[k] = hit_mesh(instants[0], root, o, d, 0.0, any_hit)
 
 
-def cast(mesh, origins, directions, *, any_hit=False):
-    world = world_at(MeshScene((mesh, np.eye(3, 4))), 0.0, SIZE)
+def cast(mesh, origins, directions, *, any_hit=False, others=()):
+    """Depth and triangle of rays that meet a mesh, which other meshes of the scene come before."""
+    world = world_at(MeshScene((mesh, np.eye(3, 4)), others=others), 0.0, SIZE)
+    root = sum(len(tree_of(one).nodes) for one in others)
     depth, triangle = np.empty(len(origins)), np.empty(len(origins), dtype=np.int64)
-    cast_many(world.instant, origins, directions, any_hit, depth, triangle)
-    return depth, triangle
+    cast_many(world.instant, root, origins, directions, any_hit, depth, triangle)
+    return depth, triangle - sum(len(one.triangles) for one in others)
 
 
 def soup(seed, count):
@@ -58,19 +61,20 @@ def rays(seed, count):
     return origins, directions
 
 
-@given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 60))
+@given(seed=st.integers(0, 2**31), count=st.integers(1, 60), before=st.integers(0, 2))
 @examples(40)
-def test_the_tree_finds_what_all_triangles_say(seed, count):
-    mesh = soup(seed, count)
+def test_the_tree_finds_what_all_triangles_say(seed, count, before):
+    mesh, others = soup(seed, count), tuple(soup(seed + 1 + one, 9) for one in range(before))
     origins, directions = rays(seed, 60)
-    depth, triangle = cast(mesh, origins, directions)
+    depth, triangle = cast(mesh, origins, directions, others=others)
     expected = hit_mesh_reference(mesh, origins, directions)
     same = np.isclose(depth, expected, rtol=1e-9, atol=1e-12) | (depth == expected)
     # A ray that grazes an edge may be decided either way by rounding.
     nudged = hit_mesh_reference(mesh, origins + 1e-9, directions)
     assert (same | (np.isinf(expected) != np.isinf(nudged)) | ~np.isclose(expected, nudged)).all()
-    assert ((triangle >= 0) & (triangle < len(mesh.triangles))).all()
-    blocked = cast(mesh, origins, directions, any_hit=True)[0]
+    is_hit = np.isfinite(depth)
+    assert ((triangle >= 0) & (triangle < len(mesh.triangles)))[is_hit].all()
+    blocked = cast(mesh, origins, directions, any_hit=True, others=others)[0]
     np.testing.assert_array_equal(np.isinf(blocked), np.isinf(depth))
 
 
