@@ -18,6 +18,7 @@ from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.shapes import rod
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
 from texvent_scenes.spec.scene import CameraMove, Motion
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
@@ -283,6 +284,7 @@ def _choose_levels(
             one.noun for one in description.objects if one.motion and one.motion.kind == "swim"
         } - {*swimmers, *PERSON_NOUNS}
         swimmers |= dict.fromkeys(wading, _WADING)
-        swimmers |= {"rock": _AWASH} if place.ground is Ground.SEA else {}
+        if place.ground is Ground.SEA:
+            swimmers |= dict.fromkeys(nouns_with("awash"), _AWASH)
         return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
     return {**levels, **dict.fromkeys(AFLOAT, 0.25)}
