@@ -40,7 +40,7 @@ class _Tile(NamedTuple):
     """[2, TILE] at two frames."""
     noise: NDArray[np.int16]
     moved: Float64Array
-    """What the references moved by."""
+    """Log units that the references moved by."""
     is_near: NDArray[np.uint8]
     """Whether a threshold is reached."""
 
@@ -301,7 +301,7 @@ def _measure(
 
 @jit(error_model="numpy")
 def _count_crossings(count: int, first: int, listed: _List) -> None:
-    """How often listed pixels cross; `length` was the brightness at the second frame."""
+    """Crossings of listed pixels; `length` was the brightness at the second frame."""
     pixel, start, length, step, crossed, crossings, cell, _ = listed
     for j in range(count):
         stop, size, distance = length[j], abs(step[j]), abs(length[j])
