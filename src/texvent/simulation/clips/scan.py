@@ -40,7 +40,7 @@ class _Tile(NamedTuple):
     """[2, TILE] at two frames."""
     noise: NDArray[np.int16]
     moved: Float64Array
-    """Changes of the references."""
+    """Log units that the references moved by."""
     is_near: NDArray[np.uint8]
     """Whether a threshold is reached."""
 
