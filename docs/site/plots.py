@@ -185,7 +185,7 @@ def teaching(colours: tuple[str, ...]) -> Figure:
     axes.axvline(0, color=colours[3], linewidth=1)
     axes.set_yticks(range(len(TEACHING)), list(TEACHING))
     axes.set_ylim(len(TEACHING) - 0.4, -0.6)
-    axes.set_xlabel("change of the score, % (images: of SSIM); bars: standard error")
+    axes.set_xlabel("change of the score, % (images: of 1 - LPIPS); bars: standard error")
     legend(figure, axes, 3)
     return figure
 
@@ -202,7 +202,7 @@ def teaching_scores() -> dict[str, tuple[list[float], dict[str, list[float]]]]:
         arms = {row["arm"]: row["accuracy"] for row in rows if row["representation"] == kind}
         found[label] = (arms["as measured"], teaching_rows(arms, 1))
     rows = read("reconstruction-factors.json.gz")["rows"]
-    arms = {row["factor"]: row["scores"]["ssim"] for row in rows}
+    arms = {row["factor"]: [1 - one for one in row["scores"]["lpips"]] for row in rows}
     found["images"] = (arms["as firenet.toml"], teaching_rows(arms, 2))
     return found
 
