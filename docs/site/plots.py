@@ -27,7 +27,7 @@ TEACHING = {
     "one threshold, .2": ("threshold .2", "", "threshold .2"),
     "thresholds drawn about it": ("thresholds about the matched one", "", ""),
     "thresholds .05 to 2": ("thresholds .05 to 2", "wide thresholds", "thresholds .05 to 2"),
-    "one scene": ("", "", "1 scene"),
+    "one prompt": ("", "", "1 scene"),
     "fewer clips or scenes": ("a third of the clips", "", "3 scenes"),
     "three times the clips": ("three times the clips", "", ""),
     "films": ("", "", "films"),
