@@ -24,6 +24,7 @@ BENCHMARKS = {
     "digits-ablation": (),
     "objects": (),
     "objects-factors": (),
+    "objects-programs": (),
     "reconstruction-factors": (),
     "selftest": (),
 }

@@ -27,7 +27,7 @@ TEACHING = {
     "one threshold, .2": ("threshold .2", "", "threshold .2"),
     "thresholds drawn about it": ("thresholds about the matched one", "", ""),
     "thresholds .05 to 2": ("thresholds .05 to 2", "wide thresholds", "thresholds .05 to 2"),
-    "one scene": ("", "", "1 scene"),
+    "one prompt": ("", "", "1 scene"),
     "fewer clips or scenes": ("a third of the clips", "", "3 scenes"),
     "three times the clips": ("three times the clips", "", ""),
     "films": ("", "", "films"),
@@ -173,9 +173,10 @@ def digits(colours: tuple[str, ...]) -> Figure:
 def teaching(colours: tuple[str, ...]) -> Figure:
     """Change of each test's score where one property of the simulated clips is another."""
     scores = teaching_scores()
-    figure, axes = plt.subplots(figsize=(5.8, 5.6))
+    names = [one for one in TEACHING if any(one in found for _, found in scores.values())]
+    figure, axes = plt.subplots(figsize=(5.8, 1.6 + 0.36 * len(names)))
     for number, (label, (base, found)) in enumerate(scores.items()):
-        for row, name in enumerate(TEACHING):
+        for row, name in enumerate(names):
             if name in found:
                 change, error = relative(found[name], base)
                 place = row + 0.13 * (number - (len(scores) - 1) / 2)
@@ -183,9 +184,9 @@ def teaching(colours: tuple[str, ...]) -> Figure:
                 axes.errorbar(change, place, xerr=error, fmt=mark, ms=5, color=colours[number])
         axes.plot([], [], "osD^v"[number], color=colours[number], label=label)
     axes.axvline(0, color=colours[3], linewidth=1)
-    axes.set_yticks(range(len(TEACHING)), list(TEACHING))
-    axes.set_ylim(len(TEACHING) - 0.4, -0.6)
-    axes.set_xlabel("change of the score, % (images: of SSIM); bars: standard error")
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlabel("change of the score, % ± standard error\n(images: of 1 - LPIPS)")
     legend(figure, axes, 3)
     return figure
 
@@ -202,7 +203,7 @@ def teaching_scores() -> dict[str, tuple[list[float], dict[str, list[float]]]]:
         arms = {row["arm"]: row["accuracy"] for row in rows if row["representation"] == kind}
         found[label] = (arms["as measured"], teaching_rows(arms, 1))
     rows = read("reconstruction-factors.json.gz")["rows"]
-    arms = {row["factor"]: row["scores"]["ssim"] for row in rows}
+    arms = {row["factor"]: [1 - one for one in row["scores"]["lpips"]] for row in rows}
     found["images"] = (arms["as firenet.toml"], teaching_rows(arms, 2))
     return found
 

@@ -10,7 +10,7 @@ from texvent_lab.bench.summary import mean_text, summarise
 from texvent_lab.charts import COLOURS, Dot, DotPanel, dot_chart
 
 SCHEMA = "texvent-reconstruction-factors-1"
-DRAWN = ("ssim", "lpips", "mse")
+DRAWN = ("lpips", "ssim", "mse")
 """Measures of the chart, all of which are 0 to 1."""
 
 
