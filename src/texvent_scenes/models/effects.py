@@ -168,6 +168,8 @@ def hue_of(colour: tuple[float, float, float]) -> str:
     Example:
         >>> hue_of((0.95, 0.92, 0.75)), hue_of((0.7, 0.02, 0.02)), hue_of((0.9, 0.5, 0.05))
         ('white', 'red', 'amber')
+        >>> hue_of((0.1, 0.9, 0.2)), hue_of((0.1, 0.2, 0.9))
+        ('green', 'blue')
     """
     red, green, _ = colour
     top = max(colour)
