@@ -50,7 +50,7 @@ class ArrayPool:
         if memory is None:
             memory = np.empty(size, np.uint8)
         # Views of an array that shows a buffer hold that array, not what it shows.
-        array = np.frombuffer(memoryview(memory), dtype)
+        array = np.frombuffer(memory.data, dtype)
         kept.append((memory, weakref.ref(array)))
         return array.reshape(shape)
 
