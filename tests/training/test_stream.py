@@ -109,6 +109,31 @@ def test_a_second_loop_goes_on_after_the_first_and_so_does_a_copy(folder):
     assert found == expected
 
 
+@pytest.mark.parametrize("pixels", [WIDE, "recommended"], ids=["wide", "recommended"])
+def test_a_batch_that_is_held_stays_as_it_was_when_the_next_ones_are_made(folder, pixels):
+    outputs = ("grids", "counts", "surfaces", "events")
+    held, expected = [], []
+    for batch in itertools.islice(
+        EventStream(folder, randomize=pixels, outputs=outputs, **SMALL), 9
+    ):
+        # Of some the whole batch, of others a view of one tensor alone.
+        names = ("frames", "grids", "counts", "surfaces", "first")
+        shown = (batch.number,) if batch.number % 2 else range(len(names))
+        kept = [getattr(batch, names[at % len(names)])[1] for at in shown]
+        held.append(kept)
+        expected.append([one.clone() for one in kept])
+        del batch, kept
+    for kept, before in zip(held, expected, strict=True):
+        assert all(torch.equal(one, other) for one, other in zip(kept, before, strict=True))
+    assert len({one.tobytes() for one in (kept[0].numpy() for kept in held)}) > 5
+
+
+def test_memory_of_batches_that_are_let_go_of_is_used_again(folder):
+    stream = EventStream(folder, **SMALL)
+    places = {batch.grids.data_ptr() for batch in itertools.islice(stream, 12)}
+    assert len(places) == 2  # the next batch is made while the loop holds the last one
+
+
 def test_arrays_are_the_representations_of_the_events_of_the_batch(batches):
     for batch in batches[:2]:
         for clip, events in enumerate(batch.events):
@@ -164,7 +189,8 @@ def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
         for clip, events in enumerate(batch.events):
             number = batch.number * SMALL["batch"] + clip
             draw = draw_clip(ranges, 7, number, 4)
-            cut = cut_clip(Sliding().read(int(batch.draws["source"][clip]), (), 2**30), draw, plan)
+            film = Sliding().read(int(batch.draws["source"][clip]), (), 2**30)
+            cut = cut_clip(film, draw, plan, np.empty((len(draw.is_paused) + 1, 12, 16), np.uint8))
             simulator = PhysicalSimulator(ranges.config(draw.numbers), seed=seed_of(draw.key))
             pairs = zip(cut.frames, cut.times_us.tolist(), strict=True)
             expected = Events.concat(

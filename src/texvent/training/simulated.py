@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.dataset.torch_samples import EventBatch
 from texvent.represent.tensors import Tensor
+from texvent.runtime.array_pool import ArrayPool
 from texvent.sensor import SensorSize
 from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs, ClipPixels, byte_brightness
 from texvent.training.draws import PhysicalRanges, Ranges
@@ -23,6 +24,7 @@ def simulate_clips(
     ranges: Ranges,
     drawn: tuple[NDArray[np.float64], NDArray[np.uint64]],
     outputs: ClipOutputs,
+    pool: ArrayPool,
     *,
     on_gpu: bool,
 ) -> ClipArrays:
@@ -34,6 +36,7 @@ def simulate_clips(
         ranges: what was drawn from, which decides the pixel model.
         drawn: numbers and key of each clip, see `draws.ClipDraw`.
         outputs: what is made.
+        pool: whose memory is taken on a CPU.
         on_gpu: whether the kernels of GPUs make it, or those of the CPU.
 
     Returns:
@@ -47,7 +50,7 @@ def simulate_clips(
             return simulate_physical_on_gpu(frames, times_us, configs, drawn[1], outputs)
         from texvent.simulation.clips.physical import simulate_physical
 
-        made = simulate_physical(frames.numpy(), times_us, configs, drawn[1], outputs)
+        made = simulate_physical(frames.numpy(), times_us, configs, drawn[1], outputs, pool)
         return _as_tensors(made)
     pixels = ClipPixels(*drawn, byte_brightness(ranges.gamma, ranges.log_eps))
     if on_gpu:
@@ -56,7 +59,7 @@ def simulate_clips(
         return simulate_on_gpu(frames, times_us, pixels, outputs)
     from texvent.simulation.clips.scan import simulate_on_cpu
 
-    return _as_tensors(simulate_on_cpu(frames.numpy(), times_us, pixels, outputs))
+    return _as_tensors(simulate_on_cpu(frames.numpy(), times_us, pixels, outputs, pool))
 
 
 def _as_tensors(made: ClipArrays) -> ClipArrays:

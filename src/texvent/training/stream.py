@@ -18,6 +18,7 @@ from texvent.dataset.torch_samples import EventBatch
 from texvent.errors import ConfigError, InputError, TexventError, few, one_line, shown, warn
 from texvent.represent.tensors import Tensor
 from texvent.represent.time_surface import MAX_TAU_US
+from texvent.runtime.array_pool import ArrayPool
 from texvent.runtime.devices import check_device_name, explain_device_memory, find_gpu, triton_fault
 from texvent.runtime.work.worker_threads import prefetch
 from texvent.sensor import SizeLike, as_size
@@ -89,6 +90,8 @@ class _Prepared(NamedTuple):
     """The frames of a batch, before they are simulated."""
 
     number: int
+    frames: NDArray[np.uint8]
+    """[B, T + 1, H, W]."""
     cuts: list[Cut]
     draws: list[ClipDraw]
     sources: list[int]
@@ -187,6 +190,7 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
                 f"the source brings no {lacking[0]} as truth; what it brings is {known}"
             )
         self._store = ClipStore(self._source, self._names, self.memory, self.disk)
+        self._pool = ArrayPool()
         self._next = 0
         self._reported = 0
         self.skipped: dict[int, str] = {}
@@ -283,11 +287,13 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
             number += step
 
     def _prepare(self, number: int) -> _Prepared:
-        ready = _Prepared(number, [], [], [])
-        for clip_number in range(number * self.batch, (number + 1) * self.batch):
+        size = self._plan.size
+        shape = (self.batch, self._plan.intervals + 1, size.height, size.width)
+        ready = _Prepared(number, self._pool.take(shape, np.uint8), [], [], [])
+        for clip_number, frames in enumerate(ready.frames, number * self.batch):
             draw = draw_clip(self._ranges, self.seed, clip_number, self._plan.intervals)
             index, clip = self._choose(clip_number)
-            ready.cuts.append(cut_clip(clip, draw, self._plan))
+            ready.cuts.append(cut_clip(clip, draw, self._plan, frames))
             ready.draws.append(draw)
             ready.sources.append(index)
         return ready
@@ -307,12 +313,13 @@ class EventStream(_IterableDataset):  # type: ignore[misc]
         ranges, per = self._ranges, self.frames_per_grid
         numbers = np.stack([draw.numbers for draw in ready.draws])
         keys = np.array([draw.key for draw in ready.draws], np.uint64)
-        frames = _torch.from_numpy(np.stack([cut.frames for cut in ready.cuts])).to(self._device)
+        frames = _torch.from_numpy(ready.frames).to(self._device)
         times_us = np.stack([cut.times_us for cut in ready.cuts])
         check_clips(frames, times_us, self._outputs)
         made = simulate_clips(
-            frames, times_us, ranges, (numbers, keys), self._outputs, on_gpu=self._is_on_gpu
-        )
+            frames, times_us, ranges, (numbers, keys), self._outputs, self._pool,
+            on_gpu=self._is_on_gpu,
+        )  # fmt: skip
         windows = _torch.from_numpy(times_us[:, ::per].copy()).to(self._device)
         places = np.array([cut.place for cut in ready.cuts])
         draws = dict(zip((*THRESHOLDS, *ranges.drawn), numbers.T, strict=False))

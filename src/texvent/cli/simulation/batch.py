@@ -47,7 +47,7 @@ class BatchOptions:
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
         "jobs", "out", "generator", "duration", "fps", "sensor", "simulator", "preset", "seed",
-        "previews", "config", "overwrite",
+        "device", "previews", "config", "overwrite",
     )  # fmt: skip
 
     sources: tuple[str, ...] = REQUIRED

@@ -43,8 +43,8 @@ class PromptOptions:
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "sensor", "simulator", "preset",
-        "contrast_threshold", "noise", "interpolate", "seed", "previews", "config", "preview",
-        "dry_run", "overwrite",
+        "contrast_threshold", "noise", "interpolate", "seed", "device", "previews", "config",
+        "preview", "dry_run", "overwrite",
     )  # fmt: skip
 
     idle_with: ClassVar[IdleOptions] = {"llm_model": ("llm_url", (None,))}

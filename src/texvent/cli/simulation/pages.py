@@ -33,7 +33,7 @@ record. It ends with the page, or with Ctrl-C. Only those who have the address c
 WAIT_S = 0.5
 LEAD = """<!doctype html><meta name="referrer" content="no-referrer">
 <meta http-equiv="refresh" content="0; url={}">"""
-OF_THE_CAMERA = ("simulator", "contrast_threshold", "sensor", "interpolate", "config")
+OF_THE_CAMERA = ("simulator", "contrast_threshold", "sensor", "interpolate", "device", "config")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +88,8 @@ class LiveOptions:
     """Sensor: name or WIDTHxHEIGHT. Without it, the size of the frames."""
     interpolate: str | None = None
     """Interpolator between frames: flow, blend, rife or none (fastest)."""
+    device: str | None = None
+    """Device of the pixel model and of rife: auto, cpu, cuda or cuda:N; without it, auto."""
     config: Path | None = None
     """TOML or YAML file with more options; flags override it."""
     folder: Path = Path()

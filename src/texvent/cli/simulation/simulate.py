@@ -27,8 +27,8 @@ class VideoOptions:
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
-        "fps", "motion", "camera", "start", "stop", "seed", "previews", "config", "dry_run",
-        "overwrite",
+        "fps", "motion", "camera", "start", "stop", "seed", "device", "previews", "config",
+        "dry_run", "overwrite",
     )  # fmt: skip
 
     source: str = REQUIRED

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.array_pool import ArrayPool
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import run_parts
 from texvent.simulation.clips.pixels import ClipArrays, ClipOutputs, Float64Array
@@ -31,6 +32,7 @@ class MadeArrays(NamedTuple):
     """Outputs of one clip, by window; without rows where not asked for."""
 
     grids: NDArray[np.float32]
+    """Of any content, until the events of a window are spread."""
     counts: NDArray[np.int32]
     latest: NDArray[np.int32]
 
@@ -39,6 +41,7 @@ def make_arrays(
     shape: tuple[int, ...],
     outputs: ClipOutputs,
     run: Callable[[int, MadeArrays], NDArray[np.int64]],
+    pool: ArrayPool,
 ) -> ClipArrays:
     """Arrays of clips, each filled in by a thread.
 
@@ -46,6 +49,7 @@ def make_arrays(
         shape: of the frames, [B, T + 1, H, W].
         outputs: what is made.
         run: fills in what is made of a clip, and returns its events as words, where asked for.
+        pool: whose memory is taken.
 
     Returns:
         NumPy arrays.
@@ -53,12 +57,13 @@ def make_arrays(
     count, _, height, width = shape
     windows, area = (shape[1] - 1) // outputs.intervals_per_window, height * width
     of_grids = (count, windows, outputs.bins, area)
-    grids = np.zeros(of_grids if outputs.grids else (count, 0, 1, 1), np.float32)
+    grids = pool.take(of_grids if outputs.grids else (count, 0, 1, 1), np.float32)
     pairs = (count, windows, 2, area)
-    counts = np.zeros(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
-    latest = np.full(pairs if outputs.latest else (count, 0, 1, 1), -1, np.int32)
+    counts = pool.take(pairs if outputs.counts else (count, 0, 1, 1), np.int32)
+    latest = pool.take(pairs if outputs.latest else (count, 0, 1, 1), np.int32)
 
     def run_clip(clip: int) -> NDArray[np.int64]:
+        counts[clip], latest[clip] = 0, -1
         return run(clip, MadeArrays(grids[clip], counts[clip], latest[clip]))
 
     words = run_parts(run_clip, range(count))
@@ -84,14 +89,17 @@ def words_of(found: FoundEvents, opened_us: int, area: int) -> NDArray[np.int64]
 
 
 @jit(error_model="numpy")
-def spread_events(found: FoundEvents, run: int, window: int, made: MadeArrays) -> None:
-    """Add the events of a window to the arrays.
+def spread_events(
+    found: FoundEvents, run: int, window: int, made: MadeArrays, sums: Float64Array
+) -> None:
+    """Make the grid of a window of its events, and add them to the other arrays.
 
     Args:
         found: the events.
         run: pixels of a run; the last one may have fewer.
         window: number of the window.
         made: the arrays.
+        sums: [(bins + 1) · run] zeros, before and after.
     """
     grids, counts, latest = made
     total = found.ends[-1]
@@ -100,12 +108,14 @@ def spread_events(found: FoundEvents, run: int, window: int, made: MadeArrays) -
     for n in range(total if latest.shape[0] else 0):
         p, pixel = found.cell[n] & 1, found.cell[n] >> 1
         latest[window, p, pixel] = max(latest[window, p, pixel], found.t_us[n])
-    if not grids.shape[0] or not total:
+    if not grids.shape[0]:
+        return
+    if not total:
+        grids[window] = 0.0
         return
     first_us, last_us = _bounds(found.t_us[:total])
     span = np.float64(np.int64(last_us) - np.int64(first_us) or 1)
     bins, area = grids.shape[1], grids.shape[2]
-    sums = np.zeros((bins + 1) * run)
     after, place = np.empty(_PART), np.empty(_PART, np.int32)
     for number in range(found.ends.size - 1):
         begin, end, first = found.ends[number], found.ends[number + 1], number * run
@@ -114,7 +124,7 @@ def spread_events(found: FoundEvents, run: int, window: int, made: MadeArrays) -
             t_us, cell = found.t_us[start : min(start + _PART, end)], found.cell[start:]
             _place(t_us, cell, first_us, (span, bins, first, run), after, place)
             _add(t_us.size, cell, span, after, place, run, sums)
-        for time_bin in range(bins if end > begin else 0):
+        for time_bin in range(bins):
             row = grids[window, time_bin, first : first + size]
             _divide(sums[time_bin * run : time_bin * run + size], span, row)
         sums[bins * run :] = 0.0

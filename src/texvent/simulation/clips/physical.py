@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.frames import Frame
+from texvent.runtime.array_pool import ArrayPool
 from texvent.simulation.clips.arrays import (
     FoundEvents,
     MadeArrays,
@@ -31,6 +32,7 @@ def simulate_physical(
     configs: Sequence[PhysicalConfig],
     keys: NDArray[np.uint64],
     outputs: ClipOutputs,
+    pool: ArrayPool | None = None,
 ) -> ClipArrays:
     """Arrays of clips whose pixels have options of their own.
 
@@ -40,6 +42,7 @@ def simulate_physical(
         configs: [B] options.
         keys: [B] of `draws.frame_key`.
         outputs: what is made.
+        pool: whose memory is taken.
 
     Returns:
         NumPy arrays.
@@ -49,7 +52,7 @@ def simulate_physical(
         simulator = PhysicalSimulator(configs[clip], seed=seed_of(keys[clip]))
         return _run_clip(simulator, frames[clip], times_us[clip], outputs, made)
 
-    return make_arrays(frames.shape, outputs, run)
+    return make_arrays(frames.shape, outputs, run, pool or ArrayPool())
 
 
 def _run_clip(
@@ -60,8 +63,8 @@ def _run_clip(
     made: MadeArrays,
 ) -> NDArray[np.int64]:
     _, height, width = frames.shape
-    area, per = height * width, outputs.intervals_per_window
     area, per, words = height * width, outputs.intervals_per_window, [np.empty(0, np.int64)]
+    sums = np.zeros((outputs.bins + 1) * area)
     simulator.step(Frame(frames[0], int(times_us[0])))
     for first in range(0, len(frames) - 1, per):
         packets = [
@@ -76,5 +79,5 @@ def _run_clip(
         found = FoundEvents(since_us, cell.astype(np.int32), np.array([0, len(cell)]))
         if outputs.events:
             words.append(words_of(found, opened_us, area))
-        spread_events(found, area, first // per, made)
+        spread_events(found, area, first // per, made, sums)
     return np.concatenate(words)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.array_pool import ArrayPool
 from texvent.runtime.jit import jit
 from texvent.simulation.clips import pixels
 from texvent.simulation.clips.arrays import (
@@ -68,8 +69,11 @@ def simulate_on_cpu(
     times_us: NDArray[np.int64],
     clips: ClipPixels,
     outputs: ClipOutputs,
+    pool: ArrayPool | None = None,
 ) -> ClipArrays:
     """Arrays of the clips, each made in a thread; arguments as `pixels.check_clips` wants them.
+
+    A pool lends them its memory.
 
     Returns:
         NumPy arrays.
@@ -81,7 +85,7 @@ def simulate_on_cpu(
         pixel = frames[clip].reshape(-1, area)
         return _run_clip(pixel, times_us[clip], width, of_clip, outputs, made)
 
-    return make_arrays(frames.shape, outputs, run)
+    return make_arrays(frames.shape, outputs, run, pool or ArrayPool())
 
 
 def _run_clip(
@@ -141,6 +145,7 @@ def _scan(
         np.zeros(size, np.uint32), np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size),
         np.zeros(size, np.int32), np.zeros(size, np.int32), np.zeros(size, np.uint32),
     )  # fmt: skip
+    sums = np.zeros((made.grids.shape[1] + 1) * TILE)
     for window in range(span[0], span[1]):
         intervals, total = (window * span[2], (window + 1) * span[2]), 0
         for first in range(0, area, TILE):
@@ -150,7 +155,7 @@ def _scan(
                 (frames, times_us), intervals, clip, of_tile, first, (tile, listed), found, total
             )
         found.ends[-1] = total
-        spread_events(found, TILE, window, made)
+        spread_events(found, TILE, window, made, sums)
     return found
 
 

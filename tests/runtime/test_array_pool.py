@@ -1,0 +1,88 @@
+"""Pooled memory: used again once nobody holds it, and never before."""
+
+from __future__ import annotations
+
+import copy
+import gc
+import pickle
+
+import numpy as np
+import pytest
+
+from texvent.runtime.array_pool import MOST, ArrayPool
+
+SHAPE = (40, 50)
+HOLDERS = {
+    "array": lambda array: array,
+    "row": lambda array: array[7],
+    "view of a view": lambda array: array.view(np.uint8)[3:][..., ::2],
+    "buffer": memoryview,
+    "transposed and cut": lambda array: array.T[5:9],
+}
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+@pytest.mark.parametrize("hold", HOLDERS.values(), ids=HOLDERS)
+def test_memory_is_not_used_again_while_any_part_of_it_is_held(hold):
+    pool = ArrayPool()
+    array = pool.take(SHAPE, np.float32)
+    array[:], place = 1.0, address(array)
+    held = hold(array)
+    before = np.array(held)
+    del array
+    for _ in range(3):
+        other = pool.take(SHAPE, np.float32)
+        other[:] = 2.0
+        assert address(other) != place
+    assert np.array_equal(np.array(held), before)
+    del held
+    gc.collect()
+    others = [pool.take(SHAPE, np.float32) for _ in range(3)]
+    assert place in [address(one) for one in others]
+
+
+@pytest.mark.torch
+@pytest.mark.parametrize(
+    "hold", [lambda one: one, lambda one: one[3:, ::2], lambda one: one.detach().numpy()[1:2]]
+)
+def test_memory_is_not_used_again_while_a_tensor_is_held(hold):
+    torch = pytest.importorskip("torch")
+    pool = ArrayPool()
+    array = pool.take(SHAPE, np.int32)
+    array[:] = 1
+    held = hold(torch.from_numpy(array))
+    del array
+    for _ in range(3):
+        pool.take(SHAPE, np.int32)[:] = 2
+    assert (held == 1).all()
+
+
+def test_one_that_is_let_go_of_gives_its_memory_to_the_next_of_its_size_and_no_other():
+    pool = ArrayPool()
+    places = {address(pool.take(SHAPE, np.float32)) for _ in range(10)}
+    assert len(places) == 1
+    assert {address(pool.take((2000,), np.int32))} == places
+    assert not {address(pool.take((1999,), np.int32))} & places
+    assert pool.take((3, 0, 5), np.int32).shape == (3, 0, 5)
+
+
+def test_as_many_are_made_as_are_held_and_few_are_kept():
+    pool = ArrayPool()
+    held = [pool.take(SHAPE, np.float32) for _ in range(3 * MOST)]
+    assert len({address(one) for one in held}) == 3 * MOST
+    kept = {address(one) for one in held[-MOST:]}
+    held.clear()
+    again = [pool.take(SHAPE, np.float32) for _ in range(MOST)]
+    assert {address(one) for one in again} == kept
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda pool: pickle.loads(pickle.dumps(pool))])
+def test_a_copy_has_memory_of_its_own(copied):
+    pool = ArrayPool()
+    pool.take(SHAPE, np.float32)[:] = 1.0
+    other = copied(pool).take(SHAPE, np.float32)
+    assert address(other) != address(pool.take(SHAPE, np.float32))
+    assert len(pickle.dumps(pool)) < 200
