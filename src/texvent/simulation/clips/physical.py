@@ -60,7 +60,6 @@ def _run_clip(
     made: MadeArrays,
 ) -> NDArray[np.int64]:
     _, height, width = frames.shape
-    area, per = height * width, outputs.intervals_per_window
     area, per, words = height * width, outputs.intervals_per_window, [np.empty(0, np.int64)]
     simulator.step(Frame(frames[0], int(times_us[0])))
     for first in range(0, len(frames) - 1, per):
