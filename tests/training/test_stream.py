@@ -484,9 +484,11 @@ def test_the_recommended_noise_has_its_rate_at_any_intensity(level):
     assert batch.counts.sum().item() / (seconds * 16 * 12) == pytest.approx(rate, rel=0.3)
 
 
-def test_a_noise_curve_that_is_none_is_refused():
-    with pytest.raises(ConfigError, match="noise_curve is '1'; it must be points LEVEL:RATE"):
-        PhysicalRanges(noise_curve="1")
+@pytest.mark.parametrize("curve", ["1", 1, ["0:1"]])
+def test_a_noise_curve_that_is_none_is_refused(curve):
+    told = re.escape(f"noise_curve is {curve!r}; it must be points LEVEL:RATE")
+    with pytest.raises(ConfigError, match=told):
+        PhysicalRanges(noise_curve=curve)
 
 
 def test_a_bandwidth_between_unlimited_and_slow_is_refused():
@@ -499,6 +501,10 @@ def test_a_bandwidth_between_unlimited_and_slow_is_refused():
     [
         ({"threshold": (0.5, 0.1)}, "lowest value first"),
         ({"threshold": 0.5}, "two numbers"),
+        ({"threshold": (0.5,)}, "two numbers"),
+        ({"threshold": (0.1, 0.2, 0.3)}, "two numbers"),
+        ({"threshold": ()}, "two numbers"),
+        ({"has_phase": "no"}, "has_phase is 'no'; it must be True or False"),
         ({"noise": (0.0, -1.0)}, "noise is -1"),
         ({"flip": (0.1, 0.2)}, "one number"),
         ({"speed": (0, 2)}, "speed is 0"),

@@ -80,7 +80,11 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
 
 @pytest.mark.parametrize("keep", ["best", "last"])
 def test_the_best_network_is_kept_or_the_last(
-    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, keep: str
+    specification: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    keep: str,
 ) -> None:
     specification.write_text(
         f'data = {{folder = "bars"}}\n[schedule]\nepochs = 3\nkeep = "{keep}"\n'
@@ -97,6 +101,14 @@ def test_the_best_network_is_kept_or_the_last(
     kept = weights(tmp_path / "run")
     assert all(torch.equal(kept[name], wanted[name]) for name in kept)
     assert not all(torch.equal(kept[name], other[name]) for name in kept)
+    told = json.loads((tmp_path / "run" / "history.json").read_text())
+    assert told["best_epoch"] == 2
+    words = ["classification", str(specification), "-o", str(tmp_path / "run"), "--device", "cpu"]
+    assert main(["train", *words, "-q"]) == 0  # it is complete: tells the same
+    number, score = (3, "0.6") if keep == "last" else (2, "0.9")
+    assert told["kept_epoch"] == number
+    assert f"{keep} epoch {number} of 3: " in (said := capsys.readouterr().out)
+    assert f"accuracy {score}" in said
 
 
 def test_the_loss_of_an_epoch_is_the_mean_of_its_batches() -> None:

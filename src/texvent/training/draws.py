@@ -43,6 +43,8 @@ _ALLOWED: Mapping[str, Limits] = MappingProxyType(
         "log_eps": (1e-9, 1.0),
     }
 )
+_SINGLE = ("flip", "gamma", "log_eps")
+"""Those that are one number, and are not drawn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,14 +76,16 @@ class MotionRanges:
             value = getattr(self, one.name)
             if one.name not in _ALLOWED:
                 continue
-            is_pair = isinstance(value, tuple | list)
-            if is_pair == (one.name in ("flip", "gamma", "log_eps")) or len(np.ravel(value)) > 2:
-                wanted = "one number" if is_pair else "two numbers, the lowest and the highest"
+            is_pair, is_single = isinstance(value, tuple | list), one.name in _SINGLE
+            if is_pair == is_single or (is_pair and len(value) != 2):
+                wanted = "one number" if is_single else "two numbers, the lowest and the highest"
                 raise ConfigError(f"{one.name} is {shown(value)}; it must be {wanted}")
             for limit in value if is_pair else (value,):
                 check_range(one.name, limit, *_ALLOWED[one.name])
-            if is_pair and one.name != "pause" and value[0] > value[-1]:
+            if is_pair and one.name != "pause" and value[0] > value[1]:
                 raise ConfigError(f"{one.name} is {shown(value)}; give the lowest value first")
+        if not isinstance(self.has_phase, bool):
+            raise ConfigError(f"has_phase is {shown(self.has_phase)}; it must be True or False")
 
 
 @dataclass(frozen=True, kw_only=True)

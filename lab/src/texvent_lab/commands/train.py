@@ -56,7 +56,8 @@ def run(arguments: Sequence[str]) -> int:
     folder = options.out.absolute()
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         state = train_from_file(kind, options.specification, folder, hardware, progress)
-    best = state.rows[state.best_epoch - 1]
-    scores = f"best epoch {state.best_epoch} of {state.epochs}: {score_text(best)}"
+    keep = state.tables["schedule"]["keep"]
+    number = state.epochs if keep == "last" else state.best_epoch
+    scores = f"{keep} epoch {number} of {state.epochs}: {score_text(state.rows[number - 1])}"
     write_out(f"{options.out}: {scores}\n")
     return 0

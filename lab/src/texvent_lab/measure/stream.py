@@ -1,6 +1,6 @@
 """Clips per hour of the training stream, beside a plain NumPy simulator in the same run.
 
-    python -m texvent_lab.measure.stream [--device cuda] [--json FILE]
+    python -m texvent_lab.measure.stream [--device cuda] [--randomize recommended] [--json FILE]
 
 Clips of 40 frames and 128x128 px with grids of 5 bins, from 8-bit clips in memory, everything drawn
 as V2V draws it; a grid spans five frames of the video, so that a clip has 200 intervals. The plain
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from texvent.extending import require
 from texvent.training import Clip, EventStream
+from texvent.training.draws import RANGES
 from texvent_lab.bench.document import describe_environment, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
@@ -189,12 +190,13 @@ def main() -> int:
     """Measure, print, write; 2 without the device."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.stream")
     parser.add_argument("--device", default="cpu")
+    parser.add_argument("--randomize", choices=RANGES, default=StreamPlan.randomize)
     parser.add_argument("--json", type=Path, help="write the figures here")
     chosen = parser.parse_args()
     if chosen.device != "cpu" and not require("torch", extra="torch").cuda.is_available():
         print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
-    document = measure(StreamPlan(), chosen.device)
+    document = measure(StreamPlan(randomize=chosen.randomize), chosen.device)
     if chosen.json is not None:
         write_document(chosen.json, document, overwrite=True)
     for name, value in document.items():

@@ -110,8 +110,9 @@ LOSSES = "loss"
 MOST_COLUMNS, WIDTH_INCHES, HEIGHT_INCHES = 3, 4.5, 3.4
 COLOURS = ("#1f77b4", "#d95f02", "#2ca02c", "#7b3294")
 STANDARD_ERROR = " standard error"
-VALIDATION_SAMPLES = "validation samples"
 """End of the names of standard errors; they are drawn around what they belong to."""
+VALIDATION_SAMPLES = "validation samples"
+"""End of the names of what was counted, which has no curve."""
 
 
 def write_history(folder: Path, facts: Mapping[str, Any], rows: Sequence[Row]) -> None:
@@ -195,8 +196,8 @@ def train(
 ) -> TrainingState:
     """Train a task, or go on where a training of it stopped.
 
-    The folder gets `checkpoint.pt` (the whole state), `weights.pt` (the best network, in its
-    published layout), `history.json` and `curves.png` after every epoch.
+    The folder gets `checkpoint.pt` (the whole state), `weights.pt` (the network that
+    `Schedule.keep` names, in its published layout), `history.json` and `curves.png` after every epoch.
 
     Args:
         task: what to train.
@@ -226,9 +227,8 @@ def train(
     if state.epochs:
         network.load_state_dict(state.network)
         optimizer.load_state_dict(state.optimizer)
-        _write_results(
-            folder, state, task, schedule, network
-        )  # they may be gone, or ahead of the state
+        # They may be gone, or ahead of the state.
+        _write_results(folder, state, task, schedule, network)
     while not _is_over(state, schedule):
         started = time.perf_counter()
         _decay(optimizer, schedule, state.epochs)
@@ -348,17 +348,18 @@ def _write_results(
     folder: Path, state: TrainingState, task: TrainingTask, schedule: Schedule, network: Any
 ) -> None:
     """The weights that are kept, scores and curves."""
-    torch = require("torch", extra=EXTRA)
+    torch, is_last = require("torch", extra=EXTRA), schedule.keep == "last"
     facts = {
         "texvent_version": full_version(),
         "torch_version": str(torch.__version__),
         "best_epoch": state.best_epoch,
         "chosen_by": task.score,
+        "kept_epoch": state.epochs if is_last else state.best_epoch,
         TRAINING: state.tables,
     }
     write_history(folder, facts, state.rows)
     kept = copy.deepcopy(network)
-    kept.load_state_dict(state.network if schedule.keep == "last" else state.best)
+    kept.load_state_dict(state.network if is_last else state.best)
     save(folder / WEIGHTS_FILE, {**task.published(kept), NOTES: facts})
 
 

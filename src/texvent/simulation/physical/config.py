@@ -59,7 +59,7 @@ def parse_noise_curve(text: str) -> NoiseCurve:
     try:
         points = [tuple(map(float, word.split(":"))) for word in re.split(r"[\s,]+", text.strip())]
         levels, rates = np.array(points, np.float64).reshape(len(points), 2).T
-    except ValueError:
+    except (AttributeError, TypeError, ValueError):
         raise ConfigError(
             f"noise_curve is {shown(text)}; it must be points LEVEL:RATE such as "
             "'2:0.5 20:0.1 60:0.003'"
