@@ -196,8 +196,8 @@ def train(
 ) -> TrainingState:
     """Train a task, or go on where a training of it stopped.
 
-    The folder gets `checkpoint.pt` (the whole state), `weights.pt` (the network that
-    `Schedule.keep` names, in its published layout), `history.json` and `curves.png` after every epoch.
+    After every epoch the folder gets `checkpoint.pt` (the whole state), `weights.pt` (the network
+    that `Schedule.keep` names, in its published layout), `history.json` and `curves.png`.
 
     Args:
         task: what to train.
