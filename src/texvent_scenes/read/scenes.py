@@ -30,6 +30,7 @@ PLURAL_COUNT = 3
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _WATERS = frozenset({"sea", "lake", "river"})
+_LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -94,6 +95,7 @@ class _SentenceReader:
         for phrase in before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
+        objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
         subjects, objects, after = self._turn_passive(clause, subjects, objects)
         if clause.about != "company":
             self._earlier = self._subjects if clause.subjects else self._earlier
@@ -103,6 +105,8 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.verb is not None and not self._draft.shows(clause.verb):
+            self._lose_ways(clause.after)
         for index in subjects if clause.about == "where" and where else ():
             self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
@@ -115,7 +119,8 @@ class _SentenceReader:
     ) -> tuple[list[int], list[int]]:
         """Apply the verb of a clause; the subjects that do it, and who is moved."""
         heads = [one.head for one in clause.objects]
-        is_known = all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
+        is_known = not (clause.is_back and not objects)
+        is_known &= all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
         found = self._act(verb, subjects, objects, has_object=not is_known)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
@@ -170,6 +175,28 @@ class _SentenceReader:
             like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
             return [*dict.fromkeys((*like, *told))]
         return told if kind in PLACING and before in word_set("things", "passed") else subjects
+
+    def _find_object(
+        self, clause: Clause, subjects: list[int], nearest: list[int]
+    ) -> list[int]:
+        """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
+        word = self._draft.tokens[clause.verb.at + 1].text if clause.verb else ""
+        about = self._earlier if self._subjects == subjects else self._subjects
+        if word == "them":
+            both = about if self._draft.is_many(about) else [*about, *nearest]
+            return [one for one in dict.fromkeys(both) if one not in subjects]
+        is_person = word in ("him", "her")
+        return [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
+                and (self._draft.things[one]["noun"] in PERSON_NOUNS) == is_person][:1]  # fmt: skip
+
+    def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
+        """Report what says how and where to something is done that is not shown."""
+        for token in (one.preposition if isinstance(one, Phrase) else one for one in after):
+            kinds = {one.value for one in token.all("relation")}
+            is_way = bool(kinds & word_set("things", "ways")) or (token.has("adverb") and not
+                      {"placement"} & {one.value[0] for one in token.all("adverb")})  # fmt: skip
+            if is_way and not token.has("scene"):
+                self._draft.mark(token, "lost")
 
     def _turn_passive(
         self, clause: Clause, subjects: list[int], objects: list[int]
@@ -310,6 +337,9 @@ class _SentenceReader:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif is_set or (field == "rate_hz" and is_idle):
             return
+        elif field == "height_m" and not any(motion["kind"] in ("fall", "bounce")
+                                             for one in things for motion in one["motions"]):
+            return  # it is no way either: "seen from 3 m"
         elif value == "opposite":
             if not draft.part_ways(subjects):
                 return
@@ -377,7 +407,9 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-        kind = "on" if token.text == "onto" and "fall" in does else kind
+        kind = "on" if token.text == "onto" and does & _LANDING else kind
+        sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
+        kind = "towards" if token.text == "against" and sent & {"kick", "throw"} else kind
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []
@@ -503,6 +535,11 @@ class _SentenceReader:
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
+        before = self._draft.tokens[clause.verb.at - 1] if travels and clause.verb.at else NO_TOKEN
+        is_own = before.is_unknown or before.has("noun", "effect", "verb") or any(
+            one.value[1] == "weather" for one in before.all("scene")
+        )  # "rain drops running down a pane"
+        is_place = is_place and not (is_own and not before.has("shot", "style"))
         is_new = not self._draft.things and clause.about not in ("nearest", "company")
         return travels and is_place and is_new
 
@@ -522,7 +559,10 @@ class _SentenceReader:
                 found, sense = self._relate(one, [], []), one.preposition.first("relation")
                 kind = sense.value if sense else ""
                 targets += found if kind in word_set("things", "aims") else []
-                is_side = bool(found) and kind in word_set("things", "sides")
+                turns = move is not None and move["kind"] in ("pan", "tilt")
+                is_swept = turns and one.preposition.text in word_set("things", "swept")
+                targets += found if is_swept else []
+                is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)
