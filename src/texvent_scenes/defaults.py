@@ -15,6 +15,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.spec.data import SPACED
 from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
 NO_PLACE = "no place is said"
@@ -45,7 +46,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_far(description), nouns)
+    description = _rest(_set_down(_set_far(description)), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
@@ -63,6 +64,29 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _set_down(description: SceneDescription) -> SceneDescription:
+    """Small things stand on the usual support of their kind, as what they stand beside does.
+
+    Where a scene has none, a note says that they are on the floor.
+    """
+    objects, relations = description.objects, [*description.relations]
+    bound = {n for one in relations if one.kind not in SPACED for n in (one.subject, *one.targets)}
+    bound -= {n for one in relations if one.kind == "at" for n in (one.subject, *one.targets)}
+    floor = list[str]()
+    for n, one in enumerate(objects):
+        usual = trait_value("usual support", one.noun) or ()
+        is_put = one.position_m is not None or one.height_m is not None or one.placement is not None
+        if n in bound or not usual or is_put or any(each.is_moving for each in one.motions):
+            continue
+        found = [k for name in usual for k, each in enumerate(objects) if each.noun == name]
+        if found:
+            relations.append(IndexedRelation(n, "on", (found[0],)))
+        elif is_room(description.place.name or "plain") and description.prompt:
+            floor.append(f"nothing carries the {one.noun}: it stands on the floor")
+    description = replace(description, relations=tuple(relations))
+    return replace(description, notes=(*description.notes, *floor))
 
 
 def waits_to_fall(one: SceneObject) -> bool:

@@ -191,11 +191,11 @@ class _SentenceReader:
 
     def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
         """Report what says how and where to something is done that is not shown."""
-        for token in (one.preposition if isinstance(one, Phrase) else one for one in after):
-            kinds = {one.value for one in token.all("relation")}
-            is_way = bool(kinds & word_set("things", "ways")) or (token.has("adverb") and not
-                      {"placement"} & {one.value[0] for one in token.all("adverb")})  # fmt: skip
-            if is_way and not token.has("scene"):
+        for one in after:
+            token = one.preposition if isinstance(one, Phrase) else one
+            kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
+            said = {each if token is not one else each[0] for each in kinds}
+            if said & word_set("things", "ways") and not token.has("scene"):
                 self._draft.mark(token, "lost")
 
     def _turn_passive(
@@ -408,6 +408,8 @@ class _SentenceReader:
         kind = sense.value if sense is not None else ""
         does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
         kind = "on" if token.text == "onto" and does & _LANDING else kind
+        for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
+            motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
         sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
         kind = "towards" if token.text == "against" and sent & {"kick", "throw"} else kind
         if not phrase.groups:
@@ -447,7 +449,7 @@ class _SentenceReader:
         about: Sequence[int] = self._earlier if is_own else nearest
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
-        others = others if kind and about else []
+        others = others if about and kind not in ("", "route", "off") else []
         is_so = any([self._relate_one(kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
 

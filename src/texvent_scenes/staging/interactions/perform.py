@@ -187,6 +187,10 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
+    sent = {one.subject: one.targets[0] for one in acts if one.kind in ("kick", "throw")}
+    for each in description.relations:
+        if each.kind == "towards" and each.subject in sent:
+            _send_against(cast, sent[each.subject], each.targets[0])
     for person in list(cast.values()):
         nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
@@ -194,6 +198,14 @@ def perform_acts(
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 del cast[number]
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
+
+
+def _send_against(cast: dict[int, Actor], sent: int, goal: int) -> None:
+    """What is kicked or thrown goes back from what is fixed."""
+    things, walls = ([n for n, one in cast.items() if one.object_index == index]
+                     for index in (sent, goal))  # fmt: skip
+    for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
+        cast[thing], cast[walls[0]] = striking.rebound(cast[thing], cast[walls[0]])
 
 
 def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: float) -> None:

@@ -24,7 +24,7 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.keys import Key
+from texvent_scenes.staging.tracks.keys import Key, flight_s
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
 from texvent_scenes.staging.tracks.track import Track, centred
 
@@ -63,6 +63,8 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
+_LEAST_HOP_M = 0.25
+"""Height of a leap above what it leads onto, for small bodies, m."""
 _LEAST_GOING_S = 0.1
 """Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
 _PERSON_M = 0.5
@@ -227,6 +229,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         return _seat_on(group, target, neighbours)
     support = find_support(target.models[0])
     _line_up(group, target, support, neighbours)
+    if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
+        _leap_up(group, target, support)
     if kind == "stand":
         _carry_along(group, target, support)
     elif group.plan.is_path and not target.plan.motion.is_moving:
@@ -238,6 +242,23 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _leap_up(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have what jumps onto something leap from the ground before it, and stay there."""
+    own, half = group.models[0], target.half_at_rest()
+    is_across = half[0] <= half[1]
+    yaw = 0.0 if is_across else 0.5 * math.pi
+    far = float(half[0 if is_across else 1]) + 0.6 * own.length
+    hop_m, wait_s = max(0.4 * own.height, _LEAST_HOP_M), 0.3 * group.plan.duration_s
+    flown_s, height = flight_s(hop_m), support.height
+    wait = Key(wait_s, ramp_s=0.0, activity="stand")
+    leap = Key(flown_s, far / flown_s, 0.0, height / flown_s, 0.0, "jump", hop_m)
+    keys = (wait, leap, Key(max(group.plan.duration_s - wait_s - flown_s, 0.1), ramp_s=0.0,
+                            activity="stand"))  # fmt: skip
+    start = (-far * math.cos(yaw), -far * math.sin(yaw), -height)
+    path = Track(start, yaw, keys, floor_m=-height)
+    group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)
 
 
 def _carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
