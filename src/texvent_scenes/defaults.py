@@ -82,7 +82,7 @@ def _set_down(description: SceneDescription) -> SceneDescription:
             continue
         found = [k for name in usual for k, each in enumerate(objects) if each.noun == name]
         if found:
-            relations.append(IndexedRelation(n, "on", (found[0],)))
+            relations.append(IndexedRelation("on", n, (found[0],)))
         elif is_room(description.place.name or "plain") and description.prompt:
             floor.append(f"nothing carries the {one.noun}: it stands on the floor")
     description = replace(description, relations=tuple(relations))

@@ -258,6 +258,6 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
-    "from": lambda one, other: _recedes(one, other, 1),
+    "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, 0.5)[:1],
 }  # fmt: skip
 """Kind of relation → whether a body is so to another; acts have none."""

@@ -10,7 +10,7 @@ from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOU
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -137,7 +137,9 @@ class _SentenceReader:
         """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
         last = NO_TOKEN
         for one in after:
-            if isinstance(one, Phrase) and self._hangs_on_unknown(one):
+            if isinstance(one, Phrase) and (
+                self._hangs_on_unknown(one) or self._are_own_parts(one, subjects)
+            ):
                 continue
             if isinstance(one, Phrase):
                 who = self._choose_placed(one, last, subjects, told)
@@ -154,6 +156,22 @@ class _SentenceReader:
         before = self._draft.tokens[phrase.preposition.at - 1]
         is_noun = before.is_unknown and not before.text.endswith("ly") and before is not self._verb
         return phrase.preposition.text == "with" and is_noun
+
+    def _are_own_parts(self, phrase: Phrase, subjects: Sequence[int]) -> bool:
+        """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
+        words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
+        owned = read_table("words", "read")["parts"]
+        parts = [next((word.text for word in each if word.text in owned), "") for each in words]
+        nouns = {self._draft.things[index]["noun"] for index in subjects}
+        if phrase.preposition.text != "with" or not subjects or not all(parts):
+            return False
+        for part, each in zip(parts, words, strict=True):
+            counts = {one.value[1] for word in each for one in word.all("field")
+                      if one.value[0] == "count"}  # fmt: skip
+            drawn = {owned[part].get(noun) for noun in nouns}
+            if None not in drawn and counts <= drawn:
+                self._draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
+        return True
 
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
@@ -457,15 +475,18 @@ class _SentenceReader:
         self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]
     ) -> None:
         """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
-        draft = self._draft
-        for index in moved if token.text == "across" else ():
+        draft, place = self._draft, PLACES[self._draft.parts["place"]["name"]]
+        on_foot = bool(moved) and all(map(draft.walks, moved))
+        is_entered = token.text in ("onto", "into") and place.has_road and on_foot
+        for index in moved if token.text == "across" or is_entered else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
-        place = PLACES[draft.parts["place"]["name"]]
         names = {one.value for head in heads for one in head.all("place")[:1]}
         on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
         is_in = on_foot and token.text in ("through", "in", "into")
-        if is_in or not self._shows_way(token, place, subjects):
+        if is_entered:
+            draft.show(token)  # "steps onto the road": and goes over it
+        elif is_in or not self._shows_way(token, place, subjects):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
