@@ -214,7 +214,13 @@ def _find_unshown(
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
-    if is_said and is_shared and place.scenery and not said.is_empty and not _differs(scene, other, times, 0.0, 0.02):
+    if (
+        is_said
+        and is_shared
+        and place.scenery
+        and not said.is_empty
+        and not _differs(scene, other, times, 0.0, 0.02)
+    ):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)

@@ -370,7 +370,7 @@ class SceneDraft:
             elif name in ("pace", "speed_m_s"):
                 move[name] = move.get("pace", 1.0) * value if name == "pace" else value
             elif name == "turns_hz" and move["kind"] in ("pan", "tilt", "roll", "orbit"):
-                name, move["rate_deg_s"] = "pace", round(360.0 * value, 6)
+                name, move["rate_deg_s"] = "pace", round(360.0 * float(value), 6)
             if name in ("pace", "speed_m_s"):
                 self.show(one)
         means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
@@ -405,7 +405,11 @@ class SceneDraft:
         persons = [one for one in self.things if one["noun"] in PERSON_NOUNS]
         words = {one.text for one in self.tokens}
         for noun, key in (("woman", "female"), ("man", "male")):
-            if len(persons) == 1 and persons[0]["noun"] == "person" and words & word_set("things", key):
+            if (
+                len(persons) == 1
+                and persons[0]["noun"] == "person"
+                and words & word_set("things", key)
+            ):
                 persons[0]["noun"] = noun
                 self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
 

@@ -337,14 +337,15 @@ def _read_phrase(
 
 def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses] | None:
     """A start or a height: "after 2 seconds", "from 1 m", "from a height of one metre"."""
-    how = read_table("words", "read")["said_after"].get(words[at].casefold())
-    if how is None:
-        return None
+    how = read_table("words", "read")["said_after"].get(words[at].casefold(), {"units": {}})
     rest = [one.casefold() for one in words[at + 1 : at + 6]]
     skipped = 3 if rest[1:3] == ["height", "of"] else 0
     number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
     counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
-    said, factor = [number] if number.replace(".", "").isdecimal() else counts, how["units"].get(unit)
+    said, factor = (
+        [number] if number.replace(".", "").isdecimal() else counts,
+        how["units"].get(unit),
+    )
     after = words[at + 3 + skipped : at + 4 + skipped]
     if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
         return None

@@ -93,6 +93,8 @@ class _SentenceReader:
         before = [one for one in clause.after
                   if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
         for phrase in before:
+            if self._are_own_parts(phrase, subjects):
+                continue
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
@@ -194,9 +196,7 @@ class _SentenceReader:
             return [*dict.fromkeys((*like, *told))]
         return told if kind in PLACING and before in word_set("things", "passed") else subjects
 
-    def _find_object(
-        self, clause: Clause, subjects: list[int], nearest: list[int]
-    ) -> list[int]:
+    def _find_object(self, clause: Clause, subjects: list[int], nearest: list[int]) -> list[int]:
         """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
         word = self._draft.tokens[clause.verb.at + 1].text if clause.verb else ""
         about = self._earlier if self._subjects == subjects else self._subjects
@@ -204,8 +204,9 @@ class _SentenceReader:
             both = about if self._draft.is_many(about) else [*about, *nearest]
             return [one for one in dict.fromkeys(both) if one not in subjects]
         is_person = word in ("him", "her")
-        return [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
-                and (self._draft.things[one]["noun"] in PERSON_NOUNS) == is_person][:1]  # fmt: skip
+        others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
+                  and (self._draft.things[one]["noun"] in PERSON_NOUNS) == is_person]  # fmt: skip
+        return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
 
     def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
         """Report what says how and where to something is done that is not shown."""
@@ -355,8 +356,9 @@ class _SentenceReader:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif is_set or (field == "rate_hz" and is_idle):
             return
-        elif field == "height_m" and not any(motion["kind"] in ("fall", "bounce")
-                                             for one in things for motion in one["motions"]):
+        elif field == "height_m" and not any(
+            motion["kind"] in ("fall", "bounce") for one in things for motion in one["motions"]
+        ):
             return  # it is no way either: "seen from 3 m"
         elif value == "opposite":
             if not draft.part_ways(subjects):
@@ -476,13 +478,13 @@ class _SentenceReader:
     ) -> None:
         """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
         draft, place = self._draft, PLACES[self._draft.parts["place"]["name"]]
-        on_foot = bool(moved) and all(map(draft.walks, moved))
-        is_entered = token.text in ("onto", "into") and place.has_road and on_foot
+        is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
+        is_entered &= all(map(draft.walks, moved))
         for index in moved if token.text == "across" or is_entered else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
         names = {one.value for head in heads for one in head.all("place")[:1]}
-        on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
+        on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
         is_in = on_foot and token.text in ("through", "in", "into")
         if is_entered:
             draft.show(token)  # "steps onto the road": and goes over it
@@ -558,11 +560,11 @@ class _SentenceReader:
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
-        before = self._draft.tokens[clause.verb.at - 1] if travels and clause.verb.at else NO_TOKEN
-        is_own = before.is_unknown or before.has("noun", "effect", "verb") or any(
-            one.value[1] == "weather" for one in before.all("scene")
-        )  # "rain drops running down a pane"
-        is_place = is_place and not (is_own and not before.has("shot", "style"))
+        before = self._draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
+        kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
+        is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
+        if is_own and not kinds & {"shot", "style"}:
+            return False  # "rain drops running down a pane"
         is_new = not self._draft.things and clause.about not in ("nearest", "company")
         return travels and is_place and is_new
 

@@ -24,7 +24,7 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.keys import Key, flight_s
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
 from texvent_scenes.staging.tracks.track import Track, centred
 
@@ -250,8 +250,10 @@ def _leap_up(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
     is_across = half[0] <= half[1]
     yaw = 0.0 if is_across else 0.5 * math.pi
     far = float(half[0 if is_across else 1]) + 0.6 * own.length
-    hop_m, wait_s = max(0.4 * own.height, _LEAST_HOP_M), 0.3 * group.plan.duration_s
-    flown_s, height = flight_s(hop_m), support.height
+    clear_m, wait_s = max(0.4 * own.height, _LEAST_HOP_M), 0.3 * group.plan.duration_s
+    height = support.height
+    flown_s = 0.5 * (flight_s(height + clear_m) + flight_s(clear_m))  # up, and down to it
+    hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
     wait = Key(wait_s, ramp_s=0.0, activity="stand")
     leap = Key(flown_s, far / flown_s, 0.0, height / flown_s, 0.0, "jump", hop_m)
     keys = (wait, leap, Key(max(group.plan.duration_s - wait_s - flown_s, 0.1), ramp_s=0.0,

@@ -1,0 +1,80 @@
+"""Short prompts of event vision: where their bodies are over time."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.staged import middle, stage, thing
+
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.spec.scene import Place, Relation, Scene, SceneObject
+
+
+def act(kind, target, *others):
+    return stage(*others, thing(target), relations=((kind, 0, 1), ("towards", 0, 2))).actors
+
+
+@pytest.mark.parametrize(("noun", "target"), [("cat", "fence"), ("dog", "table"), ("boy", "box")])
+def test_what_jumps_onto_something_leaps_from_the_ground_and_ends_on_it(noun, target):
+    noun = {"boy": "child"}.get(noun, noun)
+    one, other = stage(
+        thing(noun, ("jump",), ("stand",)), thing(target), relations=(("on", 0, 1),)
+    ).actors
+    feet = [one.track.at(time_s).position[2] for time_s in np.linspace(0.0, 2.0, 401)]
+    top = feet[-1]
+    assert feet[0] == pytest.approx(0.0, abs=1e-6)
+    assert 0.2 < top <= other.model.height + 0.05
+    assert max(feet) > top + 0.1
+    flown = np.flatnonzero(np.diff(feet) != 0.0)
+    rises = np.diff(feet, 2)[flown[1] : flown[-1] - 1] / 0.005**2
+    assert np.median(rises) == pytest.approx(-9.81, rel=0.01)  # free flight
+    away = middle(one, 2.0) - middle(other, 2.0)
+    assert np.abs(away[:2]).max() <= 0.5 * max(other.model.length, other.model.width)
+
+
+@pytest.mark.parametrize("kind", ["kick", "throw"])
+@pytest.mark.parametrize("wall", ["wall", "striped wall", "house"])
+def test_what_is_sent_against_a_wall_comes_back_from_its_face(kind, wall):
+    who, ball, wall = act(kind, wall, thing("child"), thing("ball"))
+    way = np.array([math.cos(ball.track.yaw), math.sin(ball.track.yaw)])
+    places = np.array([ball.track.at(t).position[:2] for t in np.linspace(0.0, 2.0, 801)]) @ way
+    far = int(np.argmax(places))
+    assert 0 < far < 800
+    assert places[-1] < places[far] - 0.5
+    face = float(min(wall.corners(0.0)[:, :2] @ way))
+    assert places[far] + 0.5 * ball.model.length == pytest.approx(face, abs=0.3)
+    assert float(who.middle(0.0)[:2] @ way) < face
+
+
+def complete_of(*objects, place):
+    return complete(to_description(Scene("x", objects=objects, place=Place(place))), NOUNS)
+
+
+@pytest.mark.parametrize(
+    ("noun", "support"), [("mug", "table"), ("laptop", "desk"), ("pot", "oven")]
+)
+def test_small_things_stand_on_their_usual_support(noun, support):
+    with_support = complete_of(SceneObject(noun), SceneObject(support), place="indoor")
+    assert [(one.kind, one.subject, one.targets) for one in with_support.relations] == [
+        ("on", 0, (1,))
+    ]
+    held = SceneObject(noun, relations=(Relation("under", (support,)),))
+    assert len(complete_of(held, SceneObject(support), place="indoor").relations) == 1
+    alone = complete_of(SceneObject(noun), place="kitchen")
+    assert f"nothing carries the {noun}: it stands on the floor" in alone.notes
+
+
+@pytest.mark.parametrize(
+    ("noun", "count", "support"),
+    [("candle", 3, "cake"), ("cube", 3, "rug"), ("bottle", 9, "stool")],
+)
+def test_several_things_fit_on_what_they_are_put_on(noun, count, support):
+    scene = stage(thing(noun, count=count), thing(support), relations=(("on", 0, 1),))
+    *own, other = scene.actors
+    low, high = other.corners(0.0).min(axis=0)[:2], other.corners(0.0).max(axis=0)[:2]
+    for one in own:
+        assert (one.corners(0.0).min(axis=0)[:2] > low - 0.25 * one.size_m).all()
+        assert (one.corners(0.0).max(axis=0)[:2] < high + 0.25 * one.size_m).all()
+    assert any(f"the {noun} is drawn at" in note for note in scene.notes)
