@@ -427,7 +427,9 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-        kind = "on" if token.text == "onto" and does & _LANDING else kind
+        heads = [each.noun.noun for each in phrase.groups if each.noun is not None]
+        is_down = token.text == "down" and set(heads) & nouns_with("slope")
+        kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
         for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
             motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
         sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
