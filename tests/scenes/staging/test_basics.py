@@ -78,3 +78,27 @@ def test_several_things_fit_on_what_they_are_put_on(noun, count, support):
         assert (one.corners(0.0).min(axis=0)[:2] > low - 0.25 * one.size_m).all()
         assert (one.corners(0.0).max(axis=0)[:2] < high + 0.25 * one.size_m).all()
     assert any(f"the {noun} is drawn at" in note for note in scene.notes)
+
+
+@pytest.mark.parametrize(("noun", "motion"), [("ball", "roll"), ("car", "drive"), ("box", "slide")])
+def test_what_goes_down_a_ramp_gains_the_speed_of_its_height(noun, motion):
+    one, _ = stage(thing(noun, (motion,)), thing("ramp"), relations=(("on", 0, 1),)).actors
+    heights = [one.track.at(time_s).position[2] for time_s in np.linspace(0.0, 2.0, 201)]
+    assert heights[0] == pytest.approx(0.55)
+    assert heights[-1] == pytest.approx(0.0, abs=1e-6)
+    share = 5.0 / 7.0 if motion == "roll" else 1.0
+    fastest = max(one.track.at(time_s).speed_m_s for time_s in np.linspace(0.0, 2.0, 201))
+    assert fastest == pytest.approx(math.sqrt(2.0 * 9.81 * share * 0.55), rel=0.02)
+
+
+@pytest.mark.parametrize(("way", "sign"), [("towards", 1.0), ("away", -1.0)])
+@pytest.mark.parametrize("noun", ["checkerboard", "circle grid", "april tag"])
+def test_a_board_tilts_its_top_to_the_side_that_is_said(noun, way, sign):
+    scene = stage(thing(noun, ("tilt", way)), thing("wall"), relations=(("front", 0, 1),))
+    one = scene.actors[0]
+    camera = scene.camera(0.0)
+    top = np.array([0.0, 0.0, one.model.height, 1.0])
+    depths = [float(camera.rotation[2] @ (one.track.at(time_s).to_world() @ top - camera.position))
+              for time_s in (0.0, 1.0, 2.0)]  # fmt: skip
+    assert sign * (depths[0] - depths[1]) > 0.05 * one.model.height
+    assert sign * (depths[1] - depths[2]) > 0.0
