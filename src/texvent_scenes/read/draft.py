@@ -304,8 +304,10 @@ class SceneDraft:
         if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:
+            swings = nouns_with("swings")
             needs_hands = verb.relation in word_set("things", "of_people")
-            return bool(verb.relation) and (is_acting or not needs_hands)
+            is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)

@@ -342,10 +342,8 @@ def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, 
     skipped = 3 if rest[1:3] == ["height", "of"] else 0
     number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
     counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
-    said, factor = (
-        [number] if number.replace(".", "").isdecimal() else counts,
-        how["units"].get(unit),
-    )
+    said = [number] if number.replace(".", "").isdecimal() else counts
+    factor = how["units"].get(unit)
     after = words[at + 3 + skipped : at + 4 + skipped]
     if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
         return None

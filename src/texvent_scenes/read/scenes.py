@@ -203,9 +203,8 @@ class _SentenceReader:
         if word == "them":
             both = about if self._draft.is_many(about) else [*about, *nearest]
             return [one for one in dict.fromkeys(both) if one not in subjects]
-        is_person = word in ("him", "her")
         others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
-                  and (self._draft.things[one]["noun"] in PERSON_NOUNS) == is_person]  # fmt: skip
+                  and (self._draft.things[one]["noun"] in PERSON_NOUNS) == (word in ("him", "her"))]  # fmt: skip
         return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
 
     def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
@@ -406,7 +405,7 @@ class _SentenceReader:
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
-            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in DONE_SEATED
+            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
             is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
             if is_later and before and not is_seated:
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once

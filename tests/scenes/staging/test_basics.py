@@ -102,3 +102,18 @@ def test_a_board_tilts_its_top_to_the_side_that_is_said(noun, way, sign):
               for time_s in (0.0, 1.0, 2.0)]  # fmt: skip
     assert sign * (depths[0] - depths[1]) > 0.05 * one.model.height
     assert sign * (depths[1] - depths[2]) > 0.0
+
+
+@pytest.mark.parametrize("noun", ["girl", "man", "child"])
+def test_who_is_on_a_swing_goes_with_its_seat(noun):
+    one, swing = stage(thing(noun, ("sit",)), thing("swing", ("work",)),
+                       relations=(("on", 0, 1),)).actors  # fmt: skip
+    gaps = []
+    for time_s in np.linspace(0.0, 2.0, 9):
+        seat = swing.track.at(time_s).to_world() @ np.append(
+            swing.own_parts(swing.pose(time_s))[-1].to_body[:, 3], 1.0
+        )
+        gaps.append(np.linalg.norm(one.track.at(time_s).to_world()[:, 3] - seat))
+    ways = [one.track.at(time_s).position[0] for time_s in np.linspace(0.0, 2.0, 9)]
+    assert np.ptp(gaps) < 1e-6
+    assert np.ptp(ways) > 0.3
