@@ -232,10 +232,9 @@ class _Parser(GroupReader):
     def _read_adverb(self, clause: Clause) -> Clause | None:
         token = self._token()
         if token.has("pronouns"):
-            is_object = clause.verb is not None and self._token(-1) is clause.verb
+            is_back = clause.is_back or self._token(-1) is clause.verb
             self._take()
             is_subject = not clause.has_subject and clause.verb is None
-            is_back = clause.is_back or is_object
             return replace(clause, about="same" if is_subject else clause.about, is_back=is_back)
         if not token.has("adverb"):
             return None

@@ -347,8 +347,7 @@ def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, 
     after = words[at + 3 + skipped : at + 4 + skipped]
     if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
         return None
-    kind, field = how["sense"]
-    return skipped + 3, (Sense(kind, (field, factor * float(said[0]))),)
+    return skipped + 3, (Sense(how["kind"], (how["field"], factor * float(said[0]))),)
 
 
 def _without_chance(

@@ -12,7 +12,7 @@ from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place
+from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
@@ -203,8 +203,9 @@ class _SentenceReader:
         if word == "them":
             both = about if self._draft.is_many(about) else [*about, *nearest]
             return [one for one in dict.fromkeys(both) if one not in subjects]
+        persons = {n for n, one in enumerate(self._draft.things) if one["noun"] in PERSON_NOUNS}
         others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
-                  and (self._draft.things[one]["noun"] in PERSON_NOUNS) == (word in ("him", "her"))]  # fmt: skip
+                  and (one in persons) == (word in ("him", "her"))]  # fmt: skip
         return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
 
     def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
@@ -220,13 +221,14 @@ class _SentenceReader:
         self, clause: Clause, subjects: list[int], objects: list[int]
     ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
         """The actor, the object and the rest of a passive clause: "a ball kicked by a man"."""
-        by = clause.after[0] if clause.after else None
+        after = tuple(one for one in clause.after if isinstance(one, Phrase) or not is_grammar(one))
+        by = after[0] if after else None  # "is kicked by"
         is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
-            return subjects, objects, clause.after
+            return subjects, objects, after
         agents = [index for group in by.groups for index in self._name(group)]
         self._draft.mark(by.preposition, "shown" if agents else "lost")
-        return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
+        return (agents, subjects, after[1:]) if agents else (subjects, [], after[1:])
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
@@ -426,8 +428,8 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-        heads = [each.noun.noun for each in phrase.groups if each.noun is not None]
-        is_down = token.text == "down" and set(heads) & nouns_with("slope")
+        nouns = {each.noun.noun for each in phrase.groups if each.noun is not None}
+        is_down = token.text == "down" and bool(nouns & nouns_with("slope"))
         kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
         for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
             motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []

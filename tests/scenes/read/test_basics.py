@@ -145,3 +145,16 @@ def test_what_jumps_onto_something_stays_there(text):
 def test_who_steps_onto_a_road_goes_across(text):
     assert scene(text).objects[0].motions[0].direction == "across"
     assert "onto" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a cart is pushed by a man", ("man", "push", "shopping cart")),
+        ("a ball is kicked by a child", ("child", "kick", "ball")),
+        ("a van is being overtaken by a bus", ("bus", "overtake", "van")),
+    ],
+)
+def test_a_passive_has_its_actor(text, expected):
+    assert expected in relations(text)
+    assert not lost(text)
