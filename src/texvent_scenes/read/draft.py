@@ -405,13 +405,11 @@ class SceneDraft:
     def _choose_gender(self) -> None:
         """Draw the only person as the one that a pronoun means: "a chef chops her carrots"."""
         persons = [one for one in self.things if one["noun"] in PERSON_NOUNS]
-        words = {one.text for one in self.tokens}
+        words = {
+            one.text for one in self.tokens if [each["noun"] for each in persons] == ["person"]
+        }
         for noun, key in (("woman", "female"), ("man", "male")):
-            if (
-                len(persons) == 1
-                and persons[0]["noun"] == "person"
-                and words & word_set("things", key)
-            ):
+            if words & word_set("things", key) and persons[0]["noun"] == "person":
                 persons[0]["noun"] = noun
                 self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
 

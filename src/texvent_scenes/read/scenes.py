@@ -434,7 +434,8 @@ class _SentenceReader:
         for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
             motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
         sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
-        kind = "towards" if token.text == "against" and sent & {"kick", "throw"} else kind
+        if token.text == "against" and (sent | does) - {"stand"}:
+            kind = "" if "throw" in does else "towards"  # nobody throws it
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []

@@ -117,3 +117,21 @@ def test_who_is_on_a_swing_goes_with_its_seat(noun):
     ways = [one.track.at(time_s).position[0] for time_s in np.linspace(0.0, 2.0, 9)]
     assert np.ptp(gaps) < 1e-6
     assert np.ptp(ways) > 0.3
+
+
+@pytest.mark.parametrize(
+    ("noun", "target"),
+    [("man", "fence"), ("horse", "bench"), ("dog", "box"), ("skateboarder", "box")],
+)
+def test_what_jumps_over_something_clears_it_and_lands_behind_it(noun, target):
+    one, other = stage(thing(noun, ("jump",)), thing(target), relations=(("above", 0, 1),)).actors
+    over = 0
+    for time_s in np.linspace(0.0, 2.0, 41):
+        apart = np.abs(one.track.at(time_s).position[:2] - other.middle(time_s)[:2])
+        is_above = (apart < 0.25 * other.model.length + 0.05).all()
+        over += is_above
+        assert not is_above or one.track.at(time_s).position[2] > 0.9 * other.model.height
+    assert over
+    before, after = (middle(one, time_s)[1] for time_s in (0.0, 2.0))
+    assert before < other.middle(0.0)[1] < after
+    assert one.track.at(2.0).position[2] == pytest.approx(0.0, abs=1e-6)

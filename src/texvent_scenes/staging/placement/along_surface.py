@@ -12,11 +12,13 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
-from texvent_scenes.staging.tracks.phases import activity_of
+from texvent_scenes.staging.tracks.phases import activity_of, usual_speed
 from texvent_scenes.staging.tracks.track import Track, centred
 
 _LEAST_HOP_M = 0.25
 """Height of a leap above what it leads onto, for small bodies, m."""
+_MOST_RUN_UP_M_S = 4.0
+"""Most usual speed of a run-up."""
 _LEAST_GOING_S = 0.1
 """Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
 _ROLLING, _STEPS = 5.0 / 7.0, 8
@@ -49,23 +51,44 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
     group.fit()
 
 
+def _approach(group: ObjectGroup, target: ObjectGroup) -> tuple[float, float]:
+    """Heading over the shorter side of a target, away from the camera; metres to its middle."""
+    body, yaw = target.models[0], target.plan.yaw
+    yaw += 0.0 if body.length <= body.width else 0.5 * math.pi
+    yaw += math.pi if math.sin(yaw) < 0.0 else 0.0
+    return yaw, 0.5 * min(body.length, body.width) + 0.6 * group.models[0].length
+
+
 def leap_up(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
     """Have what jumps onto something leap from the ground before it, and stay there."""
-    own, half = group.models[0], target.half_at_rest()
-    is_across = half[0] <= half[1]
-    yaw = 0.0 if is_across else 0.5 * math.pi
-    far = float(half[0 if is_across else 1]) + 0.6 * own.length
-    clear_m, wait_s = max(0.4 * own.height, _LEAST_HOP_M), 0.3 * group.plan.duration_s
-    height = support.height
+    yaw, far = _approach(group, target)
+    height, wait_s = support.height, 0.3 * group.plan.duration_s
+    clear_m = max(0.4 * group.models[0].height, _LEAST_HOP_M)
     flown_s = 0.5 * (flight_s(height + clear_m) + flight_s(clear_m))  # up, and down to it
     hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
-    wait = Key(wait_s, ramp_s=0.0, activity="stand")
     leap = Key(flown_s, far / flown_s, 0.0, height / flown_s, 0.0, "jump", hop_m)
-    keys = (wait, leap, Key(max(group.plan.duration_s - wait_s - flown_s, 0.1), ramp_s=0.0,
-                            activity="stand"))  # fmt: skip
+    rest_s = max(group.plan.duration_s - wait_s - flown_s, 0.1)
+    keys = (Key(wait_s, ramp_s=0.0, activity="stand"), leap,
+            Key(rest_s, ramp_s=0.0, activity="stand"))  # fmt: skip
     start = (-far * math.cos(yaw), -far * math.sin(yaw), -height)
     path = Track(start, yaw, keys, floor_m=-height)
     group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)
+
+
+def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
+    """Have what jumps over something run up, clear it at mid clip, and run on."""
+    yaw, far = _approach(group, target)
+    hop_m = target.top_m + max(0.2 * group.models[0].height, _LEAST_HOP_M)
+    flown_s = min(flight_s(hop_m), 0.8 * group.plan.duration_s)
+    kind = "run" if group.noun.motion == "walk" else group.noun.motion
+    speed = max(2.0 * far / flown_s, min(usual_speed(group.noun, kind), _MOST_RUN_UP_M_S))
+    run_s = 0.5 * (group.plan.duration_s - flown_s)
+    run = Key(run_s, speed, ramp_s=0.0, activity=activity_of(kind))
+    keys = (Key(0.0, speed), run, replace(run, duration_s=flown_s, hop_m=hop_m), run)
+    back_m = 0.5 * speed * group.plan.duration_s
+    path = Track((-back_m * math.cos(yaw), -back_m * math.sin(yaw), 0.0), yaw, keys, floor_m=0.0)
+    group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)
+    group.fit()
 
 
 def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:

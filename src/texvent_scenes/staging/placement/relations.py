@@ -22,6 +22,7 @@ from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
     go_down,
+    leap_over,
     leap_up,
     stop_at_edge,
 )
@@ -108,7 +109,8 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
     if group.plan.motion.kind == "jump":
-        return place_by_subject(group, "beside", target, height)  # it jumps over nothing
+        leap_over(group, target)
+        return Goal(_on_ground(target, height), _FIXED)
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
     return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
 
