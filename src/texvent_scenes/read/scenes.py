@@ -434,8 +434,8 @@ class _SentenceReader:
         for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
             motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
         sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
-        if token.text == "against" and (sent | does) - {"stand"}:
-            kind = "" if "throw" in does else "towards"  # nobody throws it
+        sent_to = "" if "throw" in does else "towards"  # nobody throws it
+        kind = sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []
