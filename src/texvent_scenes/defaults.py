@@ -6,7 +6,7 @@ what was decided.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
@@ -57,6 +57,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    for note in _list_floored(description, place):
+        description = _note(description, note)
     for one in description.objects:
         if waits_to_fall(one):
             description = _note(description, f"the {one.noun} hangs on a thread until it falls")
@@ -67,26 +69,33 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
 
 
 def _set_down(description: SceneDescription) -> SceneDescription:
-    """Small things stand on the usual support of their kind, as what they stand beside does.
+    """Small things stand on the usual support of their kind, as what they stand beside does."""
+    relations = [*description.relations]
+    for n, usual in _list_loose(description):
+        nouns = [one.noun for one in description.objects]
+        found = [nouns.index(name) for name in usual if name in nouns]
+        relations += [IndexedRelation("on", n, (found[0],))] if found else []
+    return replace(description, relations=tuple(relations))
 
-    Where a scene has none, a note says that they are on the floor.
-    """
-    objects, relations = description.objects, [*description.relations]
-    bound = {n for one in relations if one.kind not in SPACED for n in (one.subject, *one.targets)}
-    bound -= {n for one in relations if one.kind == "at" for n in (one.subject, *one.targets)}
-    floor = list[str]()
-    for n, one in enumerate(objects):
-        usual = trait_value("usual support", one.noun) or ()
+
+def _list_loose(description: SceneDescription) -> Iterator[tuple[int, Sequence[str]]]:
+    """Small things of which nothing says what bears them, and what usually does."""
+    bound = {n for one in description.relations if one.kind not in (*SPACED, "at")
+             for n in (one.subject, *one.targets)}  # fmt: skip
+    for n, one in enumerate(description.objects):
+        usual = trait_value("usual support", one.noun)
         is_put = one.position_m is not None or one.height_m is not None or one.placement is not None
-        if n in bound or not usual or is_put or any(each.is_moving for each in one.motions):
-            continue
-        found = [k for name in usual for k, each in enumerate(objects) if each.noun == name]
-        if found:
-            relations.append(IndexedRelation("on", n, (found[0],)))
-        elif is_room(description.place.name or "plain") and description.prompt:
-            floor.append(f"nothing carries the {one.noun}: it stands on the floor")
-    description = replace(description, relations=tuple(relations))
-    return replace(description, notes=(*description.notes, *floor))
+        if usual and n not in bound and not is_put and not any(m.is_moving for m in one.motions):
+            yield n, usual
+
+
+def _list_floored(description: SceneDescription, place: str) -> Iterator[str]:
+    """Notes on small things that a sentence leaves on the floor of a room."""
+    nouns = {one.noun for one in description.objects}
+    for n, _ in _list_loose(description) if is_room(place) and description.prompt else ():
+        noun = description.objects[n].noun
+        if not (nouns & PERSON_NOUNS and noun in nouns_with("in hand or on something")):
+            yield f"nothing carries the {noun}: it stands on the floor"
 
 
 def waits_to_fall(one: SceneObject) -> bool:
