@@ -6,7 +6,7 @@ what was decided.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
@@ -15,6 +15,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.spec.data import SPACED
 from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
 NO_PLACE = "no place is said"
@@ -45,7 +46,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_far(description), nouns)
+    description = _rest(_set_down(_set_far(description)), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
@@ -56,6 +57,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    for note in _list_floored(description, place):
+        description = _note(description, note)
     for one in description.objects:
         if waits_to_fall(one):
             description = _note(description, f"the {one.noun} hangs on a thread until it falls")
@@ -63,6 +66,36 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _set_down(description: SceneDescription) -> SceneDescription:
+    """Small things stand on the usual support of their kind, as what they stand beside does."""
+    relations = [*description.relations]
+    for n, usual in _list_loose(description):
+        nouns = [one.noun for one in description.objects]
+        found = [nouns.index(name) for name in usual if name in nouns]
+        relations += [IndexedRelation("on", n, (found[0],))] if found else []
+    return replace(description, relations=tuple(relations))
+
+
+def _list_loose(description: SceneDescription) -> Iterator[tuple[int, Sequence[str]]]:
+    """Small things of which nothing says what bears them, and what usually does."""
+    bound = {n for one in description.relations if one.kind not in (*SPACED, "at")
+             for n in (one.subject, *one.targets)}  # fmt: skip
+    for n, one in enumerate(description.objects):
+        usual = trait_value("usual support", one.noun)
+        is_put = one.position_m is not None or one.height_m is not None or one.placement is not None
+        if usual and n not in bound and not is_put and not any(m.is_moving for m in one.motions):
+            yield n, usual
+
+
+def _list_floored(description: SceneDescription, place: str) -> Iterator[str]:
+    """Notes on small things that a sentence leaves on the floor of a room."""
+    nouns = {one.noun for one in description.objects}
+    for n, _ in _list_loose(description) if is_room(place) and description.prompt else ():
+        noun = description.objects[n].noun
+        if not (nouns & PERSON_NOUNS and noun in nouns_with("in hand or on something")):
+            yield f"nothing carries the {noun}: it stands on the floor"
 
 
 def waits_to_fall(one: SceneObject) -> bool:

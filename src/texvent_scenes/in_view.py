@@ -93,7 +93,7 @@ def find_unseen(
     related = {i for one in description.relations for i in one.targets}
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
-    unseen = {*scene.missing}
+    unseen, partly = {*scene.missing}, set[int]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         counts = [pixels[one.instance] for one in own]
@@ -115,10 +115,11 @@ def find_unseen(
                 continue
         elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
+            partly.add(index)
         else:
             continue
         unseen.add(index)
-    violations = [*_list_words_of(description, unseen)]
+    violations = [*_list_words_of(description, unseen, partly)]
     bodied = {one.object_index for one in scene.actors} | scene.missing
     apart = replace(description, relations=tuple(
         one for one in description.relations if bodied.issuperset((one.subject, *one.targets))
@@ -136,8 +137,10 @@ def find_unseen(
     )  # fmt: skip
 
 
-def _list_words_of(description: SceneDescription, gone: Collection[int]) -> Iterator[Violation]:
-    """Nouns of unseen objects, and what is said of no others."""
+def _list_words_of(
+    description: SceneDescription, gone: Collection[int], partly: Collection[int]
+) -> Iterator[Violation]:
+    """Nouns of unseen objects, and what is said of no others; of those partly seen the noun."""
     told = [
         [*((name, getattr(one, name)) for name in _ADJECTIVES),
          *(("motion", motion.kind) for motion in one.motions)]
@@ -146,7 +149,8 @@ def _list_words_of(description: SceneDescription, gone: Collection[int]) -> Iter
     seen = {pair for index, pairs in enumerate(told) if index not in gone for pair in pairs}
     for index in sorted(gone):
         yield Violation("noun", description.objects[index].noun, "")
-        yield from (Violation(*pair, "") for pair in told[index] if pair not in seen)
+        said = told[index] if index not in partly else []
+        yield from (Violation(*pair, "") for pair in said if pair not in seen)
 
 
 def _list_departures(
@@ -210,7 +214,13 @@ def _find_unshown(
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
-    if is_said and is_shared and place.scenery and not _differs(scene, other, times, 0.0, 0.02):
+    if (
+        is_said
+        and is_shared
+        and place.scenery
+        and not said.is_empty
+        and not _differs(scene, other, times, 0.0, 0.02)
+    ):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)

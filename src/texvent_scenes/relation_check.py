@@ -33,9 +33,10 @@ _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 _LASTING = ("on", "in", "at", "with")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT = 0.1, 0.75, 0.5
+_LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
-least share of the way by which what goes "towards" something comes nearer."""
+least share of the way by which what goes "towards" something comes nearer; gap in sizes at which
+what goes "from" something begins."""
 
 
 class Violation(NamedTuple):
@@ -258,6 +259,6 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
-    "from": lambda one, other: _recedes(one, other, 1),
+    "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, _AT_START)[:1],
 }  # fmt: skip
 """Kind of relation → whether a body is so to another; acts have none."""

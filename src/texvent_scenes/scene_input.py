@@ -104,9 +104,11 @@ def _without_idle(
         for one in idle:
             said = {(name, value) for path, name, value in before if path == one.path}
             words = [word for word in shown if not said.isdisjoint(list_meanings(word))]
+            if one.path.endswith("pace"):  # "land", which has a pace of its own, "smoothly"
+                words = words or [word for word in shown if "pace" in dict(list_meanings(word))]
             if not words:
                 notes.append(f"{one.path} would change nothing and is left out: {one.why}")
-            for word in words if said.isdisjoint(after) else ():
+            for word in words if said.isdisjoint(after) or one.path.endswith("pace") else ():
                 shown.remove(word)
                 lost[word] = one.why
     return replace(reading, scene=scene, shown=tuple(shown)), lost, notes

@@ -23,6 +23,8 @@ class Clause:
     absent: tuple[Group, ...] = ()
     negation: tuple[Token, ...] = ()
     """Words that deny these."""
+    is_back: bool = False
+    """Whether its object is a pronoun: "overtakes them"."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
     (later); "nearest", its last group; "company", either: "a boat with dolphins jumping". "where":
@@ -99,6 +101,9 @@ class _Parser(GroupReader):
         is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
         if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
             return Clause(about="same")
+        is_part = any(one.picks for one in clause.subjects)
+        if is_part and clause.verb is None and token.has("verb"):
+            return Clause(about="same")  # "two balls, one red and one blue, collide"
         if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
             return Clause(about="meanwhile")  # "sits, reading"
         is_list = clause.subjects and not (clause.verb or clause.after)
@@ -227,9 +232,10 @@ class _Parser(GroupReader):
     def _read_adverb(self, clause: Clause) -> Clause | None:
         token = self._token()
         if token.has("pronouns"):
+            is_back = clause.is_back or self._token(-1) is clause.verb
             self._take()
             is_subject = not clause.has_subject and clause.verb is None
-            return replace(clause, about="same") if is_subject else clause
+            return replace(clause, about="same" if is_subject else clause.about, is_back=is_back)
         if not token.has("adverb"):
             return None
         if token.is_time and clause == Clause():

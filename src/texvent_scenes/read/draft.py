@@ -54,7 +54,7 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     is_lamp = thing["noun"] in LAMPS and not thing["motions"]
     if field == "rate_hz" and ("blink_hz" in thing or is_lamp):
         field, kind = "blink_hz", "field"
-    if kind == "field" or field == "placement":
+    if kind == "field" or field in ("placement", "height_m"):
         thing[field] = int(value) if field == "count" else value
         return
     motions = thing["motions"]
@@ -304,8 +304,10 @@ class SceneDraft:
         if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:
+            swings = nouns_with("swings")
             needs_hands = verb.relation in word_set("things", "of_people")
-            return bool(verb.relation) and (is_acting or not needs_hands)
+            is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)
@@ -369,6 +371,8 @@ class SceneDraft:
                 name, move = ("pace", move | side) if "direction" in side else ("", move)
             elif name in ("pace", "speed_m_s"):
                 move[name] = move.get("pace", 1.0) * value if name == "pace" else value
+            elif name == "turns_hz" and move["kind"] in ("pan", "tilt", "roll", "orbit"):
+                name, move["rate_deg_s"] = "pace", round(360.0 * float(value), 6)
             if name in ("pace", "speed_m_s"):
                 self.show(one)
         means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
@@ -378,6 +382,7 @@ class SceneDraft:
 
     def reading(self, prompt: str) -> Reading:
         """The scene, and its words; one that is lost at one place of the prompt is not shown."""
+        self._choose_gender()
         fates: dict[str, str] = {}
         for token, after in zip(self.tokens, (*self.tokens[1:], NO_TOKEN), strict=False):
             is_open = token.is_sign or is_grammar(token)
@@ -396,6 +401,17 @@ class SceneDraft:
             substituted=tuple(Substitution(*one) for one in others),
             not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
         )
+
+    def _choose_gender(self) -> None:
+        """Draw the only person as the one that a pronoun means: "a chef chops her carrots"."""
+        persons = [one for one in self.things if one["noun"] in PERSON_NOUNS]
+        words = {
+            one.text for one in self.tokens if [each["noun"] for each in persons] == ["person"]
+        }
+        for noun, key in (("woman", "female"), ("man", "male")):
+            if words & word_set("things", key) and persons[0]["noun"] == "person":
+                persons[0]["noun"] = noun
+                self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
 
     def _build(self, prompt: str) -> Scene:
         """The scene; copies of objects that have most are left out until it holds them all."""

@@ -330,18 +330,24 @@ def _read_phrase(
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
-    if length == 1 and words[at].casefold() == "after" and (time := _read_time(words, at, lexicon)):
-        return time
+    if length == 1 and (stated := _read_stated(words, at, lexicon)):
+        return stated
     return _read_quantity(words, at, lexicon) if is_number else (length, senses)
 
 
-def _read_time(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses] | None:
-    """A start, such as "after 2 seconds", "after one second"."""
-    number, unit = (*(one.casefold() for one in words[at + 1 : at + 3]), "", "")[:2]
+def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses] | None:
+    """A start or a height: "after 2 seconds", "from 1 m", "from a height of one metre"."""
+    how = read_table("words", "read")["said_after"].get(words[at].casefold(), {"units": {}})
+    rest = [one.casefold() for one in words[at + 1 : at + 6]]
+    skipped = 3 if rest[1:3] == ["height", "of"] else 0
+    number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
     counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
     said = [number] if number.replace(".", "").isdecimal() else counts
-    is_time = unit in word_set("things", "of_time") and said
-    return (3, (Sense("adverb", ("start_s", float(said[0]))),)) if is_time else None
+    factor = how["units"].get(unit)
+    after = words[at + 3 + skipped : at + 4 + skipped]
+    if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
+        return None
+    return skipped + 3, (Sense(how["kind"], (how["field"], factor * float(said[0]))),)
 
 
 def _without_chance(

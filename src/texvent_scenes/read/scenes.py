@@ -10,9 +10,9 @@ from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOU
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, names_place
+from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
@@ -30,6 +30,7 @@ PLURAL_COUNT = 3
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _WATERS = frozenset({"sea", "lake", "river"})
+_LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -92,8 +93,11 @@ class _SentenceReader:
         before = [one for one in clause.after
                   if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
         for phrase in before:
+            if self._are_own_parts(phrase, subjects):
+                continue
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
+        objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
         subjects, objects, after = self._turn_passive(clause, subjects, objects)
         if clause.about != "company":
             self._earlier = self._subjects if clause.subjects else self._earlier
@@ -103,6 +107,8 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.verb is not None and not self._draft.shows(clause.verb):
+            self._lose_ways(clause.after)
         for index in subjects if clause.about == "where" and where else ():
             self._relate_one(self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
@@ -115,7 +121,8 @@ class _SentenceReader:
     ) -> tuple[list[int], list[int]]:
         """Apply the verb of a clause; the subjects that do it, and who is moved."""
         heads = [one.head for one in clause.objects]
-        is_known = all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
+        is_known = not (clause.is_back and not objects)
+        is_known &= all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
         found = self._act(verb, subjects, objects, has_object=not is_known)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
@@ -132,7 +139,9 @@ class _SentenceReader:
         """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
         last = NO_TOKEN
         for one in after:
-            if isinstance(one, Phrase) and self._hangs_on_unknown(one):
+            if isinstance(one, Phrase) and (
+                self._hangs_on_unknown(one) or self._are_own_parts(one, subjects)
+            ):
                 continue
             if isinstance(one, Phrase):
                 who = self._choose_placed(one, last, subjects, told)
@@ -149,6 +158,22 @@ class _SentenceReader:
         before = self._draft.tokens[phrase.preposition.at - 1]
         is_noun = before.is_unknown and not before.text.endswith("ly") and before is not self._verb
         return phrase.preposition.text == "with" and is_noun
+
+    def _are_own_parts(self, phrase: Phrase, subjects: Sequence[int]) -> bool:
+        """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
+        words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
+        owned = read_table("words", "read")["parts"]
+        parts = [next((word.text for word in each if word.text in owned), "") for each in words]
+        nouns = {self._draft.things[index]["noun"] for index in subjects}
+        if phrase.preposition.text != "with" or not subjects or not all(parts):
+            return False
+        for part, each in zip(parts, words, strict=True):
+            counts = {one.value[1] for word in each for one in word.all("field")
+                      if one.value[0] == "count"}  # fmt: skip
+            drawn = {owned[part].get(noun) for noun in nouns}
+            if None not in drawn and counts <= drawn:
+                self._draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
+        return True
 
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
@@ -171,17 +196,39 @@ class _SentenceReader:
             return [*dict.fromkeys((*like, *told))]
         return told if kind in PLACING and before in word_set("things", "passed") else subjects
 
+    def _find_object(self, clause: Clause, subjects: list[int], nearest: list[int]) -> list[int]:
+        """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
+        word = self._draft.tokens[clause.verb.at + 1].text if clause.verb else ""
+        about = self._earlier if self._subjects == subjects else self._subjects
+        if word == "them":
+            both = about if self._draft.is_many(about) else [*about, *nearest]
+            return [one for one in dict.fromkeys(both) if one not in subjects]
+        persons = {n for n, one in enumerate(self._draft.things) if one["noun"] in PERSON_NOUNS}
+        others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
+                  and (one in persons) == (word in ("him", "her"))]  # fmt: skip
+        return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
+
+    def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
+        """Report what says how and where to something is done that is not shown."""
+        for one in after:
+            token = one.preposition if isinstance(one, Phrase) else one
+            kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
+            said = {each if token is not one else each[0] for each in kinds}
+            if said & word_set("things", "ways") and not token.has("scene"):
+                self._draft.mark(token, "lost")
+
     def _turn_passive(
         self, clause: Clause, subjects: list[int], objects: list[int]
     ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
         """The actor, the object and the rest of a passive clause: "a ball kicked by a man"."""
-        by = clause.after[0] if clause.after else None
+        after = tuple(one for one in clause.after if isinstance(one, Phrase) or not is_grammar(one))
+        by = after[0] if after else None  # "is kicked by"
         is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
-            return subjects, objects, clause.after
+            return subjects, objects, after
         agents = [index for group in by.groups for index in self._name(group)]
         self._draft.mark(by.preposition, "shown" if agents else "lost")
-        return (agents, subjects, clause.after[1:]) if agents else (subjects, [], clause.after[1:])
+        return (agents, subjects, after[1:]) if agents else (subjects, [], after[1:])
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
@@ -310,6 +357,10 @@ class _SentenceReader:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif is_set or (field == "rate_hz" and is_idle):
             return
+        elif field == "height_m" and not any(
+            motion["kind"] in ("fall", "bounce") for one in things for motion in one["motions"]
+        ):
+            return  # it is no way either: "seen from 3 m"
         elif value == "opposite":
             if not draft.part_ways(subjects):
                 return
@@ -356,7 +407,7 @@ class _SentenceReader:
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
-            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in DONE_SEATED
+            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
             is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
             if is_later and before and not is_seated:
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
@@ -377,7 +428,14 @@ class _SentenceReader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-        kind = "on" if token.text == "onto" and "fall" in does else kind
+        nouns = {each.noun.noun for each in phrase.groups if each.noun is not None}
+        is_down = token.text == "down" and bool(nouns & nouns_with("slope"))
+        kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
+        for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
+            motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
+        sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
+        sent_to = "" if "throw" in does else "towards"  # nobody throws it
+        kind = sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []
@@ -415,7 +473,7 @@ class _SentenceReader:
         about: Sequence[int] = self._earlier if is_own else nearest
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
-        others = others if kind and about else []
+        others = others if about and kind not in ("", "route", "off") else []
         is_so = any([self._relate_one(kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
 
@@ -423,15 +481,18 @@ class _SentenceReader:
         self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]
     ) -> None:
         """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
-        draft = self._draft
-        for index in moved if token.text == "across" else ():
+        draft, place = self._draft, PLACES[self._draft.parts["place"]["name"]]
+        is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
+        is_entered &= all(map(draft.walks, moved))
+        for index in moved if token.text == "across" or is_entered else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
-        place = PLACES[draft.parts["place"]["name"]]
         names = {one.value for head in heads for one in head.all("place")[:1]}
-        on_foot = any(map(draft.keeps_to_ground, subjects)) and names & _WATERS
+        on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
         is_in = on_foot and token.text in ("through", "in", "into")
-        if is_in or not self._shows_way(token, place, subjects):
+        if is_entered:
+            draft.show(token)  # "steps onto the road": and goes over it
+        elif is_in or not self._shows_way(token, place, subjects):
             draft.mark(token, "lost")
         is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
@@ -503,6 +564,11 @@ class _SentenceReader:
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
+        before = self._draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
+        kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
+        is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
+        if is_own and not kinds & {"shot", "style"}:
+            return False  # "rain drops running down a pane"
         is_new = not self._draft.things and clause.about not in ("nearest", "company")
         return travels and is_place and is_new
 
@@ -522,7 +588,10 @@ class _SentenceReader:
                 found, sense = self._relate(one, [], []), one.preposition.first("relation")
                 kind = sense.value if sense else ""
                 targets += found if kind in word_set("things", "aims") else []
-                is_side = bool(found) and kind in word_set("things", "sides")
+                turns = move is not None and move["kind"] in ("pan", "tilt")
+                is_swept = turns and one.preposition.text in word_set("things", "swept")
+                targets += found if is_swept else []
+                is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

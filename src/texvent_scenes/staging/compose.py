@@ -163,8 +163,10 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
-        tuple(f"the roads cross at ({x:.3g}, {y:.3g}) m" for x, y, _ in view.road.crossings)
-        if ground.has_road else (), placer.orphans,
+        (*dict.fromkeys(placer.notes), *(
+            f"the roads cross at ({x:.3g}, {y:.3g}) m"
+            for x, y, _ in (view.road.crossings if ground.has_road else ())
+        )), placer.orphans,
     )  # fmt: skip
 
 

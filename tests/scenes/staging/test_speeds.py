@@ -98,7 +98,7 @@ def test_a_camera_that_may_not_go_along_shows_a_passage_and_says_when(reason):
     np.testing.assert_array_equal(scene.camera(0.0).position, scene.camera(2.0).position)
     (note,) = scene.camera_path.notes
     words = note.split()
-    lasts, begins = float(words[words.index("in") + 1]), float(words[words.index("from") + 1])
+    lasts, begins = float(words[words.index("for") + 1]), float(words[words.index("from") + 1])
     fine = np.linspace(0.0, DURATION_S, 201)
     seen = fine[in_view(scene, fine)]
     assert seen[0] == pytest.approx(begins, abs=0.1)

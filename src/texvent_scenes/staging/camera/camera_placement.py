@@ -245,7 +245,7 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
     is_seen = np.all(np.abs(seen[:, :2]) < [0.5, 0.5 * aspect] + reach[:, None], axis=1)
     first_s, last_s = times[is_seen][[0, -1]] if is_seen.any() else path.passage_s
     yield (
-        f"the {main.noun.name} is fast: it crosses the view in {last_s - first_s:.2g} s, "
+        f"the {main.noun.name} is fast: it is in view for {last_s - first_s:.2g} s, "
         f"from {first_s:.2g} s on"
     )
 

@@ -7,16 +7,21 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
-from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.protocol import Noun, Pose
+from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.track import attached
 
 _Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
 ACTS: Mapping[str, _Act] = {
@@ -187,6 +192,17 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
+    sent = {one.subject: one.targets[0] for one in acts if one.kind in ("kick", "throw")}
+    for each in description.relations:
+        if each.kind == "towards" and each.subject in sent:
+            _send_against(cast, sent[each.subject], each.targets[0])
+    for each in description.relations:
+        seats = [n for n, one in cast.items() if one.object_index in each.targets]
+        riders = [n for n, one in cast.items() if one.object_index == each.subject]
+        for rider, below in zip(riders, seats, strict=False) if each.kind == "on" else ():
+            is_swing = cast[below].noun.name in nouns_with("swings")
+            if is_swing and cast[rider].noun.name in PERSON_NOUNS:
+                _swing_along(cast, rider, below)
     for person in list(cast.values()):
         nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
@@ -194,6 +210,29 @@ def perform_acts(
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 del cast[number]
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
+
+
+def _send_against(cast: dict[int, Actor], sent: int, goal: int) -> None:
+    """What is kicked or thrown goes back from what is fixed."""
+    things, walls = ([n for n, one in cast.items() if one.object_index == index]
+                     for index in (sent, goal))  # fmt: skip
+    for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
+        cast[thing], cast[walls[0]] = striking.rebound(cast[thing], cast[walls[0]])
+
+
+def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
+    """Who sits on what swings goes with its seat, the last of its parts."""
+    one, swing = cast[rider], cast[below]
+    seat = swing.own_parts(Pose(0.0, 0.0, 0.0, "stand"))[-1].to_body
+    home, frame = one.track.at(0.0), swing.track.at(0.0).to_world()
+    start = np.linalg.solve(*(np.vstack([each, [0.0, 0.0, 0.0, 1.0]]) for each in
+                              (compose(frame, seat), home.to_world())))[:3]  # fmt: skip
+
+    def axes(time_s: float) -> Float64Array:
+        return compose(frame, swing.own_parts(swing.pose(time_s))[-1].to_body)
+
+    track = attached(swing.track, start, home.activity, axes)
+    cast[rider] = replace(one, track=track, is_mover=True)
 
 
 def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: float) -> None:

@@ -126,6 +126,26 @@ def _fly_off(
     return replace(flight, terms=terms, pivot_m=start.pivot_m)
 
 
+def rebound(thing: Actor, wall: Actor) -> tuple[Actor, Actor]:
+    """Both, the thing that flies off going back from the wall, which faces it."""
+    track, (x, y, level_m) = thing.track, wall.track.at(0.0).position
+    flight = track.keys[-1]
+    wall = replace(wall, track=steady((x, y, level_m), track.yaw + math.pi, activity="stand"))
+    way = np.subtract(_find_contact(thing, wall, track.yaw, level_m), track.start)
+    flown_s = (way[0] * math.cos(track.yaw) + way[1] * math.sin(track.yaw)) / flight.speed_m_s
+    if flown_s <= 0.0:
+        return thing, wall
+    met_s = sum(key.duration_s for key in track.keys[:-1]) + flown_s
+    low, high = (track.at(met_s + step).position[2] for step in (-_STEP_S, _STEP_S))
+    back = replace(
+        flight, speed_m_s=-_KEPT * flight.speed_m_s, climb_m_s=(high - low) / (2.0 * _STEP_S)
+    )
+    keys = (*track.keys[:-1], replace(flight, duration_s=flown_s), back)
+    return replace(thing, track=replace(track, keys=keys)), wall
+
+
+_STEP_S, _KEPT = 1e-3, 0.6
+"""Half of the time over which a speed is measured; share of a speed after a wall."""
 _RAISED_M, _LEAST_ROOM_M = 0.02, 0.02
 """Height from which on a body stands on another one; the least way to a contact there, m."""
 

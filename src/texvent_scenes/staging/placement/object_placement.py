@@ -55,6 +55,9 @@ _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
 """Approach for each metre to the side."""
+_ROOMY, _LEAST_SHARE = 0.85, 0.3
+"""Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
+"""
 _ATTEMPTS = 400
 _SIDES = {"left": -1.0, "right": 1.0}
 
@@ -82,6 +85,8 @@ class ObjectPlacer:
         self.orphans = frozenset(list_orphans(self._description))
         self.not_shown: list[str] = []
         """Objects that have no place, and why."""
+        self.notes: list[str] = []
+        """Sizes that are not the usual ones, and why."""
         self._travel = travel
         bodies = sum(scene_object.count for scene_object in description.objects)
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
@@ -107,10 +112,11 @@ class ObjectPlacer:
         scene_object = self._description.objects[index]
         noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
+        size = scene_object.size * self._fit_on(index, noun)
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=scene_object.size, seed=int(rng.integers(2**31))),
+                noun.build(colour=colour, scale=size, seed=int(rng.integers(2**31))),
                 scene_object.material,
                 colour,
             )
@@ -124,6 +130,23 @@ class ObjectPlacer:
         offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
+
+    def _fit_on(self, index: int, noun: Noun) -> float:
+        """Share of its size at which several small things find room on what they are put on."""
+        said, objects = self._description.objects[index], self._description.objects
+        targets = [one.targets[0] for one in self._description.relations
+                   if one.subject == index and one.kind == "on"]  # fmt: skip
+        below = [self._nouns[objects[n].noun] for n in targets if n != index]
+        if said.count < 2 or noun.habitat != "fixed" or not below or below[0].habitat != "fixed":
+            return 1.0
+        own = noun.build(colour=None, scale=said.size, seed=0)
+        top = below[0].build(colour=None, scale=objects[targets[0]].size, seed=0)
+        room_m = _ROOMY * max(top.length, top.width) * objects[targets[0]].count
+        share = room_m / (said.count * max(own.length, own.width))
+        if share < 1.0:
+            self.notes.append(f"the {said.noun} is drawn at {max(share, _LEAST_SHARE):.0%} of its "
+                              f"size, for which the {below[0].name} has room")  # fmt: skip
+        return min(max(share, _LEAST_SHARE), 1.0)
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""

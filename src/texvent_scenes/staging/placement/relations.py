@@ -19,14 +19,19 @@ from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred, size_of
+from texvent_scenes.staging.placement.along_surface import (
+    carry_along,
+    go_down,
+    leap_over,
+    leap_up,
+    stop_at_edge,
+)
 from texvent_scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.keys import Key
-from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of
-from texvent_scenes.staging.tracks.track import Track, centred
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 
 class Goal(NamedTuple):
@@ -63,8 +68,6 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
-_LEAST_GOING_S = 0.1
-"""Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -106,7 +109,8 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
     if group.plan.motion.kind == "jump":
-        return place_by_subject(group, "beside", target, height)  # it jumps over nothing
+        leap_over(group, target)
+        return Goal(_on_ground(target, height), _FIXED)
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
     return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
 
@@ -225,12 +229,17 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.carrier = target
     if is_person and _sits(group, target):
         return _seat_on(group, target, neighbours)
+    if trait_value("slope", target.noun.name) and group.plan.is_path:
+        go_down(group, target)
+        return target.to_world(0.0, 0.0, group.origin_m)
     support = find_support(target.models[0])
     _line_up(group, target, support, neighbours)
+    if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
+        leap_up(group, target, support)
     if kind == "stand":
-        _carry_along(group, target, support)
+        carry_along(group, target, support)
     elif group.plan.is_path and not target.plan.motion.is_moving:
-        _stop_at_edge(group, target, support)
+        stop_at_edge(group, target, support)
     if is_person and kind in ("lie", "stand"):
         body = target.models[0]
         is_across = kind == "lie" and body.width > body.length
@@ -238,43 +247,6 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
-
-
-def _carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
-    """Have things on a belt that runs go along with it, up to its end."""
-    usual_m_s, motion = trait_value("belt speed", target.noun.name), target.plan.motion
-    if usual_m_s is None or motion.kind != "work" or motion.pace == 0.0:
-        return
-    group.carrier, duration_s = None, target.plan.duration_s
-    speed = usual_m_s * motion.pace * size_of(target.models[0])
-    taken = np.ptp([math.hypot(x, y) for x, y, _ in group.offsets]) + group.models[0].length
-    room = max(support.high[0] - support.low[0] - float(taken), 0.0)
-    yaw = target.plan.yaw + (math.pi if motion.direction == "clockwise" else 0.0)
-    going_s = min(room / speed, duration_s)
-    keys = (Key(0.0, speed), Key(going_s, speed), Key(max(duration_s - going_s, 0.01), ramp_s=0.05))
-    path = Track((0.0, 0.0, 0.0), yaw, tuple(replace(key, activity="stand") for key in keys))
-    slide = replace(group.plan.motion, kind="slide")
-    path = centred(path, duration_s)
-    group.plan = replace(group.plan, motion=slide, yaw=yaw, path=path, is_facing=False)
-
-
-def _stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
-    """Have what goes along a table cross it once and stay there, where the clip is longer."""
-    plan, own = group.plan, group.models[0]
-    turn = plan.yaw - target.plan.yaw
-    sides = (support.high[0] - support.low[0], support.high[1] - support.low[1])
-    shares = abs(math.cos(turn)), abs(math.sin(turn))
-    ways = [float(side) / max(share, 1e-6) for side, share in zip(sides, shares, strict=True)]
-    going_s = (min(ways) - own.length) / max(plan.speed_m_s, 1e-6)
-    if target.noun.name in nouns_with("way") or not _LEAST_GOING_S < going_s < plan.duration_s:
-        return
-    going = Key(going_s, plan.speed_m_s, activity=activity_of(plan.motion.kind))
-    keys = (replace(going, duration_s=0.0), going,
-            Key(plan.duration_s - going_s, ramp_s=0.05, activity="stand"))  # fmt: skip
-    path = Track(
-        (0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing
-    )  # fmt: skip
-    group.plan = replace(plan, path=centred(path, plan.duration_s))
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:

@@ -44,7 +44,11 @@ def choose_track(
     if plan.path is not None:
         x, y, z = np.add(plan.path.start, home)
         # What flies stays above the ground.
-        floor = home[2] if plan.path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
+        floor = (
+            plan.path.floor_m + home[2]
+            if plan.path.floor_m > NO_FLOOR_M
+            else min(0.5 * model.height, home[2])
+        )
         return replace(
             plan.path, start=(x, y, z), floor_m=floor, radius_m=plan.radius_m,
             is_facing=plan.is_facing,

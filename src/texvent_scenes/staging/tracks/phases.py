@@ -48,6 +48,8 @@ _WAVES = {
 }  # fmt: skip
 """Kind of motion → its oscillations: amplitudes in rad or in the body's size, phases as shares of
 that of the body; without a rate they have that of the motion."""
+_LEANS, _LEANT_S = {"towards": 0.4, "away": -0.4}, 1.7
+"""Rates at which what tilts to one side does so, its front at the camera, rad/s; and until when."""
 LEANING = frozenset({"sway", "tilt"})
 """Those of a body that stays upright on average."""
 _MOST_DRIFTING_M = 2.5
@@ -131,7 +133,9 @@ def activity_of(kind: str) -> str:
 
 def oscillations(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]:
     """Oscillations of a kind of motion, for a body of that size."""
-    size = model.height
+    size, lean = model.height, _LEANS.get(motion.direction or "", 0.0)
+    if motion.kind == "tilt" and lean and motion.rate_hz is None:
+        return (Term("pitch", drift=lean * motion.pace, begin_s=0.0, end_s=_LEANT_S),)
     if motion.kind in ("hover", "float"):
         size = min(max(model.length, model.width, size), _MOST_DRIFTING_M) * motion.pace
     rate_hz = motion.rate_hz or 0.5 * motion.pace

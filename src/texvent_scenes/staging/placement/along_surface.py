@@ -1,0 +1,128 @@
+"""Ways along, onto and down what bears a body: a belt, a table, a fence, a ramp."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.models.anchors import Support
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.staging.actors import size_of
+from texvent_scenes.staging.placement.object_groups import ObjectGroup
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
+from texvent_scenes.staging.tracks.phases import activity_of, usual_speed
+from texvent_scenes.staging.tracks.track import Track, centred
+
+_LEAST_HOP_M = 0.25
+"""Height of a leap above what it leads onto, for small bodies, m."""
+_MOST_RUN_UP_M_S = 4.0
+"""Most usual speed of a run-up."""
+_LEAST_GOING_S = 0.1
+"""Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
+_ROLLING, _STEPS = 5.0 / 7.0, 8
+"""Share of the acceleration down a slope of what rolls there, a full sphere; keys of such a way."""
+
+
+def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
+    """Have what goes on a ramp go down it, at the speed that is said or let go from rest."""
+    plan, (length, height) = group.plan, trait_value("slope", target.noun.name)
+    scale = size_of(target.models[0])
+    length, height = scale * length, scale * height
+    way_m, said_m_s = math.hypot(length, height), plan.motion.speed_m_s
+    rate = GRAVITY_M_S2 * height / way_m * (_ROLLING if plan.motion.kind == "roll" else 1.0)
+    spent_s = way_m / said_m_s if said_m_s else math.sqrt(2.0 * way_m / rate)
+    along, down = length / way_m, -height / way_m
+    first = said_m_s or 0.0
+    keys = [Key(0.0, along * first, 0.0, down * first)]
+    for number in range(1, _STEPS + 1):
+        speed = said_m_s or rate * spent_s * number / _STEPS
+        step_s = spent_s / _STEPS
+        keys.append(Key(step_s, along * speed, 0.0, down * speed, step_s,
+                        activity_of(plan.motion.kind)))  # fmt: skip
+    last = said_m_s or rate * spent_s
+    keys.append(Key(max(plan.duration_s - spent_s, 0.1), last, ramp_s=0.02,
+                    activity=activity_of(plan.motion.kind)))  # fmt: skip
+    yaw = target.plan.yaw
+    start = (-0.5 * length * math.cos(yaw), -0.5 * length * math.sin(yaw), height)
+    path = Track(start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m)
+    group.plan = replace(plan, yaw=yaw, path=path)
+    group.fit()
+
+
+def _approach(group: ObjectGroup, target: ObjectGroup) -> tuple[float, float]:
+    """Heading over the shorter side of a target, away from the camera; metres to its middle."""
+    body, yaw = target.models[0], target.plan.yaw
+    yaw += 0.0 if body.length <= body.width else 0.5 * math.pi
+    yaw += math.pi if math.sin(yaw) < 0.0 else 0.0
+    return yaw, 0.5 * min(body.length, body.width) + 0.6 * group.models[0].length
+
+
+def leap_up(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have what jumps onto something leap from the ground before it, and stay there."""
+    yaw, far = _approach(group, target)
+    height, wait_s = support.height, 0.3 * group.plan.duration_s
+    clear_m = max(0.4 * group.models[0].height, _LEAST_HOP_M)
+    flown_s = 0.5 * (flight_s(height + clear_m) + flight_s(clear_m))  # up, and down to it
+    hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
+    leap = Key(flown_s, far / flown_s, 0.0, height / flown_s, 0.0, "jump", hop_m)
+    rest_s = max(group.plan.duration_s - wait_s - flown_s, 0.1)
+    keys = (Key(wait_s, ramp_s=0.0, activity="stand"), leap,
+            Key(rest_s, ramp_s=0.0, activity="stand"))  # fmt: skip
+    start = (-far * math.cos(yaw), -far * math.sin(yaw), -height)
+    path = Track(start, yaw, keys, floor_m=-height)
+    group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)
+
+
+def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
+    """Have what jumps over something run up, clear it at mid clip, and run on."""
+    yaw, far = _approach(group, target)
+    hop_m = target.top_m + max(0.2 * group.models[0].height, _LEAST_HOP_M)
+    flown_s = min(flight_s(hop_m), 0.8 * group.plan.duration_s)
+    kind = "run" if group.noun.motion == "walk" else group.noun.motion
+    speed = max(2.0 * far / flown_s, min(usual_speed(group.noun, kind), _MOST_RUN_UP_M_S))
+    run_s = 0.5 * (group.plan.duration_s - flown_s)
+    run = Key(run_s, speed, ramp_s=0.0, activity=activity_of(kind))
+    keys = (Key(0.0, speed), run, replace(run, duration_s=flown_s, hop_m=hop_m), run)
+    back_m = 0.5 * speed * group.plan.duration_s
+    path = Track((-back_m * math.cos(yaw), -back_m * math.sin(yaw), 0.0), yaw, keys, floor_m=0.0)
+    group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)
+    group.fit()
+
+
+def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have things on a belt that runs go along with it, up to its end."""
+    usual_m_s, motion = trait_value("belt speed", target.noun.name), target.plan.motion
+    if usual_m_s is None or motion.kind != "work" or motion.pace == 0.0:
+        return
+    group.carrier, duration_s = None, target.plan.duration_s
+    speed = usual_m_s * motion.pace * size_of(target.models[0])
+    taken = np.ptp([math.hypot(x, y) for x, y, _ in group.offsets]) + group.models[0].length
+    room = max(support.high[0] - support.low[0] - float(taken), 0.0)
+    yaw = target.plan.yaw + (math.pi if motion.direction == "clockwise" else 0.0)
+    going_s = min(room / speed, duration_s)
+    keys = (Key(0.0, speed), Key(going_s, speed), Key(max(duration_s - going_s, 0.01), ramp_s=0.05))
+    path = Track((0.0, 0.0, 0.0), yaw, tuple(replace(key, activity="stand") for key in keys))
+    slide = replace(group.plan.motion, kind="slide")
+    path = centred(path, duration_s)
+    group.plan = replace(group.plan, motion=slide, yaw=yaw, path=path, is_facing=False)
+
+
+def stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have what goes along a table cross it once and stay there, where the clip is longer."""
+    plan, own = group.plan, group.models[0]
+    turn = plan.yaw - target.plan.yaw
+    sides = (support.high[0] - support.low[0], support.high[1] - support.low[1])
+    shares = abs(math.cos(turn)), abs(math.sin(turn))
+    ways = [float(side) / max(share, 1e-6) for side, share in zip(sides, shares, strict=True)]
+    going_s = (min(ways) - own.length) / max(plan.speed_m_s, 1e-6)
+    if target.noun.name in nouns_with("way") or not _LEAST_GOING_S < going_s < plan.duration_s:
+        return
+    going = Key(going_s, plan.speed_m_s, activity=activity_of(plan.motion.kind))
+    keys = (replace(going, duration_s=0.0), going,
+            Key(plan.duration_s - going_s, ramp_s=0.05, activity="stand"))  # fmt: skip
+    path = Track(
+        (0.0, 0.0, 0.0), plan.yaw, keys, radius_m=plan.radius_m, is_facing=plan.is_facing
+    )  # fmt: skip
+    group.plan = replace(plan, path=centred(path, plan.duration_s))

@@ -1,0 +1,160 @@
+"""Short prompts of event vision: each rule of the reader in three unrelated sentences."""
+
+import pytest
+
+from texvent_scenes import read as reader
+from texvent_scenes.models.nouns import NOUNS
+
+
+def lost(text):
+    return set(reader.read(text, NOUNS).not_understood)
+
+
+def scene(text):
+    return reader.read(text, NOUNS).scene
+
+
+def relations(text):
+    return {(one.noun, each.kind, each.to[0]) for one in scene(text).objects
+            for each in one.relations}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "ways"),
+    [
+        ("a woman zorks along a beach", {"along"}),
+        ("a forklift wugs through a warehouse quickly", {"through", "quickly"}),
+        ("a dog daxes to the left", {"to the left"}),
+    ],
+)
+def test_a_way_is_lost_with_the_verb_that_it_hangs_on(text, ways):
+    assert ways <= lost(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "rain drops running down a window",
+        "a close-up of snowflakes flying past a house",
+        "sparks wugging and raindrops driving through a city",
+    ],
+)
+def test_what_has_a_subject_is_no_move_of_the_camera(text):
+    assert not scene(text).camera.moves
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a man walks his dog while a cyclist overtakes them", ("cyclist", "overtake", "man")),
+        ("a child kicks a ball and a dog runs after it", ("dog", "follow", "ball")),
+        ("a bus passes a tree and a car follows it", ("car", "follow", "bus")),
+    ],
+)
+def test_a_pronoun_is_an_object(text, expected):
+    assert expected in relations(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("a chef stirs a pot beside her", "woman"),
+        ("a person waves with his hand", "man"),
+        ("a cyclist rides and a nurse waves, a dog behind her", "woman"),
+    ],
+)
+def test_a_pronoun_decides_who_is_drawn(text, noun):
+    assert noun in {one.noun for one in scene(text).objects}
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [
+        ("a pen is dropped from 1 m", 1.0),
+        ("a ball falls from a height of 50 cm onto a table", 0.5),
+        ("a cube bounces from two metres", 2.0),
+        ("a ball moves left seen from 3 m", None),
+        ("a car accelerates from 5 m/s", None),
+    ],
+)
+def test_what_falls_has_the_height_that_is_said(text, metres):
+    assert scene(text).objects[0].height_m == metres
+
+
+@pytest.mark.parametrize(
+    ("text", "rate"),
+    [
+        ("the camera pans to the right over a bookshelf at 30 deg/s", 30.0),
+        ("the camera tilts up at 12 degrees per second", 12.0),
+        ("the camera orbits a car at 90 deg/s", 90.0),
+    ],
+)
+def test_a_camera_turns_at_the_rate_that_is_said(text, rate):
+    assert scene(text).camera.moves[0].rate_deg_s == rate
+    assert not lost(text) - {"at"}
+
+
+@pytest.mark.parametrize(
+    ("text", "does"),
+    [
+        ("two balls, one red and one blue, collide head on", "collide"),
+        ("two dogs, a brown one and a white one, run to the left", "run"),
+        ("two cubes, one white, one black, spin", "spin"),
+    ],
+)
+def test_a_verb_after_an_apposition_is_said_of_both(text, does):
+    things = scene(text).objects
+    kinds = [{*(one.kind for one in thing.motions), *(one.kind for one in thing.relations)}
+             for thing in things]  # fmt: skip
+    assert len(things) == 2
+    assert does in kinds[0] | kinds[1] if does == "collide" else all(does in one for one in kinds)
+    assert does not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a fan with four blades", True),
+        ("a dog with four legs runs", True),
+        ("a fan with seven blades", False),
+    ],
+)
+def test_own_parts_are_no_things_beside_it(text, is_shown):
+    assert len(scene(text).objects) == 1
+    assert ("blades" in lost(text) or "legs" in lost(text)) != is_shown
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a cat jumps onto a fence", "a boy jumps onto a box", "a dog leaps onto a sofa"],
+)
+def test_what_jumps_onto_something_stays_there(text):
+    one = scene(text).objects[0]
+    assert [motion.kind for motion in one.motions] == ["jump", "stand"]
+    assert [each.kind for each in one.relations] == ["on"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a pedestrian steps onto the road",
+        "a man walks onto the street in front of a bus",
+        "a dog runs onto a road",
+    ],
+)
+def test_who_steps_onto_a_road_goes_across(text):
+    assert scene(text).objects[0].motions[0].direction == "across"
+    assert "onto" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a cart is pushed by a man", ("man", "push", "shopping cart")),
+        ("a ball is kicked by a child", ("child", "kick", "ball")),
+        ("a van is being overtaken by a bus", ("bus", "overtake", "van")),
+    ],
+)
+def test_a_passive_has_its_actor(text, expected):
+    assert expected in relations(text)
+    assert not lost(text)

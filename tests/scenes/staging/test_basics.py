@@ -1,0 +1,137 @@
+"""Short prompts of event vision: where their bodies are over time."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.staged import middle, stage, thing
+
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.spec.scene import Place, Relation, Scene, SceneObject
+
+
+def act(kind, target, *others):
+    return stage(*others, thing(target), relations=((kind, 0, 1), ("towards", 0, 2))).actors
+
+
+@pytest.mark.parametrize(("noun", "target"), [("cat", "fence"), ("dog", "table"), ("boy", "box")])
+def test_what_jumps_onto_something_leaps_from_the_ground_and_ends_on_it(noun, target):
+    noun = {"boy": "child"}.get(noun, noun)
+    one, other = stage(
+        thing(noun, ("jump",), ("stand",)), thing(target), relations=(("on", 0, 1),)
+    ).actors
+    feet = [one.track.at(time_s).position[2] for time_s in np.linspace(0.0, 2.0, 401)]
+    top = feet[-1]
+    assert feet[0] == pytest.approx(0.0, abs=1e-6)
+    assert 0.2 < top <= other.model.height + 0.05
+    assert max(feet) > top + 0.1
+    flown = np.flatnonzero(np.diff(feet) != 0.0)
+    rises = np.diff(feet, 2)[flown[1] : flown[-1] - 1] / 0.005**2
+    assert np.median(rises) == pytest.approx(-9.81, rel=0.01)  # free flight
+    away = middle(one, 2.0) - middle(other, 2.0)
+    assert np.abs(away[:2]).max() <= 0.5 * max(other.model.length, other.model.width)
+
+
+@pytest.mark.parametrize("kind", ["kick", "throw"])
+@pytest.mark.parametrize("wall", ["wall", "striped wall", "house"])
+def test_what_is_sent_against_a_wall_comes_back_from_its_face(kind, wall):
+    who, ball, wall = act(kind, wall, thing("child"), thing("ball"))
+    way = np.array([math.cos(ball.track.yaw), math.sin(ball.track.yaw)])
+    places = np.array([ball.track.at(t).position[:2] for t in np.linspace(0.0, 2.0, 801)]) @ way
+    far = int(np.argmax(places))
+    assert 0 < far < 800
+    assert places[-1] < places[far] - 0.5
+    face = float(min(wall.corners(0.0)[:, :2] @ way))
+    assert places[far] + 0.5 * ball.model.length == pytest.approx(face, abs=0.3)
+    assert float(who.middle(0.0)[:2] @ way) < face
+
+
+def complete_of(*objects, place):
+    return complete(to_description(Scene("x", objects=objects, place=Place(place))), NOUNS)
+
+
+@pytest.mark.parametrize(
+    ("noun", "support"), [("mug", "table"), ("laptop", "desk"), ("pot", "oven")]
+)
+def test_small_things_stand_on_their_usual_support(noun, support):
+    with_support = complete_of(SceneObject(noun), SceneObject(support), place="indoor")
+    assert [(one.kind, one.subject, one.targets) for one in with_support.relations] == [
+        ("on", 0, (1,))
+    ]
+    held = SceneObject(noun, relations=(Relation("under", (support,)),))
+    assert len(complete_of(held, SceneObject(support), place="indoor").relations) == 1
+    alone = complete_of(SceneObject(noun), place=None)
+    assert f"nothing carries the {noun}: it stands on the floor" in alone.notes
+
+
+@pytest.mark.parametrize(
+    ("noun", "count", "support"),
+    [("candle", 3, "cake"), ("cube", 3, "rug"), ("bottle", 9, "stool")],
+)
+def test_several_things_fit_on_what_they_are_put_on(noun, count, support):
+    scene = stage(thing(noun, count=count), thing(support), relations=(("on", 0, 1),))
+    *own, other = scene.actors
+    low, high = other.corners(0.0).min(axis=0)[:2], other.corners(0.0).max(axis=0)[:2]
+    for one in own:
+        assert (one.corners(0.0).min(axis=0)[:2] > low - 0.25 * one.size_m).all()
+        assert (one.corners(0.0).max(axis=0)[:2] < high + 0.25 * one.size_m).all()
+    assert any(f"the {noun} is drawn at" in note for note in scene.notes)
+
+
+@pytest.mark.parametrize(("noun", "motion"), [("ball", "roll"), ("car", "drive"), ("box", "slide")])
+def test_what_goes_down_a_ramp_gains_the_speed_of_its_height(noun, motion):
+    one, _ = stage(thing(noun, (motion,)), thing("ramp"), relations=(("on", 0, 1),)).actors
+    heights = [one.track.at(time_s).position[2] for time_s in np.linspace(0.0, 2.0, 201)]
+    assert heights[0] == pytest.approx(0.55)
+    assert heights[-1] == pytest.approx(0.0, abs=1e-6)
+    share = 5.0 / 7.0 if motion == "roll" else 1.0
+    fastest = max(one.track.at(time_s).speed_m_s for time_s in np.linspace(0.0, 2.0, 201))
+    assert fastest == pytest.approx(math.sqrt(2.0 * 9.81 * share * 0.55), rel=0.02)
+
+
+@pytest.mark.parametrize(("way", "sign"), [("towards", 1.0), ("away", -1.0)])
+@pytest.mark.parametrize("noun", ["checkerboard", "circle grid", "april tag"])
+def test_a_board_tilts_its_top_to_the_side_that_is_said(noun, way, sign):
+    scene = stage(thing(noun, ("tilt", way)), thing("wall"), relations=(("front", 0, 1),))
+    one = scene.actors[0]
+    camera = scene.camera(0.0)
+    top = np.array([0.0, 0.0, one.model.height, 1.0])
+    depths = [float(camera.rotation[2] @ (one.track.at(time_s).to_world() @ top - camera.position))
+              for time_s in (0.0, 1.0, 2.0)]  # fmt: skip
+    assert sign * (depths[0] - depths[1]) > 0.05 * one.model.height
+    assert sign * (depths[1] - depths[2]) > 0.0
+
+
+@pytest.mark.parametrize("noun", ["girl", "man", "child"])
+def test_who_is_on_a_swing_goes_with_its_seat(noun):
+    one, swing = stage(thing(noun, ("sit",)), thing("swing", ("work",)),
+                       relations=(("on", 0, 1),)).actors  # fmt: skip
+    gaps = []
+    for time_s in np.linspace(0.0, 2.0, 9):
+        seat = swing.track.at(time_s).to_world() @ np.append(
+            swing.own_parts(swing.pose(time_s))[-1].to_body[:, 3], 1.0
+        )
+        gaps.append(np.linalg.norm(one.track.at(time_s).to_world()[:, 3] - seat))
+    ways = [one.track.at(time_s).position[0] for time_s in np.linspace(0.0, 2.0, 9)]
+    assert np.ptp(gaps) < 1e-6
+    assert np.ptp(ways) > 0.3
+
+
+@pytest.mark.parametrize(
+    ("noun", "target"),
+    [("man", "fence"), ("horse", "bench"), ("dog", "box"), ("skateboarder", "box")],
+)
+def test_what_jumps_over_something_clears_it_and_lands_behind_it(noun, target):
+    one, other = stage(thing(noun, ("jump",)), thing(target), relations=(("above", 0, 1),)).actors
+    over = 0
+    for time_s in np.linspace(0.0, 2.0, 41):
+        apart = np.abs(one.track.at(time_s).position[:2] - other.middle(time_s)[:2])
+        is_above = (apart < 0.25 * other.model.length + 0.05).all()
+        over += is_above
+        assert not is_above or one.track.at(time_s).position[2] > 0.9 * other.model.height
+    assert over
+    before, after = (middle(one, time_s)[1] for time_s in (0.0, 2.0))
+    assert before < other.middle(0.0)[1] < after
+    assert one.track.at(2.0).position[2] == pytest.approx(0.0, abs=1e-6)
