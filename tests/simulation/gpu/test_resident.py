@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import sys
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -12,8 +13,10 @@ import pytest
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import ConfigError, InputError
 from texvent.frames import Frame, Video
+from texvent.pairs import on_device
 from texvent.pipeline import video_to_events
 from texvent.runtime.devices import find_gpu
+from texvent.runtime.work.worker_threads import BackgroundWriter
 from texvent.settings.resolution import resolve
 from texvent.simulation.gpu.support import MODELS, RunDevice, choose_device, find_model
 
@@ -179,6 +182,65 @@ def test_the_host_waits_as_often_for_many_intermediate_frames_as_for_one(
     assert counts[1] == counts[6]
     # Of a pair: Eq. 4 with thumbnails, the number of events, the events.
     assert counts[1] == ["cpu"] * 3 * pairs
+
+
+PATIENCE_S = 20.0
+"""Wait for what another thread does; a run without that thread does it never."""
+
+
+class Noted(Video):
+    """Frames that are noted as they are decoded."""
+
+    def __iter__(self):
+        self.metadata["decoded"] = []
+        for frame in super().__iter__():
+            self.metadata["decoded"].append((frame.t_us, threading.current_thread()))
+            yield frame
+
+
+class Patient:
+    """A file whose first packet is written only after later ones were simulated."""
+
+    def __init__(self):
+        self.later, self.written = threading.Event(), []
+
+    def append(self, packet):
+        if not self.written:
+            assert self.later.wait(PATIENCE_S), "nothing is simulated while a packet is written"
+        self.written.append(len(packet))
+
+
+@pytest.mark.parametrize("interpolate", ["none", "blend"])
+def test_frames_are_decoded_and_go_up_while_earlier_ones_are_simulated_and_written(
+    interpolate, device, monkeypatch
+):
+    whole, up = clip(frames=9), {}
+    video = Noted(whole.pixels, whole.times_us)
+    begin_copy, has_fourth = on_device._begin_copy, threading.Event()
+
+    def noting(frame, device):
+        copy = begin_copy(frame, device)
+        up[frame.t_us] = threading.current_thread()
+        if frame.t_us == video.times_us[3]:
+            has_fourth.set()
+        return copy
+
+    monkeypatch.setattr(on_device, "_begin_copy", noting)
+    run, sink, packets = on(device, simulation(video, interpolate=interpolate)), Patient(), []
+    with BackgroundWriter(sink) as behind:
+        for number, (_, packet) in enumerate(run.steps()):
+            if number == 1:  # the fourth frame goes up without another step
+                assert has_fourth.wait(PATIENCE_S), "nothing goes up while frames are simulated"
+            packets.append(packet)
+            behind.append(packet)
+            if number == 3:
+                assert not sink.written
+                sink.later.set()
+    decoded = dict(video.metadata["decoded"])
+    assert list(decoded) == list(up) == list(video.times_us)
+    assert threading.main_thread() not in {*decoded.values(), *up.values()}
+    assert sink.written == [len(packet) for packet in packets]
+    assert sum(sink.written) > 0
 
 
 def test_tensors_are_let_go_of_as_frames_pass(device):
