@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +17,7 @@ from tests.examples import examples
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.files import codec_for, load, open_events, open_writer, save
+from texvent.io.files import codec_for, event_extensions, load, open_events, open_writer, save
 from texvent.sensor import SensorSize
 
 from .format_cases import CASES, METADATA, STREAMS, FormatCase, at_times, random_events
@@ -264,12 +265,27 @@ def test_none_is_no_path():
 @pytest.mark.parametrize(
     ("name", "format"),
     [("e.es", None), ("e.aedat", None), ("e.aedat", "aedat3"), ("e", "evreal"), ("e", "esim"),
-     ("e.hdf5", "prophesee-hdf5"), ("e.raw", "evt2"), ("e.parquet", None)],
+     ("e.hdf5", "prophesee-hdf5"), ("e.raw", "evt2"), ("e.parquet", None),
+     ("e.db3", None), ("e.DB3", "mcap")],
 )  # fmt: skip
 def test_formats_that_are_only_read_are_not_written(tmp_path, name, format):
     with pytest.raises(ConfigError, match=r"files are only read; write hdf5 \(\.h5\)"):
         at_times([1], SensorSize(4, 4)).save(tmp_path / name, format=format)
     assert not list(tmp_path.iterdir())
+
+
+def test_extensions_to_write_are_those_that_are_written(tmp_path):
+    for name in ("e.xyz", "e"):
+        with pytest.raises(ConfigError, match="event files that are written end in") as caught:
+            codec_for(tmp_path / name)
+        said = re.findall(r"(\.\w+)[,;]", str(caught.value).split("end in ")[1])
+        for extension in event_extensions():
+            try:
+                codec_for(f"e{extension}")
+            except ConfigError:
+                assert extension not in said
+            else:
+                assert extension in said
 
 
 def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
@@ -287,7 +303,9 @@ def test_a_writer_outside_its_with_block_says_so(tmp_path, case):
 
 
 def test_an_unknown_extension_lists_the_known_ones(tmp_path):
-    with pytest.raises(ConfigError, match=r"'\.xyz'.*\.h5, .*\.npz, .*\.es, .*state the format"):
+    with pytest.raises(
+        ConfigError, match=r"'\.xyz'.*\.h5, .*\.npz, .*\.aedat4; .*state the format"
+    ):
         codec_for(tmp_path / "events.xyz")
     with pytest.raises(ConfigError, match="no extension"):
         codec_for(tmp_path / "events")

@@ -139,6 +139,8 @@ class BlockCodec(BlockReader):
     limits: ClassVar[FormatLimits]
     has_sidecar: ClassVar[bool] = False
     """Whether size and metadata are written beside the file."""
+    only_read: ClassVar[tuple[str, ...]] = ()
+    """Extensions of files that it reads and does not write."""
     writer: ClassVar[type[BlockWriter]] = BlockWriter
 
     def open_writer(

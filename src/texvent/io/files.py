@@ -33,14 +33,15 @@ def codec_for(path: str | Path, format: str | None = None) -> BlockCodec:
         InputError: it is no path.
     """
     path = usable_path(path)
-    candidates = _codecs_for(path, format)
-    codec = next((one for one in candidates if isinstance(one, BlockCodec)), None)
-    if codec is None:
-        raise ConfigError(
-            f"cannot write {path}: {candidates[0].name} files are only read; write hdf5 (.h5), "
-            "npz (.npz), evt3 (.raw), aedat4 (.aedat4) or ecd (.txt)"
-        )
     extension = path.suffix.lower()
+    candidates = _codecs_for(path, format, is_written=True)
+    codec = next((one for one in candidates if isinstance(one, BlockCodec)), None)
+    if codec is None or extension in codec.only_read:
+        name = candidates[0].name if codec is None else extension
+        raise ConfigError(
+            f"cannot write {path}: {name} files are only read; write hdf5 (.h5), npz (.npz), "
+            "evt3 (.raw), aedat4 (.aedat4) or ecd (.txt)"
+        )
     own = _extensions_of(type(codec))
     if extension in event_extensions() and extension not in own:
         raise ConfigError(
@@ -155,8 +156,13 @@ def event_extensions() -> set[str]:
     return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}
 
 
-def _codecs_for(path: str | Path, format: str | None) -> list[BlockReader]:
-    """The codec called `format` alone, or all that share the path's extension, at least one."""
+def _codecs_for(
+    path: str | Path, format: str | None, *, is_written: bool = False
+) -> list[BlockReader]:
+    """The codec called `format` alone, or all that share the path's extension, at least one.
+
+    Without one, the error names all extensions, or with `is_written` those that are written.
+    """
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
@@ -164,10 +170,16 @@ def _codecs_for(path: str | Path, format: str | None) -> list[BlockReader]:
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found
-    known = dict.fromkeys(one for codec in codecs for one in codec.extensions)
+    known = dict.fromkeys(
+        one
+        for codec in codecs
+        for one in codec.extensions
+        if not is_written or (isinstance(codec, BlockCodec) and one not in codec.only_read)
+    )
     what = f"extension {shown(extension)}" if extension else "no extension"
+    files = "event files that are written" if is_written else "event files"
     raise ConfigError(
-        f"{path} has {what}; event files end in {', '.join(known)}; or state the format "
+        f"{path} has {what}; {files} end in {', '.join(known)}; or state the format "
         "(texvent doctor lists them)"
     )
 

@@ -175,6 +175,7 @@ class McapCodec(BagCodec):
 
     name: ClassVar[str] = "mcap"
     extensions: ClassVar[tuple[str, ...]] = (".mcap", ".db3")
+    only_read: ClassVar[tuple[str, ...]] = (".db3",)
     limits: ClassVar[FormatLimits] = FormatLimits("MCAP with EVT3", 2048, 1 << 42)
     kind: ClassVar[BagKind] = "mcap"
 
