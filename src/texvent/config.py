@@ -143,8 +143,7 @@ class RunConfig:
     """Draw contrast thresholds and noise from the seed, for training sets: in the ranges of
     Stoffregen 2020 or of V2V. The drawn values replace those given and are stored."""
     device: str = "auto"
-    """Device of the pixel model and of rife: auto, cpu, cuda or cuda:N. auto takes a GPU where
-    torch finds one and the model has kernels for it, and says so (docs/gpu.md)."""
+    """Device of pixel model and rife: auto, cpu, cuda, cuda:N; docs/gpu.md."""
 
     def __post_init__(self) -> None:
         check_device_name(self.device)
