@@ -408,8 +408,8 @@ class SceneDraft:
         words = {
             one.text for one in self.tokens if [each["noun"] for each in persons] == ["person"]
         }
-        for noun, key in (("woman", "female"), ("man", "male")):
-            if words & word_set("things", key) and persons[0]["noun"] == "person":
+        for noun, pronouns in read_table("words", "read")["people"].items():
+            if words & {*pronouns} and persons[0]["noun"] == "person":
                 persons[0]["noun"] = noun
                 self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
 

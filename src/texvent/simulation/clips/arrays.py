@@ -32,7 +32,7 @@ class MadeArrays(NamedTuple):
     """Outputs of one clip, by window; without rows where not asked for."""
 
     grids: NDArray[np.float32]
-    """Of any content, until the events of a window are spread."""
+    """Undefined until the events of a window are spread."""
     counts: NDArray[np.int32]
     latest: NDArray[np.int32]
 

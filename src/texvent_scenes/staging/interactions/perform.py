@@ -213,7 +213,7 @@ def perform_acts(
 
 
 def _send_against(cast: dict[int, Actor], sent: int, goal: int) -> None:
-    """What is kicked or thrown goes back from what is fixed."""
+    """Rebound of what is kicked or thrown from what is fixed."""
     things, walls = ([n for n, one in cast.items() if one.object_index == index]
                      for index in (sent, goal))  # fmt: skip
     for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
@@ -221,7 +221,7 @@ def _send_against(cast: dict[int, Actor], sent: int, goal: int) -> None:
 
 
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
-    """Who sits on what swings goes with its seat, the last of its parts."""
+    """Rider of a swing, who goes with its seat, the last of its parts."""
     one, swing = cast[rider], cast[below]
     seat = swing.own_parts(Pose(0.0, 0.0, 0.0, "stand"))[-1].to_body
     home, frame = one.track.at(0.0), swing.track.at(0.0).to_world()
