@@ -9,6 +9,7 @@ import pytest
 import texvent
 from texvent.api.functions import compare
 from texvent.errors import InputError, TexventError
+from texvent_scenes import load_scene
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
@@ -22,6 +23,16 @@ def events():
 @pytest.fixture(scope="module")
 def path(events, tmp_path_factory):
     return events.save(tmp_path_factory.mktemp("api") / "events.h5")
+
+
+def test_the_name_of_a_scene_file_goes_where_a_prompt_goes(tmp_path, events):
+    path = tmp_path / "ball.toml"
+    path.write_text('prompt = "a red ball bounces"\n[[objects]]\nnoun = "ball"\n', encoding="utf-8")
+    assert texvent.generate(str(path), **SMALL) == texvent.generate(load_scene(path), **SMALL)
+    assert len(list(texvent.video(str(path), **SMALL))) == 5
+    for call in (texvent.generate, texvent.video):
+        with pytest.raises(InputError, match=r"cannot read scene file mug\.toml: No such file"):
+            call("mug.toml", **SMALL)
 
 
 def test_the_frames_alone_give_the_events_of_the_prompt():

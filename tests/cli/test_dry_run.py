@@ -1,7 +1,7 @@
-"""`--dry-run`: the first pairs say what the whole run would take."""
+"""`--dry-run`: parts of a clip say what the whole run would take."""
 
+import itertools
 from fractions import Fraction
-from itertools import accumulate
 from pathlib import Path
 from unittest import mock
 
@@ -9,12 +9,10 @@ import av
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.run import MOST_PAIRS, MOST_SECONDS, estimate_run
+from texvent.cli.run import estimate_run
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
@@ -24,24 +22,45 @@ FRAMES = np.random.default_rng(1).integers(0, 256, (7, 12, 16), dtype=np.uint8)
 OPTIONS = {"interpolate": "none", "noise": "none", "seed": 1}
 
 
-def test_the_first_pairs_are_counted():
-    video = Video(FRAMES, [20_000 * i for i in range(len(FRAMES))])
-    said = estimate_run(video_to_events(video, resolve("simulate", OPTIONS)))
-    first = texvent.simulate(FRAMES[: MOST_PAIRS + 1], fps=50, **OPTIONS)
-    assert f"about {len(first) / MOST_PAIRS * 6:,.0f} events in " in said
-    assert "4 of 6 pairs" in said
+def estimate(frames):
+    video = Video(frames, [20_000 * i for i in range(len(frames))])
+    return estimate_run(video_to_events(video, resolve("simulate", OPTIONS)))
 
 
-@given(st.lists(st.sampled_from([0.5, 3, 4, 11]), min_size=6, max_size=6))
-def test_no_further_pair_is_begun_after_ten_seconds(seconds):
-    """The first pair, which may compile, does not count for the time of the whole."""
-    ends = [0.0, *accumulate(seconds)]
-    video = Video(FRAMES, [20_000 * i for i in range(len(FRAMES))])
-    with mock.patch("texvent.cli.run.time.perf_counter", side_effect=ends):
-        said = estimate_run(video_to_events(video, resolve("simulate", OPTIONS)))
-    tried = next(n for n, end in enumerate(ends) if n == MOST_PAIRS or end > MOST_SECONDS)
-    usual = seconds[min(1, tried - 1) : tried]
-    assert f" in {6 * sum(usual) / len(usual):,.1f} s ({tried} of 6 pairs" in said
+def test_all_pairs_of_a_short_clip_are_counted():
+    said = estimate(FRAMES)
+    assert f"about {len(texvent.simulate(FRAMES, fps=50, **OPTIONS)):,.0f} events in " in said
+    assert "6 of 6 pairs" in said
+
+
+def test_what_happens_late_in_a_clip_is_counted():
+    """A clip that stands still until its half and then flickers as much at every frame."""
+    steps = np.arange(60) // 2 * 60 % 120 * (np.arange(60) >= 30)
+    frames = np.broadcast_to((60 + steps)[:, None, None], (60, 12, 16)).astype(np.uint8)
+    said = estimate(frames)
+    true = len(texvent.simulate(frames, fps=50, **OPTIONS))
+    assert "12 of 59 pairs" in said
+    guess = float(said.split()[1].replace(",", ""))
+    assert 0.3 * true < guess < 3 * true
+
+
+@pytest.mark.parametrize("compiles_s", [0.0, 1000.0])
+def test_compilation_is_no_part_of_the_time_of_the_whole(compiles_s):
+    """The first simulation of each part may compile; the second ones take 1 s for 3 pairs."""
+    clock = iter(itertools.count())
+    now = [0.0]
+
+    def tried(trial):
+        now[0] += compiles_s if next(clock) % 2 == 0 else 1.0
+        return [5, 5, 5], 1.0
+
+    with (
+        mock.patch("texvent.cli.run._try", side_effect=tried),
+        mock.patch("texvent.cli.run.time.perf_counter", side_effect=lambda: now[0]),
+    ):
+        said = estimate(np.resize(FRAMES, (61, 12, 16)))
+    pairs = 12 if not compiles_s else 3
+    assert f"about 300 events in 20.0 s ({pairs} of 60 pairs" in said
 
 
 def write_images(times_us):

@@ -303,9 +303,8 @@ def test_a_writer_outside_its_with_block_says_so(tmp_path, case):
 
 
 def test_an_unknown_extension_lists_the_known_ones(tmp_path):
-    with pytest.raises(
-        ConfigError, match=r"'\.xyz'.*\.h5, .*\.npz, .*\.aedat4; .*state the format"
-    ):
+    known = r"'\.xyz'.*\.h5, .*\.npz, .*\.aedat4; .*state the format"
+    with pytest.raises(ConfigError, match=known):
         codec_for(tmp_path / "events.xyz")
     with pytest.raises(ConfigError, match="no extension"):
         codec_for(tmp_path / "events")

@@ -23,7 +23,7 @@ from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
 from texvent.pipeline import Simulation
 from texvent.run.files import TruthFolder, run_with_truth
-from texvent.run.prepare import make_video, prepare_prompt, prepare_source
+from texvent.run.prepare import make_video, open_subject, prepare_prompt, prepare_source
 from texvent.runtime.progress_option import ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
@@ -70,8 +70,8 @@ def generate(
     """Events of the scene that a prompt describes, or of a scene.
 
     Args:
-        prompt: what to show, such as "a red car drives left past two trees at dusk"; or a
-            `texvent_scenes.Scene`.
+        prompt: what to show, such as "a red car drives left past two trees at dusk"; a
+            scene file (.toml, .json), or a `texvent_scenes.Scene`.
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
         progress: a bar (True), none (False), or a function that takes steps done, steps in all or
@@ -98,6 +98,7 @@ def generate(
         (SensorSize(width=48, height=36), True)
     """
     settings = resolve("generate", options, config=config)
+    prompt = open_subject(prompt, getattr(settings.source, "assets", None))
     output = _truth_output(truth_folder, as_packets=as_packets)
     if output is not None:
         check_generator(str(settings.generator))
@@ -205,7 +206,7 @@ def video(
     """The frames alone of the scene that a prompt describes.
 
     Args:
-        prompt: what to show: a sentence or a scene.
+        prompt: what to show: a sentence, a scene file or a scene.
         config: a TOML or YAML file with options.
         progress: as `generate`.
         **options: as `generate`; those of the simulator have no effect.
@@ -224,6 +225,7 @@ def video(
         (SensorSize(width=48, height=36), (36, 48, 3))
     """
     settings = resolve("generate", options, config=config)
+    prompt = open_subject(prompt, getattr(settings.source, "assets", None))
     with open_progress(progress) as shown:
         return make_video(prompt, settings, progress=shown)
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
-from texvent.errors import ConfigError
 from texvent.generation.subjects import Subject, scenes
 from texvent.io.atomic import protect_inputs
 from texvent.options.values import option_names
+from texvent.run.prepare import open_subject
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
 from texvent.settings.resolution import DECIDING, Settings, read_basis
@@ -107,20 +107,10 @@ def _options_of_simulator(name: str) -> tuple[str, ...]:
 
 
 def read_subject(prompt: str, assets: Path | None = None) -> Subject:
-    """The prompt, or the scene of a file, which no output may replace.
-
-    Raises:
-        ConfigError: a field is wrong or a word is not shown, also with models of `assets`; the
-            message begins with the name of the file.
-    """
-    if not scenes().is_scene_file(prompt):
-        return prompt
-    protect_inputs([prompt])
-    scene = scenes().load_scene(prompt)
-    try:
-        return cast(Subject, scenes().check_words(scene, assets))
-    except ConfigError as error:
-        raise ConfigError(f"{prompt}: {error}") from None
+    """The prompt, or the scene of a file, which no output may replace; see `open_subject`."""
+    if scenes().is_scene_file(prompt):
+        protect_inputs([prompt])
+    return open_subject(prompt, assets)
 
 
 def subject_name(prompt: str) -> str:

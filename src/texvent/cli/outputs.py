@@ -47,7 +47,8 @@ class OutputOptions:
     print_config: bool = False
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
-    """Estimate events, time and memory, and stop. The first pairs of frames are simulated."""
+    """Estimate events, time and memory, and stop. Parts of the clip are simulated, from its
+    beginning to its end."""
     keep_partial: bool = False
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""

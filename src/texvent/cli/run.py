@@ -1,13 +1,17 @@
 """Carry out a simulation: check its outputs, show progress, sum it up.
 
-A dry run simulates the first pairs of frames, and tells what the whole run would take.
+A dry run simulates parts of the clip, and tells what the whole run would take.
 """
 
 from __future__ import annotations
 
+import copy
+import itertools
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +23,7 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import few
 from texvent.events import EventStream
-from texvent.frames import MICROSECONDS, Frame
+from texvent.frames import MICROSECONDS, Frame, FrameStream
 from texvent.pairs.scene_change import SceneChange
 from texvent.pairs.time_jump import check_times
 from texvent.pipeline import Simulation
@@ -29,14 +33,19 @@ from texvent.run.prepare import estimate_bytes, prepare_source
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings, unmeasured_sensor
 
-MOST_PAIRS = 4
-"""Pairs of frames that are tried; the first one compiles kernels and is not timed."""
+PARTS = 4
+"""Parts of a clip that are tried, from its beginning to its end."""
+PART_PAIRS = 3
+"""Pairs of frames of a part. Pixels at rest fire late, so the first one of later parts does not
+count."""
 MOST_SECONDS = 10.0
-"""No further pair is begun after this time."""
+"""No further part is begun after this time, which begins when the first one has been compiled."""
 
 
 def estimate_run(simulation: Simulation) -> str:
-    """Events, time and memory of a run in two lines, from its first pairs; nothing is written.
+    """Events, time and memory of a run in two lines, from parts of its clip; nothing is written.
+
+    Every part is simulated twice: the first time may compile kernels, the second one is timed.
 
     Raises:
         InputError: the frames cannot be used.
@@ -50,24 +59,83 @@ def estimate_run(simulation: Simulation) -> str:
     total = simulation.video.frame_count
     size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
     memory = f"memory about {size}, however long the clip is"
-    ends_s = [time.perf_counter()]
-    events = 0
-    for number, (frame, packet) in enumerate(simulation.steps()):
-        events += len(packet)
-        if number and frame.is_source:
-            ends_s.append(time.perf_counter())
-            if len(ends_s) > MOST_PAIRS or ends_s[-1] - ends_s[0] > MOST_SECONDS:
-                break
-    pairs = len(ends_s) - 1
-    if not pairs:
+    counted: list[int] = []
+    seconds, pairs, begun = 0.0, 0, 0.0
+    for start, part in _parts(simulation.video, total):
+        trial = replace(simulation, video=part, warns=False)
+        events, _ = _try(trial)
+        begun = begun or time.perf_counter()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # said the first time
+            part_s = _try(trial)[1]
+        counted += events[1:] if start and len(events) > 1 else events
+        pairs, seconds = pairs + len(events), seconds + part_s
+        if time.perf_counter() - begun > MOST_SECONDS:
+            break
+    if not counted:
         return f"no events: there is one frame only, so nothing could change\n{memory}"
     tried = f"{pairs} of {'unknown' if total is None else total - 1} pairs of frames tried"
+    rate = sum(counted) / len(counted)
     if total is None:
-        return f"about {events / pairs:,.0f} events per pair ({tried})\n{memory}"
-    timed_s = ends_s if pairs == 1 else ends_s[1:]
-    seconds = (timed_s[-1] - timed_s[0]) / (len(timed_s) - 1) * (total - 1)
-    whole = f"about {events / pairs * (total - 1):,.0f} events in {seconds:,.1f} s"
-    return f"{whole} ({tried})\n{memory}"
+        return f"about {rate:,.0f} events per pair ({tried})\n{memory}"
+    whole_s = seconds / pairs * (total - 1)
+    return f"about {rate * (total - 1):,.0f} events in {whole_s:,.1f} s ({tried})\n{memory}"
+
+
+def _try(trial: Simulation) -> tuple[list[int], float]:
+    """Events of each pair of a part, and the time that it takes, s."""
+    started = time.perf_counter()
+    counts = [0]
+    for frame, packet in trial.steps():
+        counts[-1] += len(packet)
+        if frame.is_source:
+            counts.append(0)
+    return counts[1:-1], time.perf_counter() - started
+
+
+def _parts(video: FrameStream, total: int | None) -> Iterator[tuple[int, FrameStream]]:
+    """Parts of a video, each with the number of its first frame.
+
+    Scenes begin anywhere. Other frames are read from the first on, for `MOST_SECONDS` at most.
+    Where the whole is short, or its length unknown, there is one part at its beginning.
+    """
+    length, starts = PART_PAIRS + 1, [0]
+    most = PARTS * PART_PAIRS + 1
+    if total is None or total <= most:
+        length = most
+    else:
+        starts = [part * (total - length) // (PARTS - 1) for part in range(PARTS)]
+    if hasattr(video, "from_frame"):
+        for start in starts:
+            yield start, _with_frames(video, partial(_frames_from, start, length))
+        return
+    frames, latest = enumerate(video), time.perf_counter() + MOST_SECONDS
+    for start in starts:
+        found = []
+        for number, frame in frames:
+            if number >= start:
+                found.append(frame)
+            if len(found) == length or (start and time.perf_counter() > latest):
+                break
+        if len(found) > 1 or not start:
+            yield start, _with_frames(video, partial(_frames_of, tuple(found)))
+
+
+def _frames_from(start: int, length: int, video: Any) -> Iterator[Frame]:
+    return itertools.islice(video.from_frame(start), length)
+
+
+def _frames_of(found: Sequence[Frame], _: Any) -> Iterator[Frame]:
+    return iter(found)
+
+
+def _with_frames(video: FrameStream, read: Callable[[Any], Iterator[Frame]]) -> FrameStream:
+    """The video, of which `read` gives the frames: interpolators ask it for all else."""
+    kind = type(video)
+    part = copy.copy(video)
+    part_kind = type(kind.__name__, (kind,), {"__slots__": (), "__iter__": lambda one: read(one)})
+    object.__setattr__(part, "__class__", part_kind)
+    return part
 
 
 def size_text(size: float) -> str:

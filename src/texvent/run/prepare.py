@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS
-from texvent.errors import InputError, warn
+from texvent.errors import ConfigError, InputError, warn
 from texvent.frames import FrameStream
 from texvent.generation.subjects import SceneValue, Subject, check_takes, scenes
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
@@ -94,6 +94,23 @@ def prepare_prompt(
     prompt = _checked(prompt)
     simulation = text_to_events(prompt, settings, progress=progress)
     return reach_target_rate(simulation, progress=progress)
+
+
+def open_subject(prompt: Subject, assets: Path | None = None) -> Subject:
+    """The prompt, or the scene of a file if it names one.
+
+    Raises:
+        InputError: the file cannot be read.
+        ConfigError: a field is wrong or a word is not shown, also with models of `assets`; the
+            message begins with the name of the file.
+    """
+    if not isinstance(prompt, str) or not scenes().is_scene_file(prompt):
+        return prompt
+    scene = scenes().load_scene(prompt)
+    try:
+        return cast(Subject, scenes().check_words(scene, assets))
+    except ConfigError as error:
+        raise ConfigError(f"{prompt}: {error}") from None
 
 
 def report_prompt(
