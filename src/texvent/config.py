@@ -34,12 +34,12 @@ UNITS = {
     "target_rate": " events per second",
 }
 """Units in errors, of options whose names have none."""
-FPS_RANGE = 1e-9, 1e6
+FPS_RANGE = Fraction(1, 10**9), 1e6
 """Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
 
 
 def check_range(
-    name: str, value: float | Fraction | None, low: float, high: float = math.inf
+    name: str, value: float | Fraction | None, low: float | Fraction, high: float = math.inf
 ) -> None:
     """Refuse an option outside `low..high` (both allowed), NaN and infinity; None is not given.
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
 
 import pytest
-from tests.options.runs_of_commands import Listed, listed_options
+from tests.options.runs_of_commands import Listed, listed_options, run_once
 from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, SERVED, Try, read_tries
 
 from texvent._registry import FILTERS
@@ -19,7 +20,7 @@ from texvent.options.values import make_part
 
 TRIES = read_tries()
 RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()
-BEYOND = 10**30
+ALL_RANGES, BEYOND = "\n".join(RANGES), 10**30
 
 
 def own_options(command: str) -> Iterator[Listed]:
@@ -99,6 +100,36 @@ def test_options_of_a_command_have_the_ranges_of_the_table(command, outcome):
     assert found == [one for one in RANGES if re.match(rf"{re.escape(command)} --[\w-]+:", one)]
 
 
+def numbers_at_bounds(stated: str, *, is_whole: bool) -> Iterator[tuple[float, bool]]:
+    """Each end of a stated range, the next number on either side, and whether it is allowed."""
+    stated = stated.replace("2^63 - 1", str(2**63 - 1))
+    ends = re.match(r"(?:at least )?([\d.e+-]+?)(?:\.\.([\d.e+-]+))?(?: |$)", stated).groups()
+    for end, outwards in zip(ends, (-1, 1), strict=True):
+        if end:
+            bound = int(end) if end.isdigit() else (int if is_whole else float)(float(end))
+            for side in (-1, 0, 1):
+                way = side * outwards
+                near = bound + way if is_whole else math.nextafter(bound, way * math.inf)
+                yield near if side else bound, side <= 0
+
+
+@pytest.mark.parametrize("command", [one for one in COMMANDS_TRIED if f"{one} --" in ALL_RANGES])
+def test_options_of_a_command_are_taken_up_to_their_bounds_and_no_further(command, tmp_path):
+    """What is taken meets the next fault: no input, or no folder of the output."""
+    words = COMMANDS_TRIED[command].words.replace(" -o ", " -o no/")
+    words += " -o no/rig" if command == "rig" else ""
+    wrong = []
+    for line in RANGES:
+        if named := re.fullmatch(rf"{re.escape(command)} (--[\w-]+): (.+)", line):
+            flag, stated = named.groups()
+            said = run_once(tmp_path, f"{words} {flag}=0.5").errors
+            for number, is_allowed in numbers_at_bounds(stated, is_whole="whole number" in said):
+                said = run_once(tmp_path, f"{words} {flag}={number!r}").errors
+                if not said or (f"must be {stated}" in said) == is_allowed:
+                    wrong.append(f"{flag}={number!r}: {said}")
+    assert not wrong, "\n".join(wrong)
+
+
 def refusal(text: str) -> str:
     """Why there is no such filter, if there is none."""
     try:
@@ -116,3 +147,13 @@ def test_options_of_filters_have_the_ranges_of_the_table():
             if stated := stated_range(*said):
                 found.append(f"{name}:{option}: {stated}")
     assert found == [one for one in RANGES if one.partition(":")[0] in FILTERS.builtin]
+
+
+@pytest.mark.parametrize(
+    "line", [one for one in RANGES if one.partition(":")[0] in FILTERS.builtin]
+)
+def test_options_of_a_filter_are_taken_up_to_their_bounds_and_no_further(line):
+    option, stated = line.split(": ")
+    is_whole = "whole number" in refusal(f"{option}=1.5")
+    for number, is_allowed in numbers_at_bounds(stated, is_whole=is_whole):
+        assert (f"must be {stated}" in refusal(f"{option}={number!r}")) != is_allowed, number
