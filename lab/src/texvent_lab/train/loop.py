@@ -197,7 +197,8 @@ def train(
     """Train a task, or go on where a training of it stopped.
 
     The folder gets `checkpoint.pt` (the whole state), `weights.pt` (the network that
-    `Schedule.keep` names, in its published layout), `history.json` and `curves.png` after every epoch.
+    `Schedule.keep` names, in its published layout), `history.json` and `curves.png` after every
+    epoch.
 
     Args:
         task: what to train.
