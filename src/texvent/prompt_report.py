@@ -107,12 +107,9 @@ class PromptReport:
             "too small": list(self.too_small),
         }
 
-    def warnings(self, most: int | None = None) -> list[str]:
-        """The faults as sentences by themselves."""
-        return [
-            f"{'' if line.startswith(_OF_OBJECTS) else 'prompt words '}{line}"
-            for line in self.faults(most)
-        ]
+    def warnings(self, of: str = "prompt words ") -> list[str]:
+        """The faults as sentences by themselves; `of` begins those of words."""
+        return [f"{'' if line.startswith(_OF_OBJECTS) else of}{line}" for line in self.faults()]
 
     def lines(self) -> list[str]:
         """The whole report but for the words that are shown, a line each."""
