@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from texvent import _require
-from texvent._require import install_command, lab_command, reinstall_command
+from texvent._require import install_command, lab_command, reinstall_command, require
+from texvent.errors import MissingDependencyError
 
 ROOT = Path(__file__).parents[1]
 
@@ -15,9 +16,7 @@ ROOT = Path(__file__).parents[1]
 def test_one_function_writes_what_messages_print_to_install():
     sources = [*ROOT.glob("src/**/*.py"), *ROOT.glob("lab/src/**/*.py")]
     texts = {path: path.read_text(encoding="utf-8") for path in sources}
-    typed = re.compile(
-        r"pip install (?!'texvent-lab\[)"
-    )  # an extra of an installed package is found
+    typed = re.compile(r"pip install ")
     assert [path for path, text in texts.items() if typed.search(text)] == []
 
 
@@ -33,6 +32,8 @@ def test_pip_is_that_of_the_running_python(is_ours, monkeypatch):
 def test_a_checkout_is_installed_anew_from_its_folder_and_a_wheel_from_where_it_came(monkeypatch):
     assert reinstall_command().endswith(f"install -e {ROOT}")
     assert lab_command().endswith(f"install -e {ROOT / 'lab'}")
+    with pytest.raises(MissingDependencyError, match=r"install -e '?\S*lab\[train\]'?$"):
+        require("no_such_module", extra="texvent-lab[train]")
     monkeypatch.setattr(_require, "CHECKOUT", Path("/elsewhere"))
     note = '{"url": "file:///texvent.whl"}'
     found = type("Found", (), {"read_text": lambda self, name: note})()

@@ -40,9 +40,11 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
         return importlib.import_module(module)
     except ImportError as error:
         target = "texvent" if extra is None else extra if "[" in extra else f"texvent[{extra}]"
+        is_lab = target.startswith("texvent-lab[")
+        way = lab_command(target.removeprefix("texvent-lab")) if is_lab else install_command(target)
         raise MissingDependencyError(
             f"{module} is needed here and could not be imported ({one_line(error)}); "
-            f"install it with: {install_command(target)}"
+            f"install it with: {way}"
         ) from error
 
 
@@ -74,9 +76,9 @@ def reinstall_command() -> str:
     return install_command("--force-reinstall", "--no-deps", source)
 
 
-def lab_command() -> str:
-    """The command that installs the laboratory, which no registry has."""
+def lab_command(extras: str = "") -> str:
+    """The command that installs the laboratory, which no registry has, and extras, as "[train]"."""
     if (CHECKOUT / "lab").is_dir():
-        return install_command("-e", str(CHECKOUT / "lab"))
-    local = install_command("./lab")
+        return install_command("-e", f"{CHECKOUT / 'lab'}{extras}")
+    local = install_command(f"./lab{extras}")
     return f"{local} in a clone of texvent's repository, or from the wheel texvent_lab-*.whl"

@@ -78,6 +78,8 @@ SYMMETRIC = (
     "white_level=1"
 )
 """Said of pixels around 0, such as those of diffusion models."""
+_OVERSHOT = 1.5
+"""Most that pixels of -1..1 reach, with what filters and decoders overshoot."""
 
 
 def check_intensity(pixels: NDArray[Any], where: str) -> None:
@@ -112,5 +114,6 @@ def _remedy(pixels: NDArray[Any]) -> str:
     if highest > HIGHEST_INTENSITY:
         return "give white_level, or divide by what is white"
     if lowest < -0.5 * highest:
-        return SYMMETRIC if lowest >= -255 and highest <= 255 else "add what makes black 0"
+        is_symmetric = max(-lowest, highest) <= _OVERSHOT
+        return SYMMETRIC if is_symmetric else "add what makes black 0"
     return "cut what filters leave below 0: np.clip(frames, 0, None)"

@@ -15,7 +15,16 @@ MOST_REFUSED = 30
 """Words of a kind that the error of `strict` names."""
 MOST_COUNTED = 5
 """Words that a tally names."""
-_LISTS = ("scene", "shown", "not_understood", "not_shown", "out_of_view", "too_small", "notes")
+_LISTS = (
+    "scene",
+    "shown",
+    "not_understood",
+    "not_shown",
+    "out_of_view",
+    "too_small",
+    "notes",
+    "meant",
+)
 """Fields of a report that are lists of words or lines."""
 _OF_OBJECTS = ("out of view", "too small")
 """Kinds of fault that objects have, and no words."""
@@ -67,6 +76,8 @@ class PromptReport:
     """Objects that are a few pixels large at most, such as "bird (2 pixels)"."""
     notes: tuple[str, ...] = ()
     """Decisions where the prompt leaves a choice open, as sentences."""
+    meant: tuple[str, ...] = ()
+    """Words that are not understood and spelt nearly as a noun, such as "fokrlift: forklift"."""
 
     @property
     def is_faithful(self) -> bool:
@@ -83,20 +94,22 @@ class PromptReport:
 
     def kinds(self) -> dict[str, list[str]]:
         """Kind of fault → its words or objects."""
+        near = dict(one.split(": ", 1) for one in self.meant)
+        lost = [
+            f"{word} (did you mean {near[word]!r}?)" if word in near else word
+            for word in self.not_understood
+        ]
         return {
             "shown as something else": [str(one) for one in self.substituted],
-            "not understood": list(self.not_understood),
+            "not understood": lost,
             "not shown": list(self.not_shown),
             "out of view": list(self.out_of_view),
             "too small": list(self.too_small),
         }
 
-    def warnings(self, most: int | None = None) -> list[str]:
-        """The faults as sentences by themselves."""
-        return [
-            f"{'' if line.startswith(_OF_OBJECTS) else 'prompt words '}{line}"
-            for line in self.faults(most)
-        ]
+    def warnings(self, of: str = "prompt words ") -> list[str]:
+        """The faults as sentences by themselves; `of` begins those of words."""
+        return [f"{'' if line.startswith(_OF_OBJECTS) else of}{line}" for line in self.faults()]
 
     def lines(self) -> list[str]:
         """The whole report but for the words that are shown, a line each."""

@@ -317,7 +317,7 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.warnings():
+        for fault in report.warnings("prompt words " if isinstance(prompt, str) else "scene: "):
             warn(fault)
         metadata = {
             "generator": "procedural",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from texvent_scenes.read import Reading
     from texvent_scenes.staging.idle_fields import Idle
 
+_NEAR, _SHORT = 0.8, 4
+"""Likeness of a misspelled word to a noun, and letters of words that are too short to judge."""
 _MOST_PASSES = 3
 """Passes that leave out fields without effect: one left out may leave another without."""
 
@@ -219,9 +222,18 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
+        meant=tuple(_meant(reading.not_understood, nouns)),
         not_shown=tuple(f"{word} ({why})" for word, why in lost.items()),
     )
     return replace(description, words=words, notes=(*description.notes, *notes))
+
+
+def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
+    """Words that are spelt nearly as a noun, each with it."""
+    names = {name for key, noun in nouns.items() for name in (key, *noun.synonyms)}
+    for word in words:
+        near = get_close_matches(word.lower(), names, 1, _NEAR) if len(word) > _SHORT else []
+        yield from (f"{word}: {name}" for name in near)
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:

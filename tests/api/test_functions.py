@@ -135,3 +135,11 @@ def test_mistakes_are_one_short_line(events, mistake, said):
     assert said in message
     assert len(message) < 300
     assert "\n" not in message
+
+
+def test_only_pixels_within_one_of_zero_are_taken_for_those_of_a_model():
+    for lowest, highest, words in ((-255.0, 0.0, "add what makes black 0"), (-1.0, 1.0, "-1..1")):
+        frames = np.linspace(lowest, highest, 240).reshape(5, 6, 8)
+        with pytest.raises(InputError, match=words) as caught:
+            texvent.simulate(frames, fps=20)
+        assert ("-1..1" in str(caught.value)) is (highest == 1.0)

@@ -13,6 +13,7 @@ from texvent.cli.app import main
 from texvent.errors import InputError
 from texvent.run.regeneration import render_again
 from texvent_scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
+from texvent_scenes.scene_input import list_nouns, understand
 
 OPTIONS = {"sensor": "48x36", "duration": 0.2, "seed": 3}
 FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--previews", "none", "-q"]
@@ -125,3 +126,10 @@ def test_reading_a_scene_file_loads_no_numba(tmp_path):
 def test_a_file_that_is_no_scene_is_not_read_as_a_sentence(name):
     with pytest.raises(InputError, match="describe a scene, or name its"):
         texvent.read(name)
+
+
+def test_a_misspelled_noun_is_named_with_the_one_that_is_meant():
+    words = understand("a fokrlift and a wug beside two boxes", list_nouns()).words
+    assert words.meant == ("fokrlift: forklift",)
+    assert "not understood: fokrlift (did you mean 'forklift'?), " in words.faults()[0]
+    assert not understand("a red car drives left past two trees", list_nouns()).words.meant

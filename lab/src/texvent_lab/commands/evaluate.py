@@ -16,7 +16,7 @@ from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
 
 DESCRIPTION = """Score trained weights on the validation samples of a training file: those it was
-trained with, or others. Needs torch: pip install 'texvent-lab[train]'.
+trained with, or others. Needs torch: the extra ./lab[train].
 
   texvent evaluate classification real.toml digits/weights.pt"""
 

@@ -16,7 +16,7 @@ from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
 
 DESCRIPTION = """Train a network on events, as a TOML or YAML file says. The same command goes on
-where a training was stopped or killed. Needs torch: pip install 'texvent-lab[train]'.
+where a training was stopped or killed. Needs torch: the extra ./lab[train].
 
   texvent train classification digits.toml -o digits
   texvent evaluate classification real.toml digits/weights.pt"""

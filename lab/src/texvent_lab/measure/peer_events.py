@@ -4,7 +4,7 @@
     python -m texvent_lab.measure.peer_events eventcv frames eventcv-events
     texvent bench fidelity --events eventcv=eventcv-events
 
-Each program runs in an environment that has it (`pip install 'texvent-lab[peers]'`; v2e from a
+Each program runs in an environment that has it (the extra `./lab[peers]`; v2e from a
 clone of its repository, `--path CLONE`), as its authors' defaults have it but for the contrast
 threshold: there is a folder of event files per threshold. Programs get the frames alone; v2e's
 network for interpolation, whose weights are not in its repository, is left out.

@@ -72,6 +72,10 @@ def test_what_is_no_export_is_refused_in_one_line(tmp_path: Path):
         read_classes(tmp_path)
     with pytest.raises(InputError, match=r"there are no clips in .*train; make and export"):
         read_clips(tmp_path, "train", 1)
+    for name in ("train", "val"):
+        (tmp_path / name).mkdir()
+    with pytest.raises(InputError, match=r"or name one of train, val \(rvt calls validation val\)"):
+        read_clips(tmp_path, "validation", 1)
     with pytest.raises(ConfigError, match=r"data\.folder is missing; name what"):
         DetectionConfig().make_task()
 

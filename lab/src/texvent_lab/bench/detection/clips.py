@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import FileFormatError, InputError, few, one_line
 from texvent.extending import require
 from texvent.networks import Tensor
 from texvent.truth.boxes import BOX_RECORD
@@ -107,7 +107,11 @@ def read_clips(folder: Path, split: str, binning: int) -> list[BoxedClip]:
     place = folder / split
     paths = sorted(one for one in place.iterdir() if one.is_dir()) if place.is_dir() else []
     if not paths:
-        raise InputError(f"there are no clips in {place}; make and export the split {split} first")
+        there = [one.name for one in sorted(folder.iterdir()) if one.is_dir()]
+        raise InputError(
+            f"there are no clips in {place}; make and export the split {split} first"
+            + (f", or name one of {few(there)} (rvt calls validation val)" if there else "")
+        )
     source_type = require("evlib.data.sources", extra=EXTRA).PreprocessedH5Source
     return [_read(source_type, path, binning) for path in paths]
 

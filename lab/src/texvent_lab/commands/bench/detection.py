@@ -17,7 +17,7 @@ from texvent_lab.train.schedule import Hardware
 DESCRIPTION = """\
 Detectors (evlib's RVT-T) learn road users from the events of each variant of a data set, and are
 tested on unseen clips and on a recorded street (texvent data pull davis346).
-Needs texvent-lab[detection].
+Needs ./lab[detection].
 
   texvent bench detection traffic.toml --work w --clips 60 --epochs 4 -o d.json
 

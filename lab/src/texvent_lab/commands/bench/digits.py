@@ -19,7 +19,7 @@ from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
 Small networks learn digits from simulated events of MNIST's test images and are tested on
-recordings of a real sensor, N-MNIST. docs/digits.md explains the table. Needs texvent-lab[train].
+recordings of a real sensor, N-MNIST. docs/digits.md explains the table. Needs ./lab[train].
 
 --mnist is a folder with t10k-images-idx3-ubyte.gz and t10k-labels-idx1-ubyte.gz, from the MNIST
 page of Y. LeCun, C. Cortes and C. Burges. --nmnist is the unpacked N-MNIST of G. Orchard et al.

@@ -16,7 +16,7 @@ from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
 Networks learn objects on a table and a turntable from each simulator's events of the same clips,
-and are tested on recordings; see docs/objects.md. Needs texvent-lab[detection].
+and are tested on recordings; see docs/objects.md. Needs ./lab[detection].
 
   texvent bench objects configs/objects --frames a.zip --turntables DVS128"""
 

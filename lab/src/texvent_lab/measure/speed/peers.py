@@ -1,7 +1,7 @@
 """Other programs' simulators on our frames, and ours on the same 8-bit grey frames.
 
 Noise, refractory time and bandwidth are off everywhere, so that the cores that turn brightness into
-events are compared. Peers are installed by name (`pip install 'texvent-lab[peers]'`) and are never
+events are compared. Peers are installed by name (the extra `./lab[peers]`) and are never
 a dependency; one that is missing is reported as such.
 """
 
