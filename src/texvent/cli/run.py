@@ -109,14 +109,17 @@ def _parts(video: FrameStream, total: int | None) -> Iterator[tuple[int, FrameSt
         for start in starts:
             yield start, _with_frames(video, partial(_frames_from, start, length))
         return
-    frames, latest = enumerate(video), time.perf_counter() + MOST_SECONDS
+    frames, read_s = enumerate(video), 0.0
     for start in starts:
-        found = []
+        found, begun = [], time.perf_counter()
         for number, frame in frames:
             if number >= start:
                 found.append(frame)
-            if len(found) == length or (start and time.perf_counter() > latest):
+            if len(found) == length or (
+                start and read_s + time.perf_counter() - begun > MOST_SECONDS
+            ):
                 break
+        read_s += time.perf_counter() - begun
         if len(found) > 1 or not start:
             yield start, _with_frames(video, partial(_frames_of, tuple(found)))
 
