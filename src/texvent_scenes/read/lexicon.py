@@ -348,8 +348,7 @@ def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, 
     if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
         return None
     value, (least, most) = factor * float(said[0]), _RANGES[how["field"]]
-    stated = Sense(how["kind"], (how["field"], value))
-    return skipped + 3, (stated,) if least <= value <= most else ()
+    return skipped + 3, (Sense(how["kind"], (how["field"], value)),) * (least <= value <= most)
 
 
 def _without_chance(
