@@ -224,7 +224,7 @@ MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
 MAX_COUNT = 24
 """Most copies of one object."""
-_RANGES = {"speed_m_s": (0.0, 1000.0)}
+_RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
 _NUMBER = (
@@ -347,7 +347,8 @@ def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, 
     after = words[at + 3 + skipped : at + 4 + skipped]
     if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
         return None
-    return skipped + 3, (Sense(how["kind"], (how["field"], factor * float(said[0]))),)
+    value, (least, most) = factor * float(said[0]), _RANGES[how["field"]]
+    return skipped + 3, (Sense(how["kind"], (how["field"], value)),) * (least <= value <= most)
 
 
 def _without_chance(
@@ -384,7 +385,7 @@ def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int
     text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
     try:
         number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
-    except (ValueError, ZeroDivisionError):
+    except (ValueError, ZeroDivisionError, OverflowError):
         return 1, ()
     number = -number if text.startswith("-") else number
     for length in (3, 2, 1):

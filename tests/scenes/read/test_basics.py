@@ -158,3 +158,17 @@ def test_who_steps_onto_a_road_goes_across(text):
 def test_a_passive_has_its_actor(text, expected):
     assert expected in relations(text)
     assert not lost(text)
+
+
+@pytest.mark.parametrize("number", ["100000", "7" * 400])
+@pytest.mark.parametrize("text", ["a ball is dropped from {} m", "a ball falls after {} seconds"])
+def test_a_height_or_a_start_beyond_those_of_scenes_is_not_understood(text, number):
+    told = text.format(number)
+    assert any(number in one for one in lost(told))
+    ball = scene(told).objects[0]
+    assert ball.height_m is None
+    assert {one.start_s for one in ball.motions} == {None}
+
+
+def test_a_number_beyond_all_is_not_understood():
+    assert lost("9" * 400 + " dogs run") == {"9" * 400}

@@ -12,8 +12,10 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.spec.scene import Place, Relation, Scene, SceneObject
 
 
-def act(kind, target, *others):
-    return stage(*others, thing(target), relations=((kind, 0, 1), ("towards", 0, 2))).actors
+def act(kind, target, *others, **fields):
+    return stage(
+        *others, thing(target, **fields), relations=((kind, 0, 1), ("towards", 0, 2))
+    ).actors
 
 
 @pytest.mark.parametrize(("noun", "target"), [("cat", "fence"), ("dog", "table"), ("boy", "box")])
@@ -46,6 +48,26 @@ def test_what_is_sent_against_a_wall_comes_back_from_its_face(kind, wall):
     face = float(min(wall.corners(0.0)[:, :2] @ way))
     assert places[far] + 0.5 * ball.model.length == pytest.approx(face, abs=0.3)
     assert float(who.middle(0.0)[:2] @ way) < face
+    aside = (wall.corners(0.0)[:, :2] - ball.track.start[:2]) @ [-way[1], way[0]]
+    assert aside.min() < 0.0 < aside.max()  # it meets it
+
+
+@pytest.mark.parametrize("heading", [0.0, 180.0, 200.0])
+def test_a_wall_keeps_the_heading_that_is_said(heading):
+    *_, wall = act("kick", "wall", thing("child"), thing("ball"), heading_deg=heading)
+    turn = math.degrees(wall.track.at(0.0).yaw) - heading
+    assert (turn + 180.0) % 360.0 == pytest.approx(180.0, abs=1e-6)
+
+
+def test_what_is_held_all_along_or_misses_the_wall_does_not_come_back():
+    child = thing("child", position_m=(0.0, 0.0))
+    _, ball, wall = act("kick", "wall", child, thing("ball"), position_m=(5.0, 6.0))
+    assert wall.track.at(0.0).position[:2] == pytest.approx((5.0, 6.0))
+    way = [float(ball.track.at(t).position[0]) for t in np.linspace(0.0, 2.0, 41)]
+    assert way[-1] == max(way) > 5.0
+    scene = stage(thing("man"), thing("ball"), thing("wall"),
+                  relations=(("kick", 0, 1), ("hold", 0, 1), ("towards", 0, 2)))  # fmt: skip
+    assert all(np.isfinite(one.corners(1.9)).all() for one in scene.actors)
 
 
 def complete_of(*objects, place):

@@ -195,7 +195,7 @@ def perform_acts(
     sent = {one.subject: one.targets[0] for one in acts if one.kind in ("kick", "throw")}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
-            _send_against(cast, sent[each.subject], each.targets[0])
+            _send_against(cast, sent[each.subject], description.objects, each.targets[0])
     for each in description.relations:
         seats = [n for n, one in cast.items() if one.object_index in each.targets]
         riders = [n for n, one in cast.items() if one.object_index == each.subject]
@@ -212,12 +212,17 @@ def perform_acts(
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _send_against(cast: dict[int, Actor], sent: int, goal: int) -> None:
-    """Rebound of what is kicked or thrown from what is fixed."""
+def _send_against(
+    cast: dict[int, Actor], sent: int, said: Sequence[SceneObject], goal: int
+) -> None:
+    """Rebound of what is kicked or thrown from what is fixed, which keeps its stated pose."""
     things, walls = ([n for n, one in cast.items() if one.object_index == index]
                      for index in (sent, goal))  # fmt: skip
     for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
-        cast[thing], cast[walls[0]] = striking.rebound(cast[thing], cast[walls[0]])
+        cast[thing], cast[walls[0]] = striking.rebound(
+            cast[thing], cast[walls[0]], is_turned=said[goal].heading_deg is None,
+            is_moved=said[goal].position_m is None,
+        )  # fmt: skip
 
 
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:

@@ -126,11 +126,29 @@ def _fly_off(
     return replace(flight, terms=terms, pivot_m=start.pivot_m)
 
 
-def rebound(thing: Actor, wall: Actor) -> tuple[Actor, Actor]:
-    """Both, the thing that flies off going back from the wall, which faces it."""
-    track, (x, y, level_m) = thing.track, wall.track.at(0.0).position
-    flight = track.keys[-1]
-    wall = replace(wall, track=steady((x, y, level_m), track.yaw + math.pi, activity="stand"))
+def rebound(thing: Actor, wall: Actor, *, is_turned: bool, is_moved: bool) -> tuple[Actor, Actor]:
+    """Both, the thing that flies off going back from the wall; or as they were.
+
+    A thing that flies past the wall, or does not fly, stays as it is.
+
+    Args:
+        thing: what is kicked or thrown.
+        wall: what it is sent against.
+        is_turned: whether the wall may be turned to face it.
+        is_moved: whether the wall may be moved into its way.
+    """
+    track, (x, y, level_m), before = thing.track, wall.track.at(0.0).position, wall
+    flight, half = track.keys[-1], 0.5 * thing.model.width
+    if is_turned:
+        wall = replace(wall, track=steady((x, y, level_m), track.yaw + math.pi, activity="stand"))
+    left = np.array([-math.sin(track.yaw), math.cos(track.yaw)])
+    aside = (wall.corners(0.0)[:, :2] - track.start[:2]) @ left
+    step = min(-half - float(aside.min()), 0.0) + max(half - float(aside.max()), 0.0)
+    if flight.speed_m_s <= 0.0 or (step and not is_moved):
+        return thing, before
+    x, y, level_m = wall.track.start
+    shifted = (x + step * float(left[0]), y + step * float(left[1]), level_m)
+    wall = replace(wall, track=replace(wall.track, start=shifted))
     way = np.subtract(_find_contact(thing, wall, track.yaw, level_m), track.start)
     flown_s = (way[0] * math.cos(track.yaw) + way[1] * math.sin(track.yaw)) / flight.speed_m_s
     if flown_s <= 0.0:
