@@ -10,6 +10,7 @@ from texvent_scenes.models.nouns import FAMILIES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.lexicon import lexicon_of
 from texvent_scenes.scene_input import list_nouns
+from texvent_scenes.words import list_plurals
 
 _KINDS = {
     "motion": "motion", "place": "place", "light": "light", "weather": "weather",
@@ -41,7 +42,8 @@ def list_kinds() -> Iterator[tuple[str, tuple[str, ...]]]:
     for family in dict.fromkeys(_KINDS.values()):
         for (kind, name), words in found.items():
             if kind == family and name:
-                yield family, (name, *(one for one in words if one != name))
+                plurals = {each for one in words for each in list_plurals(one) if each != one}
+                yield family, (name, *(one for one in words if one not in {name, *plurals}))
 
 
 def list_families(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Noun]]:

@@ -26,7 +26,7 @@ def test_a_word_lists_the_nouns_that_have_it_with_their_sizes(capsys) -> None:
 
 @pytest.mark.parametrize(
     ("word", "family", "name"),
-    [("strolls", "", ""), ("stroll", "motion", "walk"), ("meadow", "place", "grass"),
+    [("strol", "", ""), ("stroll", "motion", "walk"), ("meadow", "place", "grass"),
      ("twilight", "light", "dusk"), ("dark red", "colour", "red"), ("wooden", "material", "wood"),
      ("mist", "weather", "fog"), ("pan", "camera move", "pan"), ("atop", "relation", "on")],
 )  # fmt: skip
@@ -37,3 +37,11 @@ def test_all_that_a_sentence_says_can_be_looked_up(word, family, name, capsys) -
     assert any(row[: len(family.split()) + 1] == [*family.split(), name] for row in rows) or (
         "is in no list; did you mean 'stroll'" in said.err
     )
+
+
+@pytest.mark.parametrize(("word", "found"), [("meadows", "grass"), ("reefs", "underwater")])
+def test_a_plural_is_found_and_not_listed(word, found, capsys):
+    assert main(["scenes", word]) == 0
+    printed = capsys.readouterr().out
+    assert found in printed
+    assert word not in printed

@@ -19,6 +19,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.scene_input import list_nouns, list_words
 from texvent_scenes.spec.files import json_schema
 from texvent_scenes.vocabulary import list_families, list_kinds, names_of
+from texvent_scenes.words import list_plurals
 
 DESCRIPTION = """List what prompts of the embedded generator can name: nouns by family, with their
 other names, models of a folder of your own first; then motions, activities, places, lights,
@@ -65,7 +66,11 @@ def run(arguments: Sequence[str]) -> int:
         wanted = options.word.lower().strip()
         word = re.compile(rf"\b{re.escape(wanted)}\b")
         known = tuple(name for _, names, _ in rows for name in names)
-        rows = [row for row in rows if any(map(word.search, row[1]))]
+        rows = [
+            row
+            for row in rows
+            if any(word.search(name) or wanted in list_plurals(name) for name in row[1])
+        ]
         if not rows:
             raise InputError(f"{shown(wanted)} is in no list; {suggest(wanted, known)}")
     table = Table(*titles, box=None, pad_edge=False)
