@@ -124,7 +124,7 @@ def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> Scene
 
 
 def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Those on foot that somebody walks or runs "with" do so too."""
+    """Companions on foot, with whom another walks or runs: they do so too."""
     objects, led = description.objects, dict[int, Motion]()
     pairs = ((one.subject, to) for one in description.relations if one.kind == "with"
              for to in one.targets)  # fmt: skip

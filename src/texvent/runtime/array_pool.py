@@ -1,4 +1,4 @@
-"""Arrays whose memory is used again once nobody holds it, as fresh pages cost time to fill in."""
+"""Pool of arrays: memory is used again once nothing refers to it, since fresh pages cost time."""
 
 from __future__ import annotations
 

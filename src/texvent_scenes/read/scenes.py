@@ -8,9 +8,7 @@ from typing import Any
 
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -22,6 +20,14 @@ from texvent_scenes.read.lexicon import (
     split_prompt,
     word_set,
 )
+from texvent_scenes.read.prepositions import (
+    are_own_parts,
+    find_relation,
+    go_to_place,
+    lose_ways,
+    relate_one,
+    ridden_by,
+)
 from texvent_scenes.spec.data import PLACING, SPACED
 from texvent_scenes.spec.scene import MAX_BODIES
 
@@ -29,9 +35,6 @@ PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
-_WATERS = frozenset({"sea", "lake", "river"})
-_LANDING = frozenset({"fall", "jump", "sink", "bounce"})
-_SMALL = nouns_with("in hand or on something")
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -93,7 +96,7 @@ class _SentenceReader:
         before = [one for one in clause.after
                   if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
         for phrase in before:
-            if self._are_own_parts(phrase, subjects):
+            if are_own_parts(self._draft, phrase, subjects):
                 continue
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
@@ -108,9 +111,9 @@ class _SentenceReader:
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
         if clause.verb is not None and not self._draft.shows(clause.verb):
-            self._lose_ways(clause.after)
+            lose_ways(self._draft, clause.after)
         for index in subjects if clause.about == "where" and where else ():
-            self._relate_one(self._draft.place_by(where[0]), index, where)
+            relate_one(self._draft, self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
             self._phases += 1
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
@@ -140,7 +143,7 @@ class _SentenceReader:
         last = NO_TOKEN
         for one in after:
             if isinstance(one, Phrase) and (
-                self._hangs_on_unknown(one) or self._are_own_parts(one, subjects)
+                self._hangs_on_unknown(one) or are_own_parts(self._draft, one, subjects)
             ):
                 continue
             if isinstance(one, Phrase):
@@ -158,22 +161,6 @@ class _SentenceReader:
         before = self._draft.tokens[phrase.preposition.at - 1]
         is_noun = before.is_unknown and not before.text.endswith("ly") and before is not self._verb
         return phrase.preposition.text == "with" and is_noun
-
-    def _are_own_parts(self, phrase: Phrase, subjects: Sequence[int]) -> bool:
-        """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
-        words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
-        owned = read_table("words", "read")["parts"]
-        parts = [next((word.text for word in each if word.text in owned), "") for each in words]
-        nouns = {self._draft.things[index]["noun"] for index in subjects}
-        if phrase.preposition.text != "with" or not subjects or not all(parts):
-            return False
-        for part, each in zip(parts, words, strict=True):
-            counts = {one.value[1] for word in each for one in word.all("field")
-                      if one.value[0] == "count"}  # fmt: skip
-            drawn = {owned[part].get(noun) for noun in nouns}
-            if None not in drawn and counts <= drawn:
-                self._draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
-        return True
 
     def _choose_placed(
         self, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
@@ -207,15 +194,6 @@ class _SentenceReader:
         others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
                   and (one in persons) == (word in ("him", "her"))]  # fmt: skip
         return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
-
-    def _lose_ways(self, after: Sequence[Phrase | Token]) -> None:
-        """Report what says how and where to something is done that is not shown."""
-        for one in after:
-            token = one.preposition if isinstance(one, Phrase) else one
-            kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
-            said = {each if token is not one else each[0] for each in kinds}
-            if said & word_set("things", "ways") and not token.has("scene"):
-                self._draft.mark(token, "lost")
 
     def _turn_passive(
         self, clause: Clause, subjects: list[int], objects: list[int]
@@ -396,13 +374,15 @@ class _SentenceReader:
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
-            draft.relate(self._ridden(index, act.relation or ""), act.relation or "", objects)
+            draft.relate(
+                ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
+            )
         return list(objects if act.object and objects else subjects)
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
-        if act.kind == "move" and self._goes_on and self._ridden(index, "past") != index:
+        if act.kind == "move" and self._goes_on and ridden_by(self._draft, index, "past") != index:
             return  # it is ridden on: "rides a bicycle, passing a car"
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
@@ -425,17 +405,7 @@ class _SentenceReader:
         `moved` are those that the verb moves; "behind them" is said of the nearest group.
         """
         draft, token = self._draft, phrase.preposition
-        sense = token.first("relation")
-        kind = sense.value if sense is not None else ""
-        does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-        nouns = {each.noun.noun for each in phrase.groups if each.noun is not None}
-        is_down = token.text == "down" and bool(nouns & nouns_with("slope"))
-        kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
-        for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
-            motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
-        sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
-        sent_to = "" if "throw" in does else "towards"  # nobody throws it
-        kind = sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
+        kind = find_relation(draft, phrase, subjects)
         if not phrase.groups:
             self._relate_back(kind, token, subjects)
             return []
@@ -448,7 +418,7 @@ class _SentenceReader:
         if not targets:
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
-                self._go_to_place(token, heads, subjects or self._nearest, moved)
+                go_to_place(draft, token, heads, subjects or self._nearest, moved)
             elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
@@ -457,7 +427,7 @@ class _SentenceReader:
             draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind in ("route", "off") else subjects
-            placed = [self._relate_one(kind, index, targets) for index in able]
+            placed = [relate_one(self._draft, kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
@@ -474,88 +444,8 @@ class _SentenceReader:
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
         others = others if about and kind not in ("", "route", "off") else []
-        is_so = any([self._relate_one(kind, one, about) for one in others])
+        is_so = any([relate_one(self._draft, kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
-
-    def _go_to_place(
-        self, token: Token, heads: list[Token], subjects: Sequence[int], moved: Sequence[int]
-    ) -> None:
-        """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
-        draft, place = self._draft, PLACES[self._draft.parts["place"]["name"]]
-        is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
-        is_entered &= all(map(draft.walks, moved))
-        for index in moved if token.text == "across" or is_entered else ():
-            for motion in draft.things[index]["motions"][-1:]:
-                motion.setdefault("direction", "across")
-        names = {one.value for head in heads for one in head.all("place")[:1]}
-        on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
-        is_in = on_foot and token.text in ("through", "in", "into")
-        if is_entered:
-            draft.show(token)  # "steps onto the road": and goes over it
-        elif is_in or not self._shows_way(token, place, subjects):
-            draft.mark(token, "lost")
-        is_road = token.text == "on" and place is PLACES["road"]
-        for thing in (draft.things[index] for index in subjects if is_road):
-            if self._nouns[thing["noun"]].motion != "drive":
-                thing.setdefault("placement", "lane")
-
-    def _shows_way(self, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
-        """Whether a place shows a preposition: no "towards a park", "by a forest"."""
-        draft, kinds = self._draft, {one.value for one in token.all("relation")}
-        if token.text in ("across", "down", "up"):
-            return not subjects or any(draft.things[one]["motions"] for one in subjects)
-        if "above" in kinds:
-            return not any(map(draft.keeps_to_ground, subjects))
-        is_past = token.text == "past" or (place.has_shore and token.text == "through")
-        is_bank = "beside" not in kinds or place.has_shore
-        return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
-
-    def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
-        draft = self._draft
-        thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-        if kind == "with":
-            is_table = thing["noun"] in word_set("things", "tables")
-            if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
-                return all([draft.relate(one, "on", [index]) for one in targets])
-            if noun in nouns_with("towering"):
-                return True  # it stands in the distance
-            if not any(map(draft.can_go, (index, *targets))):
-                return False  # "a vase with roses", "a disc with a dot"
-        if kind == "on" and noun in word_set("things", "peaks"):
-            return False  # its slopes bear nothing
-        kind = self._choose_relation(kind, index, targets[0])
-        sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        if sat_at and self._nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
-            return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-        tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
-                and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
-        small = [one for one in targets if draft.things[one]["noun"] in _SMALL
-                 and not draft.things[one]["relations"]]  # fmt: skip
-        is_still = all(one["kind"] == "stand" for one in thing["motions"])
-        for one in small if tops and kind in SPACED and is_still else ():
-            draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
-        return bool(kind) and draft.relate(self._ridden(index, kind), kind, targets)
-
-    def _ridden(self, index: int, kind: str) -> int:
-        """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
-        relations = self._draft.things[index]["relations"]
-        ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
-        is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}
-        return ridden[0] if ridden and is_way else index
-
-    def _choose_relation(self, kind: str, index: int, other: int) -> str:
-        """The relation that is meant, which depends on what stands in it; "" = none."""
-        draft = self._draft
-        thing, noun = draft.things[index], draft.things[other]["noun"]
-        if noun in word_set("things", "worn") and kind in ("in", "with"):
-            return "wear" if thing["noun"] in PERSON_NOUNS else ""
-        if kind == "at" and noun not in word_set("things", "tables"):
-            return "beside"
-        if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
-            return "on" if noun in nouns_with("way") else ""
-        if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
-            return "" if "end_pace" in thing["motions"][0] else "follow"
-        return kind
 
     # The camera
 

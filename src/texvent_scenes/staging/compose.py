@@ -77,7 +77,7 @@ class ComposedScene:
     notes: tuple[str, ...] = ()
     """Decisions that the scene leaves open, as sentences, such as where the roads cross."""
     missing: frozenset[int] = frozenset()
-    """Objects that nobody holds and that have no place."""
+    """Objects that are not held and have no place."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
