@@ -383,6 +383,7 @@ class SceneDraft:
     def reading(self, prompt: str) -> Reading:
         """The scene, and its words; one that is lost at one place of the prompt is not shown."""
         self._choose_gender()
+        self._limit_counts()
         fates: dict[str, str] = {}
         for token, after in zip(self.tokens, (*self.tokens[1:], NO_TOKEN), strict=False):
             is_open = token.is_sign or is_grammar(token)
@@ -413,10 +414,22 @@ class SceneDraft:
                 persons[0]["noun"] = noun
                 self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
 
-    def _build(self, prompt: str) -> Scene:
-        """The scene; copies of objects that have most are left out until it holds them all."""
+    def _limit_counts(self) -> None:
+        """Leave out copies of objects that have most until a scene holds all, and say how many."""
+        said = [int(one["count"]) for one in self.things]
         while sum(one["count"] for one in self.things) > MAX_BODIES:
             max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
+        fewer = {n: one["count"] for n, one in zip(said, self.things, strict=True)
+                 if one["count"] < n}  # fmt: skip
+        for token in filter(self.shows, self.tokens):
+            number = token.text.replace(",", "")
+            for each in (one.value for one in token.all("field") if one.value[0] == "count"):
+                count = fewer.get(each[1], each[1])
+                if each[1] in fewer or (number.isdecimal() and int(number) > count):
+                    self._fates[token.at] = str(count)  # "30" balls are 24
+
+    def _build(self, prompt: str) -> Scene:
+        """The scene."""
         for index, one in enumerate([*self.things]):
             for motion in (each for each in one["motions"] if "end_m_s" in each):
                 _reach_speed(motion, self.nouns[one["noun"]])
