@@ -12,6 +12,7 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
+from texvent_scenes.staging.tracks.motion_plan import MotionPlan
 from texvent_scenes.staging.tracks.phases import activity_of, usual_speed
 from texvent_scenes.staging.tracks.track import Track, centred
 
@@ -31,24 +32,29 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
     scale = size_of(target.models[0])
     length, height = scale * length, scale * height
     way_m, said_m_s = math.hypot(length, height), plan.motion.speed_m_s
-    rate = GRAVITY_M_S2 * height / way_m * (_ROLLING if plan.motion.kind == "roll" else 1.0)
-    spent_s = way_m / said_m_s if said_m_s else math.sqrt(2.0 * way_m / rate)
-    along, down = length / way_m, -height / way_m
-    first = said_m_s or 0.0
-    keys = [Key(0.0, along * first, 0.0, down * first)]
-    for number in range(1, _STEPS + 1):
-        speed = said_m_s or rate * spent_s * number / _STEPS
-        step_s = spent_s / _STEPS
-        keys.append(Key(step_s, along * speed, 0.0, down * speed, step_s,
-                        activity_of(plan.motion.kind)))  # fmt: skip
-    last = said_m_s or rate * spent_s
-    keys.append(Key(max(plan.duration_s - spent_s, 0.1), last, ramp_s=0.02,
-                    activity=activity_of(plan.motion.kind)))  # fmt: skip
+    keys = [Key(plan.duration_s, activity="stand")]
+    if said_m_s != 0.0:
+        keys = _list_keys(plan, length / way_m, -height / way_m, way_m)
     yaw = target.plan.yaw
     start = (-0.5 * length * math.cos(yaw), -0.5 * length * math.sin(yaw), height)
     path = Track(start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m)
     group.plan = replace(plan, yaw=yaw, path=path)
     group.fit()
+
+
+def _list_keys(plan: MotionPlan, along: float, down: float, way_m: float) -> list[Key]:
+    """Keys of a way down a slope and on over the ground; `along` and `down` are its direction."""
+    said_m_s, activity = plan.motion.speed_m_s, activity_of(plan.motion.kind)
+    rate = -GRAVITY_M_S2 * down * (_ROLLING if plan.motion.kind == "roll" else 1.0)
+    spent_s = way_m / said_m_s if said_m_s else math.sqrt(2.0 * way_m / rate)
+    step_s, first = spent_s / _STEPS, said_m_s or 0.0
+    keys = [Key(0.0, along * first, 0.0, down * first)]
+    for number in range(1, _STEPS + 1):
+        speed = said_m_s or rate * step_s * number
+        keys.append(Key(step_s, along * speed, 0.0, down * speed, step_s, activity))
+    last = said_m_s or rate * spent_s
+    keys.append(Key(max(plan.duration_s - spent_s, 0.1), last, ramp_s=0.02, activity=activity))
+    return keys
 
 
 def _approach(group: ObjectGroup, target: ObjectGroup) -> tuple[float, float]:
