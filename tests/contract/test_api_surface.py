@@ -1,5 +1,6 @@
 """The public names, pinned; and what importing them costs."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -22,6 +23,14 @@ def test_the_public_names_are_few_and_all_exist():
     assert len(PUBLIC) <= 40
     assert all(hasattr(texvent, name) for name in PUBLIC)
     assert set(dir(texvent)) == PUBLIC
+
+
+def test_the_page_of_the_api_names_all_of_them_and_no_others():
+    page = (Path(__file__).parents[2] / "docs/api.md").read_text(encoding="utf-8")
+    table = page.partition("| name | gives |")[2].partition("\n\n")[0]
+    rows = [row.split("|")[1] for row in table.splitlines() if row.startswith("| `")]
+    named = [name for row in rows for name in re.findall(r"`(\w+)", row)]
+    assert sorted(named) == sorted(PUBLIC)
 
 
 def test_the_api_and_the_value_types_load_no_heavy_package():
