@@ -33,12 +33,10 @@ from texvent_lab.bench.objects.recorded import (
     TURNTABLE_FILES,
     Frames,
 )
-from texvent_lab.bench.objects.results import (
-    REFERENCE,
-)
+from texvent_lab.bench.objects.results import REFERENCE
 from texvent_lab.train.schedule import Schedule
 
-PROTOCOL = 2
+PROTOCOL = 3
 """Part of every file's name: raise it when a step computes something else from the same plan."""
 CLASSES: Mapping[Test, tuple[str, ...]] = {
     "table": TABLE_CLASSES,
