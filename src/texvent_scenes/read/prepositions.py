@@ -1,0 +1,145 @@
+"""Prepositions in a draft: relations of things to each other and to the place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.read.draft import SceneDraft
+from texvent_scenes.read.groups import Phrase
+from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
+from texvent_scenes.spec.data import SPACED
+
+_WATERS = frozenset({"sea", "lake", "river"})
+_LANDING = frozenset({"fall", "jump", "sink", "bounce"})
+_SMALL = nouns_with("in hand or on something")
+
+
+def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> str:
+    """The relation that a preposition means after what the subjects do; "" = none."""
+    token = phrase.preposition
+    sense = token.first("relation")
+    kind = sense.value if sense is not None else ""
+    does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
+    nouns = {each.noun.noun for each in phrase.groups if each.noun is not None}
+    is_down = token.text == "down" and bool(nouns & nouns_with("slope"))
+    kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
+    for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
+        motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
+    sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
+    sent_to = "" if "throw" in does else "towards"  # nobody throws it
+    return sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
+
+
+def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
+    words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
+    owned = read_table("words", "read")["parts"]
+    parts = [next((word.text for word in each if word.text in owned), "") for each in words]
+    nouns = {draft.things[index]["noun"] for index in subjects}
+    if phrase.preposition.text != "with" or not subjects or not all(parts):
+        return False
+    for part, each in zip(parts, words, strict=True):
+        counts = {one.value[1] for word in each for one in word.all("field")
+                  if one.value[0] == "count"}  # fmt: skip
+        drawn = {owned[part].get(noun) for noun in nouns}
+        if None not in drawn and counts <= drawn:
+            draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
+    return True
+
+
+def lose_ways(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
+    """Report what says how and where to something is done that is not shown."""
+    for one in after:
+        token = one.preposition if isinstance(one, Phrase) else one
+        kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
+        said = {each if token is not one else each[0] for each in kinds}
+        if said & word_set("things", "ways") and not token.has("scene"):
+            draft.mark(token, "lost")
+
+
+def go_to_place(
+    draft: SceneDraft, token: Token, heads: list[Token], subjects: Sequence[int],
+    moved: Sequence[int],
+) -> None:  # fmt: skip
+    """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
+    place = PLACES[draft.parts["place"]["name"]]
+    is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
+    is_entered &= all(map(draft.walks, moved))
+    for index in moved if token.text == "across" or is_entered else ():
+        for motion in draft.things[index]["motions"][-1:]:
+            motion.setdefault("direction", "across")
+    names = {one.value for head in heads for one in head.all("place")[:1]}
+    on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
+    is_in = on_foot and token.text in ("through", "in", "into")
+    if is_entered:
+        draft.show(token)  # "steps onto the road": and goes over it
+    elif is_in or not _shows_way(draft, token, place, subjects):
+        draft.mark(token, "lost")
+    is_road = token.text == "on" and place is PLACES["road"]
+    for thing in (draft.things[index] for index in subjects if is_road):
+        if draft.nouns[thing["noun"]].motion != "drive":
+            thing.setdefault("placement", "lane")
+
+
+def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
+    """Whether a place shows a preposition: no "towards a park", "by a forest"."""
+    kinds = {one.value for one in token.all("relation")}
+    if token.text in ("across", "down", "up"):
+        return not subjects or any(draft.things[one]["motions"] for one in subjects)
+    if "above" in kinds:
+        return not any(map(draft.keeps_to_ground, subjects))
+    is_past = token.text == "past" or (place.has_shore and token.text == "through")
+    is_bank = "beside" not in kinds or place.has_shore
+    return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
+
+
+def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
+    """Relate a thing to others as far as scenes can; whether it is so."""
+    thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if kind == "with":
+        is_table = thing["noun"] in word_set("things", "tables")
+        if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
+            return all([draft.relate(one, "on", [index]) for one in targets])
+        if noun in nouns_with("towering"):
+            return True  # it stands in the distance
+        if not any(map(draft.can_go, (index, *targets))):
+            return False  # "a vase with roses", "a disc with a dot"
+    if kind == "on" and noun in word_set("things", "peaks"):
+        return False  # its slopes bear nothing
+    kind = _choose_relation(draft, kind, index, targets[0])
+    sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+    if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
+        return all([draft.relate(one, "on", sat_at[0]) for one in targets])
+    tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
+            and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
+    small = [one for one in targets if draft.things[one]["noun"] in _SMALL
+             and not draft.things[one]["relations"]]  # fmt: skip
+    is_still = all(one["kind"] == "stand" for one in thing["motions"])
+    for one in small if tops and kind in SPACED and is_still else ():
+        draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
+    return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
+
+
+def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
+    """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
+    relations = draft.things[index]["relations"]
+    ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
+    is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}
+    return ridden[0] if ridden and is_way else index
+
+
+def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
+    """The relation that is meant, which depends on what stands in it; "" = none."""
+    thing, noun = draft.things[index], draft.things[other]["noun"]
+    if noun in word_set("things", "worn") and kind in ("in", "with"):
+        return "wear" if thing["noun"] in PERSON_NOUNS else ""
+    if kind == "at" and noun not in word_set("things", "tables"):
+        return "beside"
+    if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
+        return "on" if noun in nouns_with("way") else ""
+    if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
+        return "" if "end_pace" in thing["motions"][0] else "follow"
+    return kind
