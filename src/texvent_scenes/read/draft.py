@@ -7,6 +7,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
+from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
@@ -105,6 +106,8 @@ class SceneDraft:
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
     """Fields of the camera, the light and the place."""
+    claims: dict[int, list[Claim]] = field(default_factory=dict)
+    """Number of a token → what is claimed of it."""
     _left: list[int] = field(default_factory=list)
     """Object from which one was parted last."""
     fates: dict[int, str] = field(default_factory=dict)
@@ -122,6 +125,14 @@ class SceneDraft:
     def shows(self, token: Token) -> bool:
         """Whether a token is shown, as itself or as something else."""
         return self.fates.get(token.at, "lost") != "lost"
+
+    def claim(
+        self, token: Token, kind: str, value: str | float, subjects: Sequence[int | None],
+        targets: Sequence[int] = (),
+    ) -> None:  # fmt: skip
+        """Leave it to the staged scene whether a word is shown of all subjects."""
+        said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
+        self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
