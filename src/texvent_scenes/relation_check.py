@@ -90,7 +90,7 @@ def find_violations(
     """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
-            if one.kind in ("kick", "throw")}  # fmt: skip
+            if one.kind in ("kick", "throw", "roll")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -218,13 +218,26 @@ def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 
-def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it has come so much nearer or gone away, and not mostly past it."""
-    off = one.middle - other.middle
+def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
+    """Whether it has come so much nearer or gone away along `axes`, and not mostly past it."""
+    off = (one.middle - other.middle)[:, :axes]
     away, way = np.linalg.norm(off, axis=1), off - off[0]
     gone = sign * (away - away[0])
     is_direct = gone >= _DIRECT * np.linalg.norm(way, axis=1)
     return np.asarray((gone > _LEAST_DISPLACEMENT * one.size.max()) & is_direct)
+
+
+def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its foot is at the top of the other, give or take some of its height."""
+    is_level = np.abs(_clears(one, other, 0.5)) < 2.0 * _LEAST_DISPLACEMENT * one.size[:, 2] + 0.02
+    return np.asarray(_within(one, other, 2) & is_level)
+
+
+def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it gets higher, or of sign -1 lower, where the other is."""
+    risen = sign * (one.middle[-1] - one.middle[0])[2]
+    is_high = risen > _LEAST_DISPLACEMENT * one.size[0, 2]
+    return np.asarray(_within(one, other, 2, 1.0)[[0, -1]] & is_high)
 
 
 def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
@@ -286,6 +299,12 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
+    "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
+    "into": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _within(one, other, 2)[-1:],
+    "out of": lambda one, other: _recedes(one, other, 1, 2)[-1:] & _within(one, other, 2)[:1],
+    "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
+    "up": lambda one, other: _climbs(one, other, 1),
+    "down": lambda one, other: _climbs(one, other, -1),
     "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, _AT_START)[:1],
 }  # fmt: skip
 """Kind of relation → whether a body is so to another; acts have none."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
@@ -17,6 +18,8 @@ from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
+_SWITCHED_S = 1.0
+"""Time at which a lamp is switched of which no time is said."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -126,20 +129,19 @@ class ThingReader:
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
         is_set = field in word_set("things", "once") and any(field in one for one in things)
-        is_idle = not any(one["motions"] or "blink_hz" in one or one["noun"] in LAMPS
-                          for one in things)  # fmt: skip
+        is_idle = field == "rate_hz" and not any(
+            one["motions"] or "blink_hz" in one or one["noun"] in LAMPS for one in things
+        )
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
-        elif is_set or (field == "rate_hz" and is_idle):
+        elif is_set or is_idle:
             return
-        elif field == "height_m" and not any(
-            motion["kind"] in ("fall", "bounce") for one in things for motion in one["motions"]
-        ):
+        elif field == "height_m" and not draft.comes_down(subjects):
             return  # it is no way either: "seen from 3 m"
-        elif value == "opposite":
-            if not draft.part_ways(subjects):
+        elif value == "opposite" or field == "times":
+            if not draft.say_all(field, value, subjects):
                 return
         elif said is not None and things:
             for index in subjects:
@@ -164,6 +166,8 @@ class ThingReader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
+        if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
+            act = replace(act, kind="move", is_near=False)  # it goes until it stops
         if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
@@ -178,6 +182,11 @@ class ThingReader:
             )
         return list(objects if act.object and objects else subjects)
 
+    def _can_arrive(self, subjects: Sequence[int]) -> bool:
+        """Whether what stops goes by itself, and nothing is said of how it moves before."""
+        things = self._draft.things
+        return all(self._draft.can_go(n) and not things[n]["motions"] for n in subjects)
+
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
@@ -191,7 +200,9 @@ class ThingReader:
             if is_later and before and not is_seated:
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
         elif thing["noun"] not in word_set("things", "flames"):
-            if act.who == "lamp":
+            if act.who == "lamp" and act.kind == "blink":
                 thing["blink_hz"] = BLINK_HZ
+            elif act.who == "lamp":
+                thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])

@@ -16,6 +16,7 @@ from texvent_scenes.models.shapes import point
 from texvent_scenes.models.tables import trait_value
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
@@ -40,6 +41,7 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
@@ -222,7 +224,11 @@ class ObjectPlacer:
         height = self._height(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
-            if relation.kind in ON_TARGET and targets:
+            if relation.kind in WAYS and targets:
+                if not has_fault(group, relation.kind, targets[0]):
+                    way = lead(group, relation.kind, targets[0], self._pushed_m(group.index))
+                    return Goal(way, np.zeros(3))
+            elif relation.kind in ON_TARGET and targets:
                 shared = self._list_sharing(relation)
                 return place_on_targets(group, relation.kind, targets, height, shared)
         for relation in related:
@@ -240,6 +246,12 @@ class ObjectPlacer:
             is_goal = scene.index(scene.camera.target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
+
+    def _pushed_m(self, index: int) -> float:
+        """Length of what an object pushes before it, m."""
+        pushed = [one.targets[0] for one in self._description.relations
+                  if one.kind == "push" and one.subject == index]  # fmt: skip
+        return sum(self.build_group(n).models[0].length for n in pushed)
 
     def _list_sharing(self, relation: IndexedRelation) -> list[int]:
         """Index of each copy that has the same relation to the same objects."""

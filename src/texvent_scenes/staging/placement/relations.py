@@ -18,6 +18,7 @@ from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import SPACED, WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -49,7 +50,7 @@ class Goal(NamedTuple):
     """[3] direction in which it may move from there to find room; zero = it stays."""
 
 
-ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
+ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 INVERSE: Mapping[str, str] = {
@@ -152,8 +153,13 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         return _lead_through(group, subject, height)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
-    x, y, _ = subject.half + group.half + gap
-    yaw, here = subject.plan.yaw, _on_ground(subject, height)
+    own, (yaw, here) = subject.half, (subject.plan.yaw, _on_ground(subject, height))
+    path = subject.plan.path
+    if path is not None and ends_at_rest(subject) and kind in SPACED:
+        own, end = near, path.at(subject.plan.duration_s).position
+        past_m = 0.5 * subject.models[0].length + group.half[0] if kind == "beside" else 0.0  # seen
+        here = _shift(here, end[0] + past_m * math.cos(yaw), end[1] + past_m * math.sin(yaw))
+    x, y, _ = own + group.half + gap
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
     is_aside = goes and abs(along[0]) > 0.5
@@ -176,6 +182,13 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
+
+
+def ends_at_rest(group: ObjectGroup) -> bool:
+    """Whether it goes somewhere and stops: a relation is that of the place where it is then."""
+    said = group.scene_object.motions
+    is_over = bool(said) and (said[-1].end_pace == 0.0 or said[-1].kind == "stand")
+    return is_over and group.plan.motion.kind in PATH_KINDS
 
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
