@@ -17,7 +17,7 @@ from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Light, Place, Scene
 
 if TYPE_CHECKING:
-    from texvent_scenes.description import SceneDescription
+    from texvent_scenes.description import Claim, SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
     from texvent_scenes.staging.idle_fields import Idle
@@ -97,11 +97,13 @@ def _without_idle(
     from texvent_scenes.staging.idle_fields import leave_out
 
     scene, shown = reading.scene, list(reading.shown)
+    claims: list[Claim] = []
     lost, notes = dict[str, str](), list[str]()
     for _ in range(_MOST_PASSES):
         idle = _list_idle(scene, nouns)
         if not idle:
             break
+        scene_before = scene
         before, scene = set(_list_fields(scene)), leave_out(scene, idle)
         after = {(name, value) for path, name, value in _list_fields(scene)}
         for one in idle:
@@ -109,12 +111,24 @@ def _without_idle(
             words = [word for word in shown if not said.isdisjoint(list_meanings(word))]
             if one.path.endswith("pace"):  # "land", which has a pace of its own, "smoothly"
                 words = words or [word for word in shown if "pace" in dict(list_meanings(word))]
-            if not words:
+            if not words and not one.path.endswith("pace"):  # which a verb has, and nobody said
                 notes.append(f"{one.path} would change nothing and is left out: {one.why}")
             for word in words if said.isdisjoint(after) or one.path.endswith("pace") else ():
                 shown.remove(word)
                 lost[word] = one.why
-    return replace(reading, scene=scene, shown=tuple(shown)), lost, notes
+                claims += _claim_material(one, word, scene_before)
+    claimed = (*reading.claims, *claims)
+    return replace(reading, scene=scene, shown=tuple(shown), claims=claimed), lost, notes
+
+
+def _claim_material(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
+    """Claim of a material that a thing may have anyway: "a wooden table"."""
+    from texvent_scenes.description import Claim
+    from texvent_scenes.spec.data import steps_of
+
+    first, *way = steps_of(idle.path)
+    if first == "objects" and way[1:] == ["material"]:
+        yield Claim(word, "material", scene.objects[int(way[0])].material or "", int(way[0]))
 
 
 def _list_fields(scene: Scene) -> Iterator[tuple[str, str, object]]:
@@ -218,14 +232,17 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         return describe_scene(subject, nouns)
     reading, lost, notes = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
+    open_words = {one.word for one in reading.claims}
+    unread = tuple(one for one in reading.not_understood if one not in open_words)
     words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
-        not_understood=reading.not_understood,
-        meant=tuple(_meant(reading.not_understood, nouns)),
-        not_shown=tuple(f"{word} ({why})" for word, why in lost.items()),
+        not_understood=unread,
+        meant=tuple(_meant(unread, nouns)),
+        not_shown=tuple(f"{word} ({why})" for word, why in lost.items() if word not in open_words),
     )
-    return replace(description, words=words, notes=(*description.notes, *notes))
+    notes = [*description.notes, *notes]
+    return replace(description, words=words, notes=tuple(notes), claims=reading.claims)
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from texvent.prompt_report import Substitution
+from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
@@ -26,6 +28,8 @@ class Reading:
     """Words that are shown as something else."""
     not_understood: tuple[str, ...]
     """Words without effect on the scene."""
+    claims: tuple[Claim, ...] = ()
+    """Words, of both lists, of which only the staged scene tells whether it shows them."""
 
 
 def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
@@ -63,7 +67,17 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         shown=tuple(word for word, fate in fates.items() if fate == "shown"),
         substituted=tuple(Substitution(*one) for one in others),
         not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
+        claims=tuple(_list_claims(draft)),
     )
+
+
+def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
+    """Claims of words that are not lost at another place, where nothing is claimed of them."""
+    lost = [one for one in draft.tokens if not draft.shows(one) and not is_grammar(one)]
+    closed = {one.text for one in lost if one.at not in draft.claims}
+    for at, claims in draft.claims.items():
+        if draft.fates.get(at, "lost") in ("lost", "shown"):
+            yield from (one for one in claims if one.word not in closed)
 
 
 def _choose_gender(draft: SceneDraft) -> None:

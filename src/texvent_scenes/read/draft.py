@@ -7,6 +7,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
+from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
@@ -112,6 +113,8 @@ class SceneDraft:
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
     """Fields of the camera, the light and the place."""
+    claims: dict[int, list[Claim]] = field(default_factory=dict)
+    """Number of a token → what is claimed of it."""
     _left: list[int] = field(default_factory=list)
     """Object from which one was parted last."""
     fates: dict[int, str] = field(default_factory=dict)
@@ -129,6 +132,14 @@ class SceneDraft:
     def shows(self, token: Token) -> bool:
         """Whether a token is shown, as itself or as something else."""
         return self.fates.get(token.at, "lost") != "lost"
+
+    def claim(
+        self, token: Token, kind: str, value: str | float, subjects: Sequence[int | None],
+        targets: Sequence[int] = (),
+    ) -> None:  # fmt: skip
+        """Leave it to the staged scene whether a word is shown of all subjects."""
+        said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
+        self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
@@ -215,15 +226,6 @@ class SceneDraft:
             is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
             name = "end_m_s" if is_end else name
         set_field(self.things[index], said.kind, name, value)
-
-    def comes_down(self, indices: Sequence[int]) -> bool:
-        """Whether one of these objects falls or bounces."""
-        acts = (motion["kind"] for index in indices for motion in self.things[index]["motions"])
-        return bool({"fall", "bounce"}.intersection(acts))
-
-    def say_all(self, field: str, value: Any, indices: Sequence[int]) -> bool:
-        """Say how often objects do it, or that they part ways; False: that cannot be."""
-        return self.repeat(value, indices) if field == "times" else self.part_ways(indices)
 
     def repeat(self, times: Any, indices: Sequence[int]) -> bool:
         """Let objects rest after so many repetitions; False: what they do is not counted."""

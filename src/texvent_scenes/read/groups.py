@@ -168,6 +168,8 @@ class GroupReader:
 
     def _ends_group(self, first: int) -> bool:
         token = self._token()
+        if token.text == "and" and self._joins_adjectives():
+            return False
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
         if token.has(*_HEADS, *MODIFIERS):
@@ -176,6 +178,13 @@ class GroupReader:
         if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
+
+    def _joins_adjectives(self) -> bool:
+        """Whether "and" stands between two of a kind: "a black and white disc"."""
+        sides, head = (self._token(-1), self._token(1)), self._token(2)
+        before, after = ({one.value[0] for one in each.all("field")} for each in sides)
+        is_noun = head.has("noun", "hollow", "field") or head.is_unknown
+        return bool(before & after - {"count"}) and is_noun and not head.has("relation")
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""

@@ -10,10 +10,13 @@ from texvent_scenes.models.tables import nouns_with, read_table, trait_values
 from texvent_scenes.read.draft import SceneDraft
 from texvent_scenes.read.groups import Phrase
 from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
-from texvent_scenes.spec.data import ACTED, SPACED, WAYS
+from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
+_CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
+"""Relations that the staged scene may have though nothing was placed by them."""
+_ARRIVALS = {"into": "in", "onto": "on"}
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -119,6 +122,25 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     for one in small if tops and kind in SPACED and is_still else ():
         draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
+
+
+def claim_relation(
+    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+) -> None:
+    """Leave it to the staged scene whether a preposition that places nothing holds all the same.
+
+    What stops "in front of" something is before it on its way, wherever the camera is.
+    """
+    is_shown = draft.shows(token)
+    motions = [draft.things[one]["motions"] for one in subjects]
+    stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
+        len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
+    if is_shown and kind == "front" and any(stops):
+        draft.claim(token, "stop before", "", subjects, targets)
+    elif not is_shown and token.text in _ARRIVALS:
+        draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
+    elif not is_shown and kind in _CLAIMED:
+        draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:

@@ -22,6 +22,7 @@ from texvent_scenes.read.lexicon import (
 )
 from texvent_scenes.read.prepositions import (
     are_own_parts,
+    claim_relation,
     find_relation,
     go_to_place,
     lose_ways,
@@ -254,6 +255,7 @@ class _SentenceReader(ThingReader):
             able = () if kind == "route" else subjects
             placed = [relate_one(self._draft, kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
+            claim_relation(draft, token, kind, subjects, targets)
         if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
@@ -271,6 +273,7 @@ class _SentenceReader(ThingReader):
         others = others if about and kind not in ("", "route") else []
         is_so = any([relate_one(self._draft, kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
+        claim_relation(draft, token, kind, others, about)
 
     # The camera
 

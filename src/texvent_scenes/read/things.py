@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from texvent_scenes.colours import SURFACES
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, VerbSense, word_set
@@ -109,16 +111,35 @@ class ThingReader:
         count = PLURAL_COUNT if group.is_plural else 1
         draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
-        for token in group.modifiers:
-            is_side = token.text in ("left", "right")  # "the left ball"
-            draft.show(*([token] if token.has("hollow") or is_side else []))
-            draft.things[index] |= {"placement": token.text} if is_side else {}
-            self._say(token, [] if is_side else [index])
+        self._say_modifiers(group, index)
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
                 self._draft.set_place(Group(token), token, "")
         self._nearest = [index]
         return [index]
+
+    def _say_modifiers(self, group: Group, index: int) -> None:
+        """Apply adjectives; "a black and white football" has both colours by itself."""
+        draft, own, noun = self._draft, list[Token](), self._draft.things[index]["noun"]
+        fields = ((one, one.first("field")) for one in group.modifiers)
+        colours = {one: said.value[1] for one, said in fields
+                   if said is not None and said.value[0] == "colour"}  # fmt: skip
+        bodies = (self._nouns[noun].build(colour=None, scale=1.0, seed=seed) for seed in range(3))
+        parts = [one.parts(Pose(0.0, 0.0, 0.0, "stand")) for one in bodies if len(colours) > 1]
+        if parts and all(
+            has_colour(each, SURFACES[one]) for each in parts for one in colours.values()
+        ):
+            own = [*colours]
+        for token in group.modifiers:
+            if token in own:
+                draft.claim(token, "colour", colours[token], [index])
+                continue
+            if token.text in word_set("things", "rows"):
+                draft.claim(token, "row", "along", [index])
+            is_side = token.text in ("left", "right")  # "the left ball"
+            draft.show(*([token] if token.has("hollow") or is_side else []))
+            draft.things[index] |= {"placement": token.text} if is_side else {}
+            self._say(token, [] if is_side else [index])
 
     # What is said of things
 
@@ -128,20 +149,18 @@ class ThingReader:
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
-        is_set = field in word_set("things", "once") and any(field in one for one in things)
-        is_idle = field == "rate_hz" and not any(
-            one["motions"] or "blink_hz" in one or one["noun"] in LAMPS for one in things
-        )
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
-        elif is_set or is_idle:
+        elif _is_open(field, things):
+            if field == "times":
+                draft.repeat(value, subjects)
+            if field in ("colour", *word_set("things", "claimed")):
+                draft.claim(token, field, value, subjects)
             return
-        elif field == "height_m" and not draft.comes_down(subjects):
-            return  # it is no way either: "seen from 3 m"
-        elif value == "opposite" or field == "times":
-            if not draft.say_all(field, value, subjects):
+        elif value == "opposite":
+            if not draft.part_ways(subjects):
                 return
         elif said is not None and things:
             for index in subjects:
@@ -172,6 +191,9 @@ class ThingReader:
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
+            if act.who in ("person", "hand", "animal") or act.kind == "lie":
+                is_body = act.who != "plain" or draft.walks(index)
+                draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
@@ -206,3 +228,14 @@ class ThingReader:
                 thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+def _is_open(field: str, things: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether a field of things cannot be set: a second colour, a height of what does not fall."""
+    motions = [one for thing in things for one in thing["motions"]]
+    if field == "rate_hz":
+        return not (motions or any("blink_hz" in one or one["noun"] in LAMPS for one in things))
+    if field == "height_m":  # it is no way either: "seen from 3 m"
+        return not any(one["kind"] in ("fall", "bounce") for one in motions)
+    is_set = field in word_set("things", "once") and any(field in one for one in things)
+    return is_set or field in word_set("things", "claimed")
