@@ -20,16 +20,17 @@ from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
+from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import RoadLine
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
-                   "dive", "spin", "sway"})  # fmt: skip
+                   "dive", "spin", "sway", "climb", "grow", "shrink"})  # fmt: skip
 """Motions that need no support."""
-_SHARED = frozenset({"on", "in", "at", "under", "hold", "wear", "ride", "push", "kick", "throw",
-                     "collide", "through", "with", "from", "follow"})  # fmt: skip
+_SHARED = ACTED | WAYS | {"on", "in", "at", "under", "hold", "wear", "ride", "through", "with",
+                          "from", "follow"}  # fmt: skip
 """Relations in which two bodies may touch."""
 _ROOM_M, _ROOM = 0.06, 0.08
 """Gap below a body that is no gap: metres, and share of its height on top of that."""
@@ -67,6 +68,8 @@ def find_misplaced(
     for number, one in enumerate(actors):
         lost = [*bodies.list_unborne(number, place)]
         is_free = description.objects[one.object_index].placement == "lane"
+        is_free |= any(each.kind in WAYS and one.object_index in (each.subject, *each.targets)
+                       for each in description.relations)  # fmt: skip
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         for kind, value, text in lost:
@@ -123,7 +126,7 @@ class _Bodies:
         acts = {relation.kind for relation in self._description.relations
                 if one.object_index in relation.targets}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
-        is_free = bool(does & _FREE) or bool(acts & {"throw", "kick", "hold", "wear", "collide"})
+        is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip

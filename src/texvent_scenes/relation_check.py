@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from texvent.camera import PosedCamera
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.shapes import bounds, moved
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.staging.actors import Actor
@@ -30,13 +31,18 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 """Direction → axis of the camera (right, down, forward) and sign."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with")
+_LASTING = ("on", "in", "at", "with", "contained")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
 least share of the way by which what goes "towards" something comes nearer; gap in sizes at which
 what goes "from" something begins."""
+
+
+_PROTRUDING, _SUNKEN = 0.12, 0.2
+"""Share of the size of what is in a container that may be beyond its sides, and least share of its
+height below the rim."""
 
 
 class Violation(NamedTuple):
@@ -84,16 +90,15 @@ def find_violations(
     """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
-            if one.kind in ("kick", "throw")}  # fmt: skip
+            if one.kind in ("kick", "throw", "roll")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         side = description.objects[one.subject].placement
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
-        nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
-        is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
-        kind = "in" if is_flat else one.kind
+        nouns = [description.objects[n].noun for n in (one.subject, one.targets[0])]
+        kind = _rule_for(one.kind, *nouns)
         if kind not in (*_RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
@@ -117,6 +122,18 @@ def find_violations(
             if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
+
+
+def _rule_for(kind: str, noun: str, target: str) -> str:
+    """Name of the rule for a kind of relation between bodies of these nouns."""
+    if kind == "in" and trait_value("container", target) is not None:
+        is_swimmer = noun in NOUNS and NOUNS[noun].habitat == "water" and noun not in AFLOAT
+        is_seen = target in nouns_with("see-through")
+        is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
+        return "never" if is_out else "contained"
+    if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
+        return "in"
+    return kind
 
 
 def _holds(
@@ -157,6 +174,15 @@ def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> 
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
 
 
+def _is_contained(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is between the sides of a container, above its floor and partly below its rim."""
+    room = np.maximum(0.5 * (other.size - one.size), 0.0) + _PROTRUDING * one.size
+    is_amid = (np.abs(one.middle - other.middle) <= room)[:, :2].all(axis=1)
+    is_below = _clears(one, other, 0.5) <= -_SUNKEN * np.minimum(one.size, other.size)[:, 2]
+    is_above_floor = _clears(one, other, -0.5) >= -_PROTRUDING * one.size[:, 2] - 0.01
+    return np.asarray(is_amid & is_below & is_above_floor)
+
+
 def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
     """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
     level = other.middle[:, 2] + share * other.size[:, 2]
@@ -192,13 +218,26 @@ def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 
-def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it has come so much nearer or gone away, and not mostly past it."""
-    off = one.middle - other.middle
+def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
+    """Whether it has come so much nearer or gone away along `axes`, and not mostly past it."""
+    off = (one.middle - other.middle)[:, :axes]
     away, way = np.linalg.norm(off, axis=1), off - off[0]
     gone = sign * (away - away[0])
     is_direct = gone >= _DIRECT * np.linalg.norm(way, axis=1)
     return np.asarray((gone > _LEAST_DISPLACEMENT * one.size.max()) & is_direct)
+
+
+def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its foot is at the top of the other, give or take some of its height."""
+    is_level = np.abs(_clears(one, other, 0.5)) < 2.0 * _LEAST_DISPLACEMENT * one.size[:, 2] + 0.02
+    return np.asarray(_within(one, other, 2) & is_level)
+
+
+def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it gets higher, or of sign -1 lower, where the other is."""
+    risen = sign * (one.middle[-1] - one.middle[0])[2]
+    is_high = risen > _LEAST_DISPLACEMENT * one.size[0, 2]
+    return np.asarray(_within(one, other, 2, 1.0)[[0, -1]] & is_high)
 
 
 def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
@@ -248,6 +287,7 @@ _RULES: Mapping[str, _Rule] = {
     "on": _is_on, "under": _is_under, "around": _is_around,
     "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
     "in": lambda one, other: _within(one, other, 3),
+    "contained": _is_contained, "never": lambda one, other: np.zeros(1, dtype=np.bool_),
     "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),
     "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
     "behind": lambda one, other: _deeper(one, other, 1),
@@ -259,6 +299,12 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
+    "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
+    "into": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _within(one, other, 2)[-1:],
+    "out of": lambda one, other: _recedes(one, other, 1, 2)[-1:] & _within(one, other, 2)[:1],
+    "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
+    "up": lambda one, other: _climbs(one, other, 1),
+    "down": lambda one, other: _climbs(one, other, -1),
     "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, _AT_START)[:1],
 }  # fmt: skip
 """Kind of relation → whether a body is so to another; acts have none."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
@@ -21,6 +21,7 @@ from texvent_scenes.spec.scene import MoveDirection
 
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+_REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -57,9 +58,14 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
         thing[field] = int(value) if field == "count" else value
         return
     motions = thing["motions"]
+    if field == "start_s" and "switch_s" in thing:
+        thing["switch_s"] = value
+        return
     if not motions or (field == "start_s" and [one["kind"] for one in motions] == ["stand"]):
         # "at 900 rpm"; "stops after 1 second": until then it goes
         motions.insert(0, {"kind": "spin" if field == "turns_hz" else "move"})
+    if field == "start_s" and len(motions) == 1 and motions[0].get("end_pace") == 0.0:
+        motions.insert(0, {"kind": motions[0]["kind"]})  # "brakes after 1 second"
     motion = motions[-1]
     field = "rate_hz" if field == "turns_hz" else field
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
@@ -80,7 +86,8 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     is_posture = act.kind not in (*MEANS, "move")
     if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
         motions.pop()  # "stands reading"
-    said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
+    end_pace = None if act.kind == "stand" else act.end_pace
+    said = {"kind": act.kind, "direction": act.direction, "end_pace": end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
         pace *= motions.pop().get("pace", 1.0)
@@ -173,6 +180,11 @@ class SceneDraft:
         """Whether an object can go from place to place by itself."""
         return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
 
+    def goes(self, index: int) -> bool:
+        """Whether an object is said to go somewhere, by itself or as what it rides."""
+        kinds = {one["kind"] for one in self.things[index]["motions"]}
+        return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
+
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
@@ -214,6 +226,15 @@ class SceneDraft:
             is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
             name = "end_m_s" if is_end else name
         set_field(self.things[index], said.kind, name, value)
+
+    def repeat(self, times: Any, indices: Sequence[int]) -> bool:
+        """Let objects rest after so many repetitions; False: what they do is not counted."""
+        acts = [self.things[index]["motions"] for index in indices]
+        rates = [_REPEATED.get(one[0]["kind"], 0.0) if len(one) == 1 else 0.0 for one in acts]
+        for motions, rate_hz in zip(acts, rates, strict=True) if all(rates) else ():
+            rate_hz *= motions[0].get("pace", 1.0)
+            motions.append({"kind": "stand", "start_s": round(times / rate_hz, 6)})
+        return bool(rates) and all(rates)
 
     def part_ways(self, parted: Sequence[int]) -> bool:
         """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
@@ -278,6 +299,9 @@ class SceneDraft:
             case "machine":
                 return not has_object and all(self.nouns[one].is_working for one in names)
             case "source" | "lamp":
+                is_switched = verb.who == "lamp" and verb.kind in ("on", "off")
+                if is_switched and not names <= LAMPS.keys() - word_set("things", "flames"):
+                    return False
                 return not has_object and not is_acting
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"

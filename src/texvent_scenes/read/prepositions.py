@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, read_table, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, owned_parts, word_set
-from texvent_scenes.spec.data import PLACING, SPACED
+from texvent_scenes.read.lexicon import NO_TOKEN, Token, owned_parts, word_set
+from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
@@ -26,9 +26,7 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     sense = token.first("relation")
     kind = sense.value if sense is not None else ""
     does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
-    nouns = {each.noun.noun for each in phrase.groups if each.noun is not None}
-    is_down = token.text == "down" and bool(nouns & nouns_with("slope"))
-    kind = "on" if (token.text == "onto" and does & _LANDING) or is_down else kind
+    kind = "on" if token.text == "onto" and does & _LANDING else kind
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
     sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
@@ -194,13 +192,37 @@ def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
     """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
     relations = draft.things[index]["relations"]
     ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
-    is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake"}
+    is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake", *WAYS}
     return ridden[0] if ridden and is_way else index
+
+
+def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
+    """The way that is meant, as far as its target has one; "" = none."""
+    thing, noun = draft.things[index], draft.things[other]["noun"]
+    does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
+    if kind in ("into", "out of"):
+        is_open = noun in trait_values("opening") or noun in nouns_with("closed")
+        return kind if is_open else "from" if kind == "out of" else ""
+    if kind in ("up", "down"):
+        if noun in trait_values("slope"):
+            return "on" if kind == "down" else kind
+        return kind if noun in trait_values("climbed") and "climb" in does else ""
+    if kind == "off":
+        return kind if does & {"jump", "fall"} else ""
+    acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push"})
+    return "towards" if is_led or acts or not draft.goes(index) else kind
 
 
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    if kind in WAYS:
+        return _choose_way(draft, kind, index, other)
+    ends = [one.get("end_pace") for one in thing["motions"]][-1:]
+    if kind == "front" and ends == [0.0]:
+        return "to"  # "stops in front of a dog", which is in its way
+    if kind == "from" and [one["kind"] for one in thing["motions"]] == ["rise"]:
+        return "off"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS else ""
     if kind == "at" and noun not in word_set("things", "tables"):

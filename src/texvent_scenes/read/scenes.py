@@ -33,7 +33,7 @@ from texvent_scenes.read.prepositions import (
     say_parts,
 )
 from texvent_scenes.read.things import ThingReader
-from texvent_scenes.spec.data import PLACING, SPACED
+from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -272,14 +272,14 @@ class _SentenceReader(ThingReader):
             is_place = all(names_place(one, kind or token.text) for one in heads)
             if is_place and "name" in draft.parts["place"]:
                 go_to_place(draft, token, heads, subjects or self._nearest, moved)
-            elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
+            elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
             draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
-            able = () if kind in ("route", "off") else subjects
+            able = () if kind == "route" else subjects
             placed = [relate_one(self._draft, kind, index, targets) for index in able]
             is_so = any(placed) or is_rained_on(draft, token, kind)
             draft.mark(token, "shown" if is_so else "lost")
@@ -305,7 +305,7 @@ class _SentenceReader(ThingReader):
         about: Sequence[int] = self._earlier if is_own else nearest
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
-        others = others if about and kind not in ("", "route", "off") else []
+        others = others if about and kind not in ("", "route") else []
         is_so = any([relate_one(self._draft, kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
         claim_relation(draft, token, kind, others, about)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.colours import SURFACES
@@ -19,6 +20,8 @@ from texvent_scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
+_SWITCHED_S = 1.0
+"""Time at which a lamp is switched of which no time is said."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -151,6 +154,8 @@ class ThingReader:
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif _is_open(field, things):
+            if field == "times":
+                draft.repeat(value, subjects)
             if field in ("colour", *word_set("things", "claimed")):
                 draft.claim(token, field, value, subjects)
             return
@@ -180,6 +185,8 @@ class ThingReader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
+        if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
+            act = replace(act, kind="move", is_near=False)  # it goes until it stops
         if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
@@ -197,6 +204,11 @@ class ThingReader:
             )
         return list(objects if act.object and objects else subjects)
 
+    def _can_arrive(self, subjects: Sequence[int]) -> bool:
+        """Whether what stops goes by itself, and nothing is said of how it moves before."""
+        things = self._draft.things
+        return all(self._draft.can_go(n) and not things[n]["motions"] for n in subjects)
+
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
@@ -210,8 +222,10 @@ class ThingReader:
             if is_later and before and not is_seated:
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
         elif thing["noun"] not in word_set("things", "flames"):
-            if act.who == "lamp":
+            if act.who == "lamp" and act.kind == "blink":
                 thing["blink_hz"] = BLINK_HZ
+            elif act.who == "lamp":
+                thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
 

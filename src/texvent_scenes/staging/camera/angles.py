@@ -9,13 +9,15 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import is_room
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.camera.camera_track import TimedMove
 
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 """View → elevation of the camera, rad."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
-_ROOM_ELEVATION = 0.24
+_ROOM_ELEVATION, _INTO_IT = 0.24, 0.6
+"""Elevation in rooms, and from which one sees into an open container, rad."""
 _ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
 """Length over height, and length in m, from which on a subject is seen at an angle to its side."""
 
@@ -24,6 +26,13 @@ def goes_in_depth(actor: Actor) -> bool:
     """Whether it goes away from the camera or towards it, rather than across the picture."""
     step = np.subtract(actor.track.at(0.5).position, actor.track.at(0.0).position)
     return bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+
+
+def is_in_container(description: SceneDescription, index: int) -> bool:
+    """Whether an object is in an open container, into which one sees from above."""
+    kept = {description.objects[one.targets[0]].noun for one in description.relations
+            if one.kind == "in" and one.subject == index}  # fmt: skip
+    return any(trait_value("container", noun) for noun in kept - nouns_with("see-through"))
 
 
 def choose_angles(
@@ -48,6 +57,8 @@ def choose_angles(
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
+        if is_in_container(description, main.object_index):
+            elevation = max(elevation, _INTO_IT)
     return azimuth, elevation
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.camera_track import Tie, TimedMove
@@ -77,6 +78,8 @@ class _Scope(NamedTuple):
     """Objects that something goes past."""
     cut: Collection[int]
     """Objects of which the lower part may be out of the image: people who act with their arms."""
+    whole: Collection[int] = ()
+    """Containers, which tell what they are as a whole."""
 
 
 def list_framing_choices(
@@ -88,7 +91,9 @@ def list_framing_choices(
     passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
-    scope = _Scope(main, times, tie, passed, cut)
+    whole = {n for r in relations if r.kind == "in" for n in r.targets
+             if trait_value("container", description.objects[n].noun)}  # fmt: skip
+    scope = _Scope(main, times, tie, passed, cut, whole)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
@@ -131,7 +136,7 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
         if scope.tie is not None and not is_mover:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
-        if is_large and not is_mover:
+        if is_large and not is_mover and actor.object_index not in scope.whole:
             points.append(_near_piece(actor, main, times, _PIECE * largest))
             continue
         for time in map(float, times):

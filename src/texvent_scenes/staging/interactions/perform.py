@@ -104,7 +104,8 @@ def _settle(
     if kind == "collide":
         return replace(subject, motions=()), still
     if kind in striking.IMPACTS:
-        return replace(subject, motions=(Motion(kind, to),)), still
+        doing = striking.IMPACTS[kind].activity or kind
+        return replace(subject, motions=(Motion(doing, to),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):
             walk = Motion("walk", motion.direction)
@@ -192,10 +193,10 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
-    sent = {one.subject: one.targets[0] for one in acts if one.kind in ("kick", "throw")}
+    sent = {one.subject: one for one in acts if one.kind in ("kick", "throw", "roll")}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
-            _send_against(cast, sent[each.subject], description.objects, each.targets[0])
+            _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
     for each in description.relations:
         seats = [n for n, one in cast.items() if one.object_index in each.targets]
         riders = [n for n, one in cast.items() if one.object_index == each.subject]
@@ -212,17 +213,24 @@ def perform_acts(
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _send_against(
-    cast: dict[int, Actor], sent: int, said: Sequence[SceneObject], goal: int
-) -> None:
-    """Rebound of what is kicked or thrown from what is fixed, which keeps its stated pose."""
-    things, walls = ([n for n, one in cast.items() if one.object_index == index]
-                     for index in (sent, goal))  # fmt: skip
-    for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
-        cast[thing], cast[walls[0]] = striking.rebound(
-            cast[thing], cast[walls[0]], is_turned=said[goal].heading_deg is None,
-            is_moved=said[goal].position_m is None,
-        )  # fmt: skip
+def _send_to(
+    cast: dict[int, Actor], act: IndexedRelation, said: Sequence[SceneObject], goal: int,
+    duration_s: float,
+) -> None:  # fmt: skip
+    """What is kicked, thrown or rolled goes back from what is fixed, and ends at who is alive."""
+    things, goals = ([n for n, one in cast.items() if one.object_index == index]
+                     for index in (act.targets[0], goal))  # fmt: skip
+    for thing in things if goals else ():
+        wall = cast[goals[0]]
+        if wall.noun.habitat == "fixed":
+            cast[thing], cast[goals[0]] = striking.rebound(
+                cast[thing], wall, is_turned=said[goal].heading_deg is None,
+                is_moved=said[goal].position_m is None,
+            )  # fmt: skip
+        elif wall.track.is_resting and said[goal].position_m is None:
+            cast[thing], cast[goals[0]] = striking.deliver(
+                cast[thing], wall, duration_s, is_thrown=act.kind == "throw"
+            )
 
 
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:

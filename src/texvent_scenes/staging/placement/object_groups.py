@@ -17,7 +17,7 @@ from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import SEAT, dress
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import moved
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
@@ -236,9 +236,12 @@ _SEAT_BACK_M = 0.03
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object: a person in what it wears."""
+    """The noun of an object: a person in what it wears, a box open if something is in it."""
     objects = description.objects
     noun = nouns[objects[index].noun]
+    opened = trait_value("drawn open", noun.name)
+    if opened and any(one.kind == "in" and index in one.targets for one in description.relations):
+        return replace(nouns[opened], name=noun.name)
     worn = [
         (objects[target].noun, rgb_of(objects[target].colour))
         for one in description.relations

@@ -18,6 +18,7 @@ from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import SPACED, WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -25,6 +26,12 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_over,
     leap_up,
     stop_at_edge,
+)
+from texvent_scenes.staging.placement.containers import (
+    depth_in,
+    go_inside,
+    hollow_of,
+    reach_of,
 )
 from texvent_scenes.staging.placement.object_groups import (
     GAP_M,
@@ -43,7 +50,7 @@ class Goal(NamedTuple):
     """[3] direction in which it may move from there to find room; zero = it stays."""
 
 
-ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
+ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 INVERSE: Mapping[str, str] = {
@@ -61,9 +68,6 @@ _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
 """Angle by which the camera may see past an edge, and room beside a passed object."""
 
 
-_SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
-"""Share of the height of what is in something that looks out of it; of an animal, whose ears reach
-above its head."""
 _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
@@ -149,8 +153,13 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         return _lead_through(group, subject, height)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
-    x, y, _ = subject.half + group.half + gap
-    yaw, here = subject.plan.yaw, _on_ground(subject, height)
+    own, (yaw, here) = subject.half, (subject.plan.yaw, _on_ground(subject, height))
+    path = subject.plan.path
+    if path is not None and ends_at_rest(subject) and kind in SPACED:
+        own, end = near, path.at(subject.plan.duration_s).position
+        past_m = 0.5 * subject.models[0].length + group.half[0] if kind == "beside" else 0.0  # seen
+        here = _shift(here, end[0] + past_m * math.cos(yaw), end[1] + past_m * math.sin(yaw))
+    x, y, _ = own + group.half + gap
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
     is_aside = goes and abs(along[0]) > 0.5
@@ -173,6 +182,13 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
+
+
+def ends_at_rest(group: ObjectGroup) -> bool:
+    """Whether it goes somewhere and stops: a relation is that of the place where it is then."""
+    said = group.scene_object.motions
+    is_over = bool(said) and (said[-1].end_pace == 0.0 or said[-1].kind == "stand")
+    return is_over and group.plan.motion.kind in PATH_KINDS
 
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
@@ -285,13 +301,31 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
         return target.to_world(0.0, 0.0, low + group.origin_m)
+    if trait_value("container", target.noun.name) and group.noun.name not in PERSON_NOUNS:
+        return _put_in(group, target, neighbours)
     place = rest_on(group, target, neighbours)
     if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
         return place
-    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
-    rim, tall = find_support(target.models[0]).height, group.models[0].height
-    low = max(rim - (1.0 - seen) * tall, 0.08 * target.models[0].height)
+    low = depth_in(group, target)
     return np.array([place[0], place[1], target.centre[2] + low + group.origin_m])
+
+
+def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """The middle of a group in a container, where what goes somewhere goes to and fro."""
+    support = hollow_of(target)
+    if target.plan.motion.is_moving:
+        group.carrier = target
+    reach_m = reach_of(group.models[0], len(neighbours))
+    _line_up(group, target, support, neighbours, reach_m)
+    if len(neighbours) > 1:  # side by side in their row
+        is_wide = target.models[0].width > target.models[0].length
+        is_long = group.models[0].length > reach_m
+        turns = is_wide + is_long
+        group.plan = replace(group.plan, yaw=target.plan.yaw + 0.5 * math.pi * turns)
+    if group.plan.is_path and group.carrier is None:
+        go_inside(group, target, support)
+    group.fit()
+    return target.to_world(*support.middle, depth_in(group, target) + group.origin_m)
 
 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
@@ -320,9 +354,16 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
 
 def _line_up(
-    group: ObjectGroup, target: ObjectGroup, support: Support, neighbours: Sequence[int]
+    group: ObjectGroup,
+    target: ObjectGroup,
+    support: Support,
+    neighbours: Sequence[int],
+    reach_m: float | None = None,
 ) -> None:
-    """Spread the copies along the longer side of the surface; several carriers share them out."""
+    """Spread the copies along the longer side of the surface; several carriers share them out.
+
+    `reach_m` is the extent of one along that side; None: that of its longer side.
+    """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     first = neighbours.index(group.index)
     axis = 1 if body.width > body.length else 0
@@ -331,6 +372,7 @@ def _line_up(
         extent = 0.8 * max(body.width, body.length)
     is_person = group.noun.name in PERSON_NOUNS
     size = _PERSON_M if is_person else max(group.models[0].width, group.models[0].length)
+    size = size if reach_m is None else reach_m
     count = math.ceil(len(neighbours) / several)
     spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
     yaw = target.plan.yaw + 0.5 * math.pi * axis

@@ -18,6 +18,7 @@ from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor, is_centred
 from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
 
@@ -30,8 +31,8 @@ _SHORE_M = 1.2
 """From who stands at the shore to what floats."""
 _INSTANTS = 9
 _CARRYING = frozenset(
-    {"on", "in", "hold", "wear", "ride", "push", "kick", "throw", "collide", "towards", "from",
-     "away from", "through", "around"}
+    {"on", "in", "hold", "wear", "ride", "towards", "from", "away from", *ACTED,
+     "through", "around", *WAYS}
 )  # fmt: skip
 """Relations that hang on how a body is turned."""
 _LOOSE = frozenset({"beside", "front", "behind", "left of", "right of", "past", "towards", "with",

@@ -135,7 +135,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         waves = _tempo(sign * motion.pace, sign * _gain(plan))
     elif motion.kind in LEANING:
         activity = "stand"
-    return replace(steady(home, plan.yaw, activity=activity), terms=waves)
+    rest = replace(steady(home, plan.yaw, activity=activity), terms=waves)
+    return replace(rest, pivot_m=0.5 * model.height) if plan.is_facing else rest
 
 
 def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:

@@ -165,7 +165,9 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
 def _faces_camera(noun: Noun, model: Model, motion: Motion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in nouns_with("flat pattern"):
-        return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
+        return motion.kind in PATH_KINDS | {
+            "orbit", "spin", "rise", "sink", "grow", "shrink"
+        }  # fmt: skip
     if motion.kind == "spin":
         return noun.name in nouns_with("flat picture")
     is_wide = model.length < _WIDE * model.width
