@@ -42,7 +42,8 @@ MOST_POINTS = 12_000
 LEAST_PIXELS, _LEAST_AREA = 6, 0.00025
 """Pixels, and share of the image, below which an object is too small to be told."""
 LEAST_SEEN = 0.15
-"""Share of an object's pixels that nothing stands before; of less it is hidden."""
+"""Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
+several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
@@ -101,7 +102,9 @@ def find_unseen(
         if not own:
             continue
         most = max(counts)
-        lost = sum(views[one.instance].share < LEAST_SEEN for one in own)
+        lost = sum(views[one.instance].share < LEAST_SEEN or
+                   (len(own) > 1 and _is_cut_off(one, cameras, times, size, LEAST_SEEN))
+                   for one in own)  # fmt: skip
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
@@ -279,15 +282,16 @@ def _list_without(
 
 
 def _is_cut_off(
-    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
-) -> bool:
+    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize,
+    least: float = LEAST_INSIDE,
+) -> bool:  # fmt: skip
     """Whether no instant has more than a share of its box in the image."""
     for time_s, camera in zip(times, cameras, strict=True):
         seen = project(camera, size, actor.corners(time_s))
         if (seen[:, 2] > 0.0).all():
             box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
             inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
-            if float(np.prod(inside / np.diff(box, axis=0))) >= LEAST_INSIDE:
+            if float(np.prod(inside / np.diff(box, axis=0))) >= least:
                 return False
     return True
 
