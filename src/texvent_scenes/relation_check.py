@@ -82,8 +82,8 @@ class BodyBoxes(NamedTuple):
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
     parts: Float64Array
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
-    ahead: Float64Array
-    """[t, 2] unit vectors of its heading on the ground."""
+    ahead: Float64Array = np.zeros((1, 2))
+    """[t, 2] unit vectors of its heading on the ground; zero: it has none."""
 
 
 def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:

@@ -16,7 +16,7 @@ from texvent_scenes.in_view import LEAST_PIXELS, MOST_POINTS, Unseen, count_pixe
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.relation_check import _RULES, BodyBoxes, _holds
-from texvent_scenes.spec.scene import SceneObject
+from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
 
@@ -264,3 +264,14 @@ def test_what_is_said_of_a_body_that_nobody_sees_is_not_shown(table, is_red):
     assert {"man", "table", table} <= {*report.shown}
     assert ("red" in report.shown) is is_red
     assert "hat" not in report.shown
+
+
+@pytest.mark.parametrize(("y", "found"), [(8.0, True), (-8.0, False)])
+def test_a_note_tells_how_long_something_else_hides_a_body(y, found):
+    """A car behind, and before, a house that is wider than its way."""
+    house = SceneObject("house", position_m=(0.0, 0.0), heading_deg=0.0)
+    motions = (Motion("drive", "right", speed_m_s=4.0),)
+    car = SceneObject("car", motions=motions, position_m=(-7.0, y))
+    view = {"position": (0.0, -30.0, 2.0), "target": (0.0, 0.0, 1.0)}
+    notes = unseen_from(house, car, **view).notes
+    assert any(one.startswith("the car is hidden for ") for one in notes) == found
