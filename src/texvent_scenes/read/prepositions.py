@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, read_table, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, owned_parts, word_set
+from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
