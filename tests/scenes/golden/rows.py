@@ -32,6 +32,7 @@ from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, SURFACES, build_tile
 from texvent_scenes.rendered_scene import Texture
 from texvent_scenes.spec import scene as spec
@@ -49,6 +50,7 @@ from texvent_scenes.spec.scene import (
 )
 from texvent_scenes.staging.camera.camera_track import time_moves
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.surroundings.lighting import choose_lighting
 from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
@@ -150,6 +152,20 @@ def mark_tracks(kind: str) -> Marks:
             track = choose_track(plan, model, (1.0, 2.0, 0.7), rng)
             found.setdefault(str(way), []).extend((plan, *map(track.at, INSTANTS_S)))
     return {way: mark(*plans) for way, plans in found.items()}
+
+
+def mark_acts(kind: str) -> Marks:
+    """What a person does with an eighth of all things, and with those of which a trait says how."""
+    traits = ("held as a tool", "held upright", "held up high", "held hanging", "worn")
+    special = {_one_of(sorted(nouns_with(one)), kind, step) for one in traits for step in (0, 1)}
+    found = {}
+    for name in NOUNS:
+        if name in special or crc32(f"{kind} {name}".encode()) % 8 == 0:
+            man = SceneObject("man", relations=(Relation(kind, (name,)),))
+            man = replace(man, motions=_one_of(((), (Motion("walk"),), WAY), f"{name} {kind}"))
+            staged = stage(Scene(objects=(man, SceneObject(name)), place=EMPTY))
+            found[name] = mark(*map(staged.primitives, INSTANTS_S), staged.not_shown, staged.notes)
+    return found
 
 
 def mark_moves() -> Marks:
@@ -259,6 +275,8 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
         yield f"surface: {texture.name}", partial(mark_surface, texture)
     for kind in SIMPLE:
         yield f"tracks: {kind}", partial(mark_tracks, kind)
+    for kind in ACTS:
+        yield f"acts: {kind}", partial(mark_acts, kind)
     for name, scene in _of_objects():
         yield f"scene: {name}", partial(mark_scene, scene)
     for name, scene in _of_surroundings():
