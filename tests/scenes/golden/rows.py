@@ -23,8 +23,10 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 from tests.scenes.golden.golden import block_means, decided, see, stored_scenes
+from tests.scenes.read.phrases import ENDS, OBJECTS, RELATIONS, SUBJECTS, VERBS
 
 from texvent.sensor import SensorSize
+from texvent_scenes import read as reader
 from texvent_scenes.defaults import complete, decide_motions
 from texvent_scenes.description import to_description
 from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES, HAND_NOUNS, PERSON_NOUNS
@@ -168,6 +170,16 @@ def mark_acts(kind: str) -> Marks:
     return found
 
 
+def mark_readings(subject: str) -> Marks:
+    """How sentences about a subject are read, one of a few thousand that its words make."""
+    found = {}
+    for words in itertools.product(VERBS, RELATIONS, OBJECTS, ENDS):
+        sentence = " ".join((subject, *words)).strip()
+        if crc32(sentence.encode()) % 499 == 0:
+            found[sentence] = mark(*vars(reader.read(sentence, NOUNS)).values())
+    return found
+
+
 def mark_moves() -> Marks:
     """All camera moves, each in every direction."""
     path = stage(Scene(objects=(SceneObject("box"),), place=EMPTY)).camera_path
@@ -275,6 +287,8 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
         yield f"surface: {texture.name}", partial(mark_surface, texture)
     for kind in SIMPLE:
         yield f"tracks: {kind}", partial(mark_tracks, kind)
+    for subject in SUBJECTS:
+        yield f"readings: {subject}", partial(mark_readings, subject)
     for kind in ACTS:
         yield f"acts: {kind}", partial(mark_acts, kind)
     for name, scene in _of_objects():
