@@ -75,7 +75,8 @@ def _write() -> None:
         make_inputs(Path(folder))
         run = functools.cache(functools.partial(run_once, Path(folder)))
         found = {one: outcomes_of(one, run) for one in SETTLED}
-    OUTCOMES.write_text(json.dumps(found, indent=0) + "\n", encoding="utf-8")
+    lines = (f"{json.dumps(command)}: {json.dumps(one)}" for command, one in found.items())
+    OUTCOMES.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

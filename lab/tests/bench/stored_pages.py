@@ -30,4 +30,5 @@ def digests(name: str) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    PAGES.write_text(json.dumps({name: digests(name) for name in NAMES}, indent=1) + "\n")
+    lines = (f"{json.dumps(name)}: {json.dumps(digests(name))}" for name in NAMES)
+    PAGES.write_text("{\n" + ",\n".join(lines) + "\n}\n")
