@@ -30,5 +30,4 @@ def digests(name: str) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    lines = (f"{json.dumps(name)}: {json.dumps(digests(name))}" for name in NAMES)
-    PAGES.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+    PAGES.write_text(json.dumps({name: digests(name) for name in NAMES}) + "\n")
