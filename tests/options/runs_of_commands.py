@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import hashlib
 import io
 import os
 import re
 import shlex
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
 
+import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 import texvent
+from texvent._version import full_version
 from texvent.cli.app import main
 from texvent.errors import TexventError
 
 ROW = re.compile(r"^  (?=-)(?:-\S+(?: \S+)?, )*--(?P<name>[a-z][a-z0-9-]*)(?: (?P<value>\S+))?")
 TIMES = re.compile(r"[\d.,]+ (?:s|ms|kB|MB|GB|hours)\b|[\d.,]+ per second")
+
+
+ENCODED = (".mp4", ".gif", ".avi", ".h5", ".tar", ".parquet")
+"""Files whose bytes are made by other programs."""
 
 
 class Listed(NamedTuple):
@@ -109,6 +117,21 @@ class Outcome(NamedTuple):
         """Names of all files."""
         return sorted([*self.streams, *self.files])
 
+    @property
+    def mark(self) -> str:
+        """Digests of what was said, of events with their facts, and of other files.
+
+        Without what differs from machine to machine; of films that other programs encode, the name.
+        """
+        arrays = [one.tobytes() for event in self.streams.values() for one in _arrays(event)]
+        said, *facts = map(_settled, (f"{self.code} {self.printed} {self.said}", *self.facts))
+        files = [
+            name.encode() + (b"" if name.endswith(ENCODED) else _content(name, self.files[name]))
+            for name in sorted(self.files)
+        ]
+        parts = ([said], [*self.streams, *arrays, *facts], files)
+        return " ".join(_digest(part) for part in parts)
+
     def measure(self, name: str) -> float:
         """A figure of all events, of the files, or of what was said.
 
@@ -135,6 +158,38 @@ class Outcome(NamedTuple):
         found = re.search(name, self.printed + self.said)
         assert found is not None, (name, self)
         return float(found[1].replace(",", ""))
+
+
+def _arrays(events: texvent.EventStream) -> list[NDArray[Any]]:
+    columns = [events.x, events.y, events.t, events.p]
+    return columns if events.label is None else [*columns, events.label]
+
+
+def _settled(text: str) -> str:
+    """Without times of work, places on the disk and the version."""
+    text = TIMES.sub("", text).replace(full_version(), "VERSION")
+    text = re.sub(r'"(?:\w*seconds|seen)": ?[^,}\n]+', "", text)
+    return re.sub(r"/\S*/(run|cache)\b", r"\1", text)
+
+
+def _content(name: str, content: bytes) -> bytes:
+    """Pixels of an image, arrays of an archive; else the bytes, settled where they are text."""
+    if name.endswith(".png"):
+        return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED).tobytes()
+    if name.endswith(".npz"):
+        with np.load(io.BytesIO(content)) as arrays:
+            return b"".join(one.encode() + arrays[one].tobytes() for one in arrays.files)
+    try:
+        return _settled(content.decode()).encode()
+    except UnicodeDecodeError:
+        return content
+
+
+def _digest(parts: Iterable[str | bytes]) -> str:
+    whole = hashlib.sha256()
+    for one in parts:
+        whole.update((one.encode() if isinstance(one, str) else one) + b"\0")
+    return whole.hexdigest()[:8]
 
 
 def _spread(events: texvent.EventStream) -> float:

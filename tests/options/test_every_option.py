@@ -9,8 +9,16 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
-from tests.options.runs_of_commands import Listed, listed_options, run_once
-from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, SERVED, Try, read_tries
+from tests.options.outcomes import (
+    SETTLED,
+    outcomes_of,
+    own_options,
+    runs_of,
+    stored_outcomes,
+    tries_of,
+)
+from tests.options.runs_of_commands import run_once
+from tests.options.tries import COMMANDS_TRIED, SERVED, Try
 
 from texvent._registry import FILTERS
 from texvent.cli.app import own_commands
@@ -18,48 +26,23 @@ from texvent.cli.dataset.dataset import STEPS
 from texvent.errors import TexventError
 from texvent.options.values import make_part
 
-TRIES = read_tries()
 RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()
 ALL_RANGES, BEYOND = "\n".join(RANGES), 10**30
 
 
-def own_options(command: str) -> Iterator[Listed]:
-    """Options of a command that no other one tries."""
-    shared = {*COMMANDS_TRIED[command].shared}
-    for name, listed in listed_options(command).items():
-        if not {listed.section, name} & shared and (command, name) not in ELSEWHERE:
-            yield listed
-
-
-def tries_of(command: str, listed: Listed) -> list[Try]:
-    """Ways to give an option another value, from the table or from its choices."""
-    kind, name = command.partition(" --")[0], listed.name.removeprefix("no-")
-    for key in (f"{kind} --{name}", f"--{name}"):
-        if key in TRIES:
-            return TRIES[key]
-    words = listed.other_values()
-    assert words, f"{command} --{name} has no value to try: add one to tries.txt"
-    return [Try(one) for one in words]
-
-
 def fault_of(outcome, command: str, one: Try) -> str | None:
     """Why a try shows no effect, or a wrong one; None if it is as the table says."""
-    base = (one.base or COMMANDS_TRIED[command].words).replace("BASE", command)
-    assert base.startswith(command.partition(" --")[0]), base
-    base = f"{base} {one.beside}"
-    if "<" in one.words:
-        low, high = (outcome(f"{base} {words}") for words in one.words.split("<"))
-        if low.code or high.code:
-            return f"refused: {low.said}{high.said}"
-        first, second = low.measure(one.changes), high.measure(one.changes)
-        return None if first < second else f"{one.changes} is {first}, then {second}: {one.words}"
-    before = one.before.replace("BASE", base)
-    without, changed = outcome(base, before=before), outcome(f"{base} {one.words}", before=before)
+    runs = list(runs_of(command, one))
+    assert runs[0][0].startswith(command.partition(" --")[0]), runs
+    first, second = (outcome(words, before=before) for words, before in runs)
     part = one.changes or COMMANDS_TRIED[command].changes
-    if part != "code" and max(changed.code, without.code) > 1:
-        return f"refused ({changed.code}, {without.code}): {changed.said}{without.said}"
-    if getattr(changed, part) == getattr(without, part):
-        return f"{part} the same with {one.words}: {changed.said}"
+    if part != "code" and max(first.code, second.code) > 1:
+        return f"refused ({first.code}, {second.code}): {first.said}{second.said}"
+    if "<" in one.words:
+        low, high = first.measure(part), second.measure(part)
+        return None if low < high else f"{part} is {low}, then {high}: {one.words}"
+    if getattr(first, part) == getattr(second, part):
+        return f"{part} the same with {one.words}: {second.said}"
     return None
 
 
@@ -73,6 +56,16 @@ def test_every_option_changes_something_and_figures_in_the_direction_of_its_help
             if fault := fault_of(outcome, command, one):
                 wrong[listed.flag] = fault
     assert not wrong, "\n".join(f"{one}: {why}" for one, why in wrong.items())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("command", SETTLED)
+def test_runs_with_each_option_leave_what_they_left(command, outcome):
+    """`python -m tests.options.outcomes` writes them anew."""
+    found = outcomes_of(command, outcome)
+    stored = stored_outcomes()[command]
+    assert list(found) == list(stored)
+    assert {words: mark for words, mark in found.items() if mark != stored[words]} == {}
 
 
 def test_every_command_and_step_is_tried():

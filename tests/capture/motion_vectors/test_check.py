@@ -1,8 +1,12 @@
+import itertools
+from unittest import mock
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.capture.motion_vectors import moving_scene as scene
 
+from texvent.capture.motion_vectors import check
 from texvent.capture.motion_vectors.check import Neighbours, judge
 from texvent.capture.motion_vectors.conventions import parse_convention
 
@@ -44,3 +48,13 @@ def test_vectors_of_another_film_explain_little():
     verdict = judge([frame], parse_convention("standard"), "forward")
     assert verdict.better is None
     assert verdict.is_high
+
+
+@given(st.integers(1, 400), st.integers(1, 400))
+def test_samples_lie_on_a_grid_over_the_whole_frame_as_dense_as_their_number_allows(width, height):
+    image = np.zeros((height, width), np.float32)
+    with mock.patch.object(check, "MOST_SAMPLES", 500):
+        samples = check._Samples.of(Neighbours({"here": image}, {}))
+    step = next(n for n in itertools.count(1) if width * height <= 500 * n * n)
+    grid = [(row, x) for row in range(0, height, step) for x in range(0, width, step)]
+    assert list(zip(samples.rows, samples.columns, strict=True)) == grid

@@ -13,6 +13,7 @@ from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.io import block_writer, byte_blocks, metadata
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
+from texvent.io.prophesee.evt import SAMPLE
 
 from .prophesee_files import EXTENSIONS, FORMATS, at_times, row_bursts, write_words
 
@@ -42,6 +43,23 @@ def test_a_lone_wrong_high_time_is_damage_not_a_turn(
         load(path)
     with pytest.warns(TexventWarning, match="stray times: 1"):
         assert load(path, repair=True).t.tolist() == times
+
+
+TYPES = {"evt2": {0, 1, 8, 10, 14, 15}, "evt21": {0, 1, 8, 10, 14, 15}}
+TYPES["evt3"] = {*range(9), 10, 14, 15}
+"""Of the words of a format, in the published tables; type 1 of EVT3 is a row of another kind."""
+
+
+@pytest.mark.parametrize("kind", range(16))
+@pytest.mark.parametrize("format", EVT)
+def test_types_of_words_that_a_format_does_not_have_are_told(
+    tmp_path: Path, format: str, kind: int, recwarn: pytest.WarningsRecorder
+) -> None:
+    bits = {"evt2": 28, "evt21": 60, "evt3": 12}[format]
+    path = write_words(tmp_path, format, [8 << bits, *[kind << bits] * 9] * SAMPLE)
+    load(path)
+    told = [one for one in recwarn if f"types that {format.upper()} does not have" in str(one)]
+    assert len(told) == (kind not in TYPES[format])
 
 
 @pytest.mark.parametrize("format", EVT)

@@ -1,0 +1,33 @@
+"""Pages and charts of the stored results, and digests of them.
+
+python -m lab.tests.bench.stored_pages    # writes them anew, after a result or a page changed
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from texvent_lab.bench.document import read_document
+from texvent_lab.bench.page import page_files
+
+RESULTS = Path(__file__).parents[3] / "docs" / "results"
+PAGES = Path(__file__).with_name("stored_pages.json")
+OTHER = ("codecs", "detection", "gpu", "images-davis346", "images-slider_depth", "speed", "stream")
+"""Results that pages of docs show themselves."""
+NAMES = sorted(
+    name for path in RESULTS.glob("*.json*") if (name := path.name.split(".")[0]) not in OTHER
+)
+
+
+def digests(name: str) -> dict[str, str]:
+    """File of the page of a stored result → its digest; and that of the result."""
+    document = read_document(RESULTS / f"{name}.json.gz")
+    files = page_files(document, f"{name}.json.gz")
+    files["result"] = json.dumps(document, sort_keys=True).encode()
+    return {file: hashlib.sha256(content).hexdigest()[:12] for file, content in files.items()}
+
+
+if __name__ == "__main__":
+    PAGES.write_text(json.dumps({name: digests(name) for name in NAMES}) + "\n")
