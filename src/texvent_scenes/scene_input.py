@@ -195,10 +195,17 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
     """The scene, if its words are shown by the generator or by models of a folder.
 
     Raises:
-        ConfigError: a word is not shown.
+        ConfigError: a word is not shown, or a field has no effect.
         InputError: a model does not exist.
     """
-    return checked_scene(scene, list_words(nouns_of(scene, list_nouns(assets))))
+    nouns = nouns_of(scene, list_nouns(assets))
+    return _refuse_idle(checked_scene(scene, list_words(nouns)), nouns)
+
+
+def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:
+    for idle in _list_idle(scene, nouns):
+        raise ConfigError(f"{idle.path} has no effect: {idle.why}")
+    return scene
 
 
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
@@ -260,8 +267,7 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
-    for idle in _list_idle(scene, nouns):
-        raise ConfigError(f"{idle.path} has no effect: {idle.why}")
+    _refuse_idle(scene, nouns)
     return complete(to_description(scene), nouns)
 
 

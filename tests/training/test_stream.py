@@ -209,6 +209,17 @@ def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
     assert seen > 1000
 
 
+def test_thresholds_that_the_pixel_model_refuses_are_refused_at_once():
+    ranges = PhysicalRanges(threshold=(0.2, 2.5), ratio=(1.0, 10.0))
+    highest = np.array([2.5, 25.0, *(getattr(ranges, name)[1] for name in ranges.drawn)])
+    assert ranges.config(highest).contrast_threshold == pytest.approx(2.5 * 10**0.5)
+    assert PhysicalRanges(threshold=(0.2, 10.0), ratio=(1.0, 1.0)).threshold == (0.2, 10.0)
+    with pytest.raises(
+        ConfigError, match=r"^threshold is .* would reach 12\.2, and 10 is the most"
+    ):
+        PhysicalRanges(threshold=(0.2, 10.0))
+
+
 def test_every_physical_range_is_drawn_from_for_each_clip(folder):
     ranges = PhysicalRanges()
     batches = take(EventStream(folder, randomize="physical", outputs="counts", **SMALL), 10)
