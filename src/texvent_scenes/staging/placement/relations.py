@@ -76,6 +76,8 @@ _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _QUEUED, _QUEUE_M = ("behind", "front", "beside"), 1.2
 """Relations of those who wait or stop one before the other, and the gap between them, m."""
+_AT_DOOR_M = 0.3
+"""From the wall of a house to the middle of who has come out of it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
@@ -161,6 +163,12 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         goal = _place_in_queue(group, kind, subject, height)
         if goal is not None:
             return goal
+    has_door = group.noun.name in nouns_with("has a door")
+    if kind == "from" and has_door and subject.plan.motion.direction == "towards":
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
+        group.fit()
+        back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
+        return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     x, y, _ = subject.half + group.half + gap
