@@ -19,7 +19,6 @@ from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.relation_check import are_driven, ends_at_rest, hangs_on
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import SPACED, WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
@@ -30,6 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.arrangements import are_driven, ends_at_rest, hangs_on
 from texvent_scenes.staging.placement.containers import (
     depth_in,
     go_inside,
@@ -77,6 +77,8 @@ _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _QUEUED, _QUEUE_M = ("behind", "front"), 1.2
 """Relations of those who wait or stop one before the other, and the gap between them, m."""
+_AT_DOOR_M = 0.3
+"""From the wall of a house to the middle of who has come out of it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
@@ -162,6 +164,12 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         goal = _place_in_queue(group, kind, subject, height)
         if goal is not None:
             return goal
+    has_door = group.noun.name in nouns_with("has a door")
+    if kind == "from" and has_door and subject.plan.motion.direction == "towards":
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
+        group.fit()
+        back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
+        return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     own, (yaw, here) = subject.half, (subject.plan.yaw, _on_ground(subject, height))
