@@ -168,7 +168,7 @@ class ThingReader:
             return
         draft.show(token)
 
-    def _leave_open(self, token: Token, field: str, value: object, subjects: Sequence[int]) -> None:
+    def _leave_open(self, token: Token, field: str, value: str | float, subjects: Sequence[int]) -> None:
         """Claim what only the staged scene tells."""
         if field == "times":
             self._draft.repeat(value, subjects)
