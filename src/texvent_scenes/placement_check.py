@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
@@ -34,6 +34,9 @@ _SHARED = ACTED | WAYS | {"on", "in", "at", "under", "hold", "wear", "ride", "th
 """Relations in which two bodies may touch."""
 _ROOM_M, _ROOM = 0.06, 0.08
 """Gap below a body that is no gap: metres, and share of its height on top of that."""
+_LAID, _TILTED, _FLAT = ("lie", "topple"), 0.7, 1.1
+"""Motions that end in a body on its side; most cosine of its axis against the vertical then; height
+over width of what lies as it stands."""
 _SLIM, _CENTRAL = 0.2, 0.25
 """Half of the middle of a body that no larger one may have a part in, and of its foot that
 something must be below, in extents of its box."""
@@ -78,6 +81,24 @@ def find_misplaced(
             if relation.subject == one.object_index and relation.kind in ("on", "above"):
                 yield Violation("relation", relation.kind, "")
     yield from bodies.find_intersections()
+    for one in actors:
+        last = (description.objects[one.object_index].motions or (STANDING,))[-1]
+        if last.kind in _LAID and not _is_laid(one, last.kind, times):
+            yield Violation("motion", last.kind, f"the {one.noun.name} on its side")
+
+
+def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
+    """Whether a body has fallen over or lies in the end, not upright on its foot or its wheels."""
+    turn, corners = one.track.at(times[-1]).to_world()[:, :3], one.corners(times[-1])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    is_tilted = turn[2, 2] < _TILTED
+    if kind == "topple":
+        longest = int(np.argmax([one.model.length, one.model.width, one.model.height]))
+        return bool(is_tilted and abs(turn[2, longest]) < _TILTED)
+    is_vehicle = one.noun.motion in ("drive", "roll", "sail") and one.noun.habitat != "fixed"
+    is_flat = (high - low)[2] <= _FLAT * (high - low)[:2].max()
+    is_round = one.noun.motion == "roll" and one.model.height <= 1.1 * one.model.width
+    return bool(is_tilted or is_round or (is_flat and not is_vehicle))
 
 
 def _list_strays(

@@ -154,8 +154,6 @@ class ThingReader:
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif _is_open(field, things):
-            if field == "times":
-                draft.repeat(value, subjects)
             if field in ("colour", *word_set("things", "claimed")):
                 draft.claim(token, field, value, subjects)
             return

@@ -13,7 +13,7 @@ from texvent_scenes.description import STANDING, IndexedRelation, SceneDescripti
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
-from texvent_scenes.models.tables import trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -62,6 +62,10 @@ _NEARER = 0.35
 _ROOMY, _LEAST_SHARE = 0.85, 0.3
 """Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
 """
+_OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
+"""Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
+_PASSED = 1.2
+"""Room between what is passed one after the other, in their half extents."""
 _NOTED = 0.1
 """Change of a size that the report names."""
 _ATTEMPTS = 400
@@ -119,6 +123,7 @@ class ObjectPlacer:
         noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
         size = scene_object.size * self._fit_on(index, noun) * self._fit_in(index)
+        size *= self._fit_through(index)
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
@@ -171,6 +176,16 @@ class ObjectPlacer:
                                   "size, as one is in the other")  # fmt: skip
             break
         return own
+
+    def _fit_through(self, index: int) -> float:
+        """Scale of a passage: a foot tunnel for those who are small."""
+        objects = self._description.objects
+        goers = [self._size_up(one.subject) for one in self._description.relations
+                 if one.kind == "through" and index in one.targets]  # fmt: skip
+        if objects[index].noun not in nouns_with("tunnel") or not goers:
+            return 1.0
+        widest = max(max(one.width, _UPRIGHT * one.height) for one in goers)
+        return min(max(_OPENING * widest, _LEAST_TUNNEL), 1.0)
 
     def _size_up(self, index: int) -> Model:
         """A copy of an object at the size that is said."""
@@ -240,6 +255,7 @@ class ObjectPlacer:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 goal = place_by_subject(group, relation.kind, subject, height)
+                goal = self._one_after_another(goal, group, subject, relation)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
             scene = self._description
@@ -252,6 +268,19 @@ class ObjectPlacer:
         pushed = [one.targets[0] for one in self._description.relations
                   if one.kind == "push" and one.subject == index]  # fmt: skip
         return sum(self.build_group(n).models[0].length for n in pushed)
+
+    def _one_after_another(
+        self, goal: Goal, group: ObjectGroup, subject: ObjectGroup, relation: IndexedRelation
+    ) -> Goal:
+        """The goal of one of several that something goes past: along the way, at either end."""
+        number = relation.targets.index(group.index)
+        first = self.groups.get(relation.targets[0])
+        if relation.kind != "past" or first is None or number == 0:
+            return goal
+        apart = _PASSED * float(np.max(first.half[:2]) + np.max(group.half[:2])) * (number + 1) / 2
+        side = apart if number % 2 else -apart
+        along = np.array([math.cos(subject.plan.yaw), math.sin(subject.plan.yaw), 0.0])
+        return goal._replace(position=goal.position + side * along)
 
     def _list_sharing(self, relation: IndexedRelation) -> list[int]:
         """Index of each copy that has the same relation to the same objects."""
@@ -365,7 +394,7 @@ class ObjectPlacer:
         """The track of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             x, y, _ = group.orbits.centre
-            reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
+            reach = group.orbits.reach_below(group.top_m) + 0.9 * group.size_m
             return orbit(
                 group.plan, (float(x), float(y), float(group.centre[2])),
                 reach + 0.1 * group.orbits.size_m, number / len(group.models),

@@ -16,9 +16,11 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import SPACED, WAYS
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -38,7 +40,8 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, ends_at_rest
 
 
 class Goal(NamedTuple):
@@ -72,6 +75,10 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
+_QUEUED, _QUEUE_M = ("behind", "front", "beside"), 1.2
+"""Relations of those who wait or stop one before the other, and the gap between them, m."""
+_HUNG = 0.58
+"""Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -151,15 +158,14 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     """
     if kind == "through" and subject.plan.is_path:
         return _lead_through(group, subject, height)
+    if kind in _QUEUED:
+        goal = _place_in_queue(group, kind, subject, height)
+        if goal is not None:
+            return goal
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
-    own, (yaw, here) = subject.half, (subject.plan.yaw, _on_ground(subject, height))
-    path = subject.plan.path
-    if path is not None and ends_at_rest(subject) and kind in SPACED:
-        own, end = near, path.at(subject.plan.duration_s).position
-        past_m = 0.5 * subject.models[0].length + group.half[0] if kind == "beside" else 0.0  # seen
-        here = _shift(here, end[0] + past_m * math.cos(yaw), end[1] + past_m * math.sin(yaw))
-    x, y, _ = own + group.half + gap
+    x, y, _ = subject.half + group.half + gap
+    yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
     is_aside = goes and abs(along[0]) > 0.5
@@ -184,11 +190,30 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     return Goal(_shift(here, right, back), slide)
 
 
-def ends_at_rest(group: ObjectGroup) -> bool:
-    """Whether it goes somewhere and stops: a relation is that of the place where it is then."""
-    said = group.scene_object.motions
-    is_over = bool(said) and (said[-1].end_pace == 0.0 or said[-1].kind == "stand")
-    return is_over and group.plan.motion.kind in PATH_KINDS
+def _place_in_queue(
+    group: ObjectGroup, kind: str, subject: ObjectGroup, height: float
+) -> Goal | None:
+    """Before or behind a subject that comes to rest there, or vehicles at rest in one lane."""
+    path, yaw = subject.plan.path, subject.plan.yaw
+    is_stopping = path is not None and ends_at_rest(subject.scene_object.motions)
+    are_waiting = not (subject.plan.motion.is_moving or group.plan.motion.is_moving)
+    is_lane = are_driven(subject.noun.name, group.noun.name)
+    is_crossing = group.noun.name in nouns_with("across a road")
+    if not (is_stopping or is_crossing or (are_waiting and is_lane and kind != "beside")):
+        return None
+    place, apart = subject.centre, _QUEUE_M + 0.5 * subject.models[0].length
+    if path is not None and is_stopping:
+        state = path.at(subject.plan.duration_s)
+        place, yaw = place + np.array(state.position), state.yaw
+    apart += 0.5 * float(group.models[0].length if is_lane else max(group.half[:2]))
+    if is_lane:
+        group.plan = replace(group.plan, yaw=yaw)
+        group.fit()
+        apart *= -1.0 if kind == "front" and not is_stopping else 1.0
+    along = apart * np.array([math.cos(yaw), math.sin(yaw)])
+    return Goal(
+        np.array([*(place[:2] + along), height]), _FIXED if is_lane or is_crossing else _AWAY
+    )
 
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
@@ -197,7 +222,7 @@ def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Go
         group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
     extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
-    back = 0.1 * extent + 0.5 * group.models[0].length
+    back = min(0.1 * extent + 0.5 * group.models[0].length, 0.45 * extent)
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
@@ -241,6 +266,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
+    if hangs_on(group.noun.name, target.noun.name):
+        return _hang_on(group, target, neighbours)
     if target.plan.motion.is_moving:
         group.carrier = target
     if is_person and _sits(group, target):
@@ -263,6 +290,18 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """The middle of what hangs on the face of a wall that is turned to the camera, m."""
+    own, wall = group.models[0], target.models[0]
+    face_m = float(bounds(wall.parts(Pose(0.0, 0.0, 0.0, "stand"))[:1])[1][0])
+    support = Support(0.0, (0.0, -0.45 * wall.width), (0.0, 0.45 * wall.width))
+    _line_up(group, target, support, neighbours)
+    group.plan = replace(group.plan, yaw=target.plan.yaw)
+    group.fit()
+    low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
+    return target.to_world(face_m + 0.5 * own.length, 0.0, low_m + group.origin_m)
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
