@@ -49,14 +49,14 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    reading, idle, _ = _read(prompt, list_nouns(assets))
+    reading, idle = _read(prompt, list_nouns(assets))
     return replace(reading, not_understood=(*reading.not_understood, *idle))
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str], list[str]]:
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
     """The reading of a prompt, without fields that change nothing.
 
-    With the words that stand for such fields, each with the reason, and notes of other fields.
+    With the words that stand for such fields, each with the reason.
     """
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
@@ -90,15 +90,13 @@ def _hint(reading: Reading) -> str:
     return f"known alone: {few(known, MOST_WORDS)}; say it in a plainer sentence; " if known else ""
 
 
-def _without_idle(
-    reading: Reading, nouns: Mapping[str, Noun]
-) -> tuple[Reading, dict[str, str], list[str]]:
+def _without_idle(reading: Reading, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
     from texvent_scenes.meanings import list_meanings
     from texvent_scenes.staging.idle_fields import leave_out
 
     scene, shown = reading.scene, list(reading.shown)
     claims: list[Claim] = []
-    lost, notes = dict[str, str](), list[str]()
+    lost = dict[str, str]()
     for _ in range(_MOST_PASSES):
         idle = _list_idle(scene, nouns)
         if not idle:
@@ -111,14 +109,12 @@ def _without_idle(
             words = [word for word in shown if not said.isdisjoint(list_meanings(word))]
             if one.path.endswith("pace"):  # "land", which has a pace of its own, "smoothly"
                 words = words or [word for word in shown if "pace" in dict(list_meanings(word))]
-            if not words and not one.path.endswith("pace"):  # which a verb has, and nobody said
-                notes.append(f"{one.path} would change nothing and is left out: {one.why}")
             for word in words if said.isdisjoint(after) or one.path.endswith("pace") else ():
                 shown.remove(word)
                 lost[word] = one.why
                 claims += _claim_material(one, word, scene_before)
     claimed = (*reading.claims, *claims)
-    return replace(reading, scene=scene, shown=tuple(shown), claims=claimed), lost, notes
+    return replace(reading, scene=scene, shown=tuple(shown), claims=claimed), lost
 
 
 def _claim_material(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
@@ -230,7 +226,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading, lost, notes = _read(str(subject), nouns)
+    reading, lost = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
     open_words = {one.word for one in reading.claims}
     unread = tuple(one for one in reading.not_understood if one not in open_words)
@@ -241,8 +237,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         meant=tuple(_meant(unread, nouns)),
         not_shown=tuple(f"{word} ({why})" for word, why in lost.items() if word not in open_words),
     )
-    notes = [*description.notes, *notes]
-    return replace(description, words=words, notes=tuple(notes), claims=reading.claims)
+    return replace(description, words=words, claims=reading.claims)
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:

@@ -43,6 +43,8 @@ def stage(
     contents = tuple(tuple(one.values()) for one in files)
     scene, unseen, held, failed = _staged(description, nouns, contents, seed, size, duration_s)
     faults = (*unseen.violations, *_list_manners(description, unseen.violations))
+    fewer = (re.fullmatch(r".* \(\d+ of (\d+)\)", one) for one in unseen.out_of_view)
+    faults += tuple(Violation("count", float(one[1]), "") for one in fewer if one)
     shown = without_words([one for one in said.shown if one not in failed], faults)
     shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
@@ -104,6 +106,6 @@ def _staged(
         description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
     )
     unseen = find_unseen(scene, description, size, duration_s)
-    nouns = frozenset(value for kind, value, _ in unseen.violations if kind == "noun")
+    nouns = frozenset(str(value) for kind, value, _ in unseen.violations if kind == "noun")
     claims = description.claims
     return scene, unseen, *find_held(claims, scene, description, nouns, duration_s)

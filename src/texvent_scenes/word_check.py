@@ -140,8 +140,14 @@ def _holds(
 
 def _are_mutual(staged: _Staged, claim: Claim) -> bool:
     """Whether two bodies are so to each other."""
-    about = [*([] if claim.subject is None else [claim.subject]), *claim.targets]
+    objects = staged.description.objects
+    nouns = {objects[one].noun for one in (claim.subject, *claim.targets) if one is not None}
+    about = [n for n, one in enumerate(objects) if one.noun in nouns]  # halves of a group too
     bodies = [(index, one) for index in dict.fromkeys(about) for one in staged.boxes[index]]
+    if claim.value == "towards":  # they may pass each other afterwards
+        gaps = (np.linalg.norm(one.middle - other.middle, axis=1)
+                for (_, one), (_, other) in itertools.combinations(bodies, 2))  # fmt: skip
+        return any(gap.min() <= 0.5 * gap[0] for gap in gaps)
     return any(
         _holds(staged, str(claim.value), (first, second), [[one], [other]])
         and _holds(staged, str(claim.value), (second, first), [[other], [one]])

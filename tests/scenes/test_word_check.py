@@ -125,6 +125,35 @@ def test_a_rate_is_shown_with_its_motion(text, verb, rate):
 
 
 @pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("two cars pass each other on a road", "each other", True),
+        ("a red dog and a white dog run towards each other", "towards", True),
+        ("two girls throw a ball to each other", "each other", False),
+    ],
+)
+def test_what_is_mutual_is_so_of_both(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a fan with spinning blades", "spinning", True),
+        ("a clock with a moving second hand", "moving", True),
+        ("a parked car, its wheels turning", "turning", False),
+    ],
+)
+def test_parts_that_are_said_to_move_do(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+def test_a_number_of_which_some_are_out_of_view_is_not_shown():
+    text = "a child stands between two trees"
+    assert ("two" in report(text).shown) == ("tree (1 of 2)" not in report(text).out_of_view)
+
+
+@pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
 )

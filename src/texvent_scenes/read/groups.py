@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -112,7 +112,9 @@ class GroupReader:
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
         is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
-        if is_before and after.has("noun", "place", *MODIFIERS) and not after.has("relation"):
+        is_part = after.text in owned_parts()
+        is_noun = is_part or after.has("noun", "place", *MODIFIERS)
+        if is_before and is_noun and not after.has("relation"):
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
@@ -214,6 +216,7 @@ class GroupReader:
         return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
 
     def _has_object(self, ahead: int = 0) -> bool:
-        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
-        token = self._token(ahead)
-        return token.text.endswith("s") and self._token(ahead + 1).has("articles")
+        """Whether a word that may be a noun is a verb: "and watches the ducks", "and wugs it"."""
+        token, after = self._token(ahead), self._token(ahead + 1)
+        is_pronoun = after.has("pronouns") and token.is_unknown
+        return token.text.endswith("s") and (after.has("articles") or is_pronoun)

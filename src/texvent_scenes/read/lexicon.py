@@ -35,6 +35,12 @@ def word_set(table: str, key: str) -> frozenset[str]:
     return frozenset(read_table("words", "read")[table][key])
 
 
+def owned_parts() -> Mapping[str, Mapping[str, int]]:
+    """Words of parts that are no things by themselves → nouns that have them, and how many."""
+    parts: Mapping[str, Mapping[str, int]] = read_table("words", "read")["parts"]
+    return parts
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, read_table, trait_values
-from texvent_scenes.read.draft import SceneDraft
-from texvent_scenes.read.groups import Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
+from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.read.draft import MEANS, SceneDraft
+from texvent_scenes.read.groups import Group, Phrase
+from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
@@ -36,29 +36,68 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
-    words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
-    owned = read_table("words", "read")["parts"]
+    is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
+    if is_so and all(map(draft.shows, _list_words(phrase.groups[0]))):
+        draft.show(phrase.preposition)
+    return is_so
+
+
+def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
+    """Account for parts that things have, if all groups name some: "its second hand moving"."""
+    owned, words = owned_parts(), [*map(_list_words, groups)]
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
-    nouns = {draft.things[index]["noun"] for index in subjects}
-    if phrase.preposition.text != "with" or not subjects or not all(parts):
+    if not subjects or not parts or not all(parts):
         return False
     for part, each in zip(parts, words, strict=True):
+        has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
+        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
-        drawn = {owned[part].get(noun) for noun in nouns}
-        if None not in drawn and counts <= drawn:
-            draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
+        for word in each if has and counts <= drawn else ():
+            if word.has("verb") and not word.has("noun", "field"):  # do they move?
+                draft.claim(word, "parts", "", has)
+            draft.show(word)
     return True
 
 
-def lose_ways(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
-    """Report what says how and where to something is done that is not shown."""
+def _list_words(group: Group) -> list[Token]:
+    """Words of a group."""
+    return [*([group.head] if group.head else []), *group.unknown, *group.modifiers]
+
+
+def lose_ways(
+    draft: SceneDraft, after: Sequence[Phrase | Token], *, has_subject: bool = True
+) -> None:
+    """Report what says how and where to something is done that is not shown.
+
+    Of what is not known at all, only a place is told: "a wug runs across the floor".
+    """
     for one in after:
         token = one.preposition if isinstance(one, Phrase) else one
         kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
         said = {each if token is not one else each[0] for each in kinds}
-        if said & word_set("things", "ways") and not token.has("scene"):
+        is_way = not (has_subject or said & {"in", "at", "with"} or token.text == "on")
+        is_way &= token is not one
+        if (is_way or said & word_set("things", "ways")) and not token.has("scene"):
             draft.mark(token, "lost")
+
+
+def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
+    """The words "each other" of some groups, or after them."""
+    words = [one for group in groups for one in group.unknown]
+    words += [one for one in after if isinstance(one, Token)]
+    return [one for one in words if one.text == "each other"]
+
+
+def claim_mutual(
+    draft: SceneDraft, tokens: Sequence[Token], kind: str, subjects: Sequence[int]
+) -> None:
+    """Send things to each other, and leave it to the staged scene whether they are so."""
+    does = {each["kind"] for one in subjects for each in draft.things[one]["motions"][-1:]}
+    if kind in ("past", "towards") and does & {*MEANS, "move"}:
+        draft.part_ways(subjects)
+    for token in tokens if subjects and kind else ():
+        draft.claim(token, "mutual", kind, subjects[:1], subjects[1:])
 
 
 def go_to_place(
@@ -141,6 +180,12 @@ def claim_relation(
         draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
     elif not is_shown and kind in _CLAIMED:
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
+
+
+def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
+    """Whether weather comes down on something, as on all: "snow falls on a car"."""
+    is_weather = draft.tokens[token.at - 1].text in word_set("things", "falling")
+    return is_weather and kind in ("on", "above") and "weather" in draft.parts["place"]
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:

@@ -22,11 +22,15 @@ from texvent_scenes.read.lexicon import (
 )
 from texvent_scenes.read.prepositions import (
     are_own_parts,
+    claim_mutual,
     claim_relation,
+    find_mutual,
     find_relation,
     go_to_place,
+    is_rained_on,
     lose_ways,
     relate_one,
+    say_parts,
 )
 from texvent_scenes.read.things import ThingReader
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
@@ -53,6 +57,8 @@ class _SentenceReader(ThingReader):
         """Objects that the clause before that one was about: "behind her"."""
         self._before = self._nearest
         """Those before the rest of the clause: "passes a bench and sits on it"."""
+        self._acted: list[int] = []
+        """Objects of the last verb that had some: "picks up an apple from a bowl, puts it down"."""
         self._was_camera = False
         self._verb: Token | None = None
         """The last verb: "then right", "then a truck" say no other."""
@@ -73,10 +79,22 @@ class _SentenceReader(ThingReader):
         is_camera = goes_on or clause.about == "camera"
         is_own = not is_camera and is_ego(self._draft, clause)
         self._was_camera = is_camera
-        if is_camera or is_own:
+        if self._says_of_parts(clause):
+            pass
+        elif is_camera or is_own:
             self._apply_to_camera(clause, is_own=is_own)
         else:
             self._apply_to_things(clause)
+
+    def _says_of_parts(self, clause: Clause) -> bool:
+        """Whether a clause is about parts that a thing has: "its second hand moving"."""
+        owners = word_set("things", "owners")
+        if not clause.subjects or any(one.article not in owners for one in clause.subjects):
+            return False
+        first, *others = clause.subjects
+        verb = () if clause.verb is None else (clause.verb,)
+        said = (replace(first, unknown=(*first.unknown, *verb)), *others)
+        return say_parts(self._draft, said, range(len(self._draft.things)))
 
     def _apply_to_things(self, clause: Clause) -> None:
         known, where = len(self._draft.things), self._nearest
@@ -91,6 +109,7 @@ class _SentenceReader(ThingReader):
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
+        self._acted = objects or self._acted
         subjects, objects, after = self._turn_passive(clause, subjects, objects)
         if clause.about != "company":
             self._earlier = self._subjects if clause.subjects else self._earlier
@@ -100,8 +119,10 @@ class _SentenceReader(ThingReader):
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
-        if clause.verb is not None and not self._draft.shows(clause.verb):
-            lose_ways(self._draft, clause.after)
+        is_known = bool(told) or not clause.subjects
+        is_known |= any(one.head and self._draft.shows(one.head) for one in clause.subjects)
+        if not is_known or (clause.verb is not None and not self._draft.shows(clause.verb)):
+            lose_ways(self._draft, clause.after, has_subject=is_known)
         for index in subjects if clause.about == "where" and where else ():
             relate_one(self._draft, self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
@@ -116,7 +137,12 @@ class _SentenceReader(ThingReader):
         heads = [one.head for one in clause.objects]
         is_known = not (clause.is_back and not objects)
         is_known &= all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
+        mutual = find_mutual(clause.objects, clause.after)
+        is_known |= bool(mutual)
         found = self._act(verb, subjects, objects, has_object=not is_known)
+        kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
+        if mutual and kind is not None and found:  # "pass each other"
+            claim_mutual(self._draft, [verb, *mutual], kind, subjects)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
@@ -181,7 +207,8 @@ class _SentenceReader(ThingReader):
             both = about if self._draft.is_many(about) else [*about, *nearest]
             return [one for one in dict.fromkeys(both) if one not in subjects]
         persons = {n for n, one in enumerate(self._draft.things) if one["noun"] in PERSON_NOUNS}
-        others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
+        others = [one for one in dict.fromkeys((*self._acted, *nearest, *about))
+                  if one not in subjects
                   and (one in persons) == (word in ("him", "her"))]  # fmt: skip
         return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
 
@@ -232,8 +259,8 @@ class _SentenceReader(ThingReader):
         """
         draft, token = self._draft, phrase.preposition
         kind = find_relation(draft, phrase, subjects)
-        if not phrase.groups:
-            self._relate_back(kind, token, subjects)
+        if not phrase.groups or find_mutual(phrase.groups):
+            self._relate_back(kind, phrase, subjects)
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
@@ -254,15 +281,23 @@ class _SentenceReader(ThingReader):
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind == "route" else subjects
             placed = [relate_one(self._draft, kind, index, targets) for index in able]
-            draft.mark(token, "shown" if any(placed) else "lost")
+            is_so = any(placed) or is_rained_on(draft, token, kind)
+            draft.mark(token, "shown" if is_so else "lost")
             claim_relation(draft, token, kind, subjects, targets)
         if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
 
-    def _relate_back(self, kind: str, token: Token, subjects: Sequence[int]) -> None:
+    def _relate_back(self, kind: str, phrase: Phrase, subjects: Sequence[int]) -> None:
         """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
-        draft, nearest = self._draft, self._nearest
+        draft, nearest, token = self._draft, self._nearest, phrase.preposition
+        if phrase.groups:
+            claim_mutual(draft, [token, *find_mutual(phrase.groups)], kind, subjects)
+            return
+        if (before := draft.tokens[token.at - 1]).has("place") and kind == "behind":
+            far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
+            draft.mark(token, "shown" if far and draft.shows(before) else "lost")
+            return  # "with mountains behind it"
         own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
         is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
