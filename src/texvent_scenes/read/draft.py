@@ -313,6 +313,8 @@ class SceneDraft:
         if has_object:
             swings = nouns_with("swings")
             needs_hands = verb.relation in word_set("things", "of_people")
+            needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
+            is_acting &= not needs_body or names <= PERSON_NOUNS
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
