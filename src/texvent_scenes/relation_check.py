@@ -22,7 +22,8 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.placement.arrangements import are_driven, ends_at_rest, hangs_on
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",

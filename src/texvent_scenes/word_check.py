@@ -16,6 +16,7 @@ import numpy as np
 
 from texvent_scenes.colours import SURFACES, find_colour
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
+from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.materials import MATERIALS, has_colour
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.relation_check import BodyBoxes, body_of, find_violations
@@ -225,6 +226,12 @@ def _count(staged: _Staged, actor: Actor) -> float:
 
 
 def _repeats(staged: _Staged, claim: Claim) -> bool:
+    """Whether it comes back to its first pose so often, or rests after so many repetitions."""
+    said = () if claim.subject is None else staged.description.objects[claim.subject].motions
+    rate_hz = ACTIVITIES[said[0].kind].repeats_hz if said and said[0].kind in ACTIVITIES else 0.0
+    if rate_hz and len(said) == 2 and said[1].start_s is not None:
+        counted = said[1].start_s * rate_hz * said[0].pace
+        return said[1].start_s <= staged.duration_s and abs(counted - float(claim.value)) < 0.01
     return all(_count(staged, one) == claim.value for one in staged.own(claim))
 
 

@@ -61,8 +61,8 @@ def test_a_material_that_a_thing_has_anyway_is_shown(text, word, is_shown):
 @pytest.mark.parametrize(
     "text", ["a glass lies on the floor", "a bottle lies on a table", "a chair lies on the grass"]
 )
-def test_what_stands_upright_does_not_lie(text):
-    check(text, "lies", is_shown=False)
+def test_what_stands_upright_lies_on_its_side(text):
+    check(text, "lies", is_shown=True)
 
 
 @pytest.mark.parametrize("text", ["a book lies on a table", "a cat lies on a sofa", "a man lies"])
@@ -95,16 +95,15 @@ def test_repetitions_that_a_clip_has_not_are_named(text, word):
 
 
 def test_a_number_of_repetitions_is_that_of_the_clip():
-    shown = [n for n in range(1, 9) if f"{n} times" in report(f"a woman waves {n} times").shown]
+    shown = [n for n in range(1, 9) if f"{n} times" in report(f"a woman jumps {n} times").shown]
     assert len(shown) <= 1
 
 
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        ("a car brakes in front of a pedestrian", "in front of"),
-        ("a red cube slides into a blue cube", "into"),
-        ("a glass falls off a table", "off"),
+        ("a car drives off a bridge", "off"),
+        ("a man walks into a tree", "into"),
     ],
 )
 def test_a_way_that_the_bodies_do_not_take_is_named(text, word):

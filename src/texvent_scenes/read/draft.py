@@ -138,6 +138,8 @@ class SceneDraft:
         targets: Sequence[int] = (),
     ) -> None:  # fmt: skip
         """Leave it to the staged scene whether a word is shown of all subjects."""
+        if kind == "times":
+            self.repeat(value, [one for one in subjects if one is not None])
         said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
         self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
 
@@ -227,14 +229,13 @@ class SceneDraft:
             name = "end_m_s" if is_end else name
         set_field(self.things[index], said.kind, name, value)
 
-    def repeat(self, times: Any, indices: Sequence[int]) -> bool:
-        """Let objects rest after so many repetitions; False: what they do is not counted."""
+    def repeat(self, times: Any, indices: Sequence[int]) -> None:
+        """Let objects rest after so many repetitions of what is counted."""
         acts = [self.things[index]["motions"] for index in indices]
         rates = [_REPEATED.get(one[0]["kind"], 0.0) if len(one) == 1 else 0.0 for one in acts]
         for motions, rate_hz in zip(acts, rates, strict=True) if all(rates) else ():
             rate_hz *= motions[0].get("pace", 1.0)
             motions.append({"kind": "stand", "start_s": round(times / rate_hz, 6)})
-        return bool(rates) and all(rates)
 
     def part_ways(self, parted: Sequence[int]) -> bool:
         """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
@@ -312,6 +313,8 @@ class SceneDraft:
         if has_object:
             swings = nouns_with("swings")
             needs_hands = verb.relation in word_set("things", "of_people")
+            needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
+            is_acting &= not needs_body or names <= PERSON_NOUNS
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, owned_parts, word_set
@@ -17,6 +17,8 @@ _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
 _ARRIVALS = {"into": "in", "onto": "on"}
+_RUNNING = frozenset({"slide", "roll", "drive", "move"})
+"""Motions into a body that has no opening: they meet."""
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -202,7 +204,10 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
     if kind in ("into", "out of"):
         is_open = noun in trait_values("opening") or noun in nouns_with("closed")
-        return kind if is_open else "from" if kind == "out of" else ""
+        is_met = bool(does & _RUNNING) and draft.nouns[noun].habitat == "fixed"
+        is_met &= trait_value("container", noun) is None
+        other_kind = "from" if kind == "out of" else "collide" if is_met else ""
+        return kind if is_open else other_kind
     if kind in ("up", "down"):
         if noun in trait_values("slope"):
             return "on" if kind == "down" else kind

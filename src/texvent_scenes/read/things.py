@@ -154,7 +154,8 @@ class ThingReader:
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif _is_open(field, things):
-            self._leave_open(token, field, value, subjects)
+            if field in ("colour", *word_set("things", "claimed")):
+                draft.claim(token, field, value, subjects)
             return
         elif value == "opposite":
             if not draft.part_ways(subjects):
@@ -167,13 +168,6 @@ class ThingReader:
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
-
-    def _leave_open(self, token: Token, field: str, value: str | float, subjects: Sequence[int]) -> None:
-        """Claim what only the staged scene tells."""
-        if field == "times":
-            self._draft.repeat(value, subjects)
-        if field in ("colour", *word_set("things", "claimed")):
-            self._draft.claim(token, field, value, subjects)
 
     # Verbs
 

@@ -20,7 +20,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import SPACED, WAYS
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -29,7 +29,6 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
-from texvent_scenes.staging.placement.arrangements import are_driven, ends_at_rest, hangs_on
 from texvent_scenes.staging.placement.containers import (
     depth_in,
     go_inside,
@@ -41,7 +40,8 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, ends_at_rest
 
 
 class Goal(NamedTuple):
@@ -75,10 +75,8 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
-_QUEUED, _QUEUE_M = ("behind", "front"), 1.2
+_QUEUED, _QUEUE_M = ("behind", "front", "beside"), 1.2
 """Relations of those who wait or stop one before the other, and the gap between them, m."""
-_AT_DOOR_M = 0.3
-"""From the wall of a house to the middle of who has come out of it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
@@ -164,21 +162,10 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         goal = _place_in_queue(group, kind, subject, height)
         if goal is not None:
             return goal
-    has_door = group.noun.name in nouns_with("has a door")
-    if kind == "from" and has_door and subject.plan.motion.direction == "towards":
-        group.plan = replace(group.plan, yaw=subject.plan.yaw)
-        group.fit()
-        back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
-        return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
-    own, (yaw, here) = subject.half, (subject.plan.yaw, _on_ground(subject, height))
-    path = subject.plan.path
-    if path is not None and ends_at_rest(subject.scene_object.motions) and kind in SPACED:
-        own, end = near, path.at(subject.plan.duration_s).position
-        past_m = 0.5 * subject.models[0].length + group.half[0] if kind == "beside" else 0.0  # seen
-        here = _shift(here, end[0] + past_m * math.cos(yaw), end[1] + past_m * math.sin(yaw))
-    x, y, _ = own + group.half + gap
+    x, y, _ = subject.half + group.half + gap
+    yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
     is_aside = goes and abs(along[0]) > 0.5
@@ -212,7 +199,7 @@ def _place_in_queue(
     are_waiting = not (subject.plan.motion.is_moving or group.plan.motion.is_moving)
     is_lane = are_driven(subject.noun.name, group.noun.name)
     is_crossing = group.noun.name in nouns_with("across a road")
-    if not (is_stopping or is_crossing or (are_waiting and is_lane)):
+    if not (is_stopping or is_crossing or (are_waiting and is_lane and kind != "beside")):
         return None
     place, apart = subject.centre, _QUEUE_M + 0.5 * subject.models[0].length
     if path is not None and is_stopping:
