@@ -20,10 +20,10 @@ from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
-from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.placement.zones import zone_of
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
@@ -140,11 +140,6 @@ def find_violations(
                              f"{motion.direction}")  # fmt: skip
 
 
-def hangs_on(noun: str, target: str) -> bool:
-    """Whether what is on another thing hangs on its face, as a clock does on a wall."""
-    return noun in nouns_with("hangs on a wall") and target in nouns_with("only a background")
-
-
 def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     """Name of the rule for a kind of relation between these bodies."""
     noun, target = who.noun, what.noun
@@ -203,17 +198,6 @@ def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> 
     """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
     room = 0.55 * other.size + share * one.size + 0.02
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
-
-
-def are_driven(*nouns: str) -> bool:
-    """Whether all are vehicles of the road."""
-    return all(one in NOUNS and zone_of(NOUNS[one]) == "road" for one in nouns)
-
-
-def ends_at_rest(motions: Sequence[Motion]) -> bool:
-    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
-    goes = any(one.kind in PATH_KINDS for one in motions)
-    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
 
 
 def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:

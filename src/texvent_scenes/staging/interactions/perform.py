@@ -15,12 +15,12 @@ from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.relation_check import are_driven
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
+from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 from texvent_scenes.staging.tracks.track import attached
 

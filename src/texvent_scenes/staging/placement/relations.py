@@ -19,7 +19,6 @@ from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.relation_check import are_driven, ends_at_rest, hangs_on
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
@@ -40,7 +39,8 @@ from texvent_scenes.staging.placement.object_groups import (
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, ends_at_rest
 
 
 class Goal(NamedTuple):

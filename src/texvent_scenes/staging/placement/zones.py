@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -47,6 +48,16 @@ def zone_of(noun: Noun) -> str:
     if noun.habitat not in ("ground", "fixed"):
         return "any"
     return "road" if noun.motion == "drive" else "pavement"
+
+
+def are_driven(*nouns: str) -> bool:
+    """Whether all are vehicles of the road."""
+    return all(one in NOUNS and zone_of(NOUNS[one]) == "road" for one in nouns)
+
+
+def hangs_on(noun: str, target: str) -> bool:
+    """Whether what is on another thing hangs on its face, as a clock does on a wall."""
+    return noun in nouns_with("hangs on a wall") and target in nouns_with("only a background")
 
 
 def list_orphans(description: SceneDescription) -> Iterator[int]:
