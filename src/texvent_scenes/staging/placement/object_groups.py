@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -96,6 +97,15 @@ class ObjectGroup:
         """[3] half extents of all copies where they stand, without their way, m."""
         plan = replace(self.plan, motion=STANDING, path=None)
         return half_extents_over_clip(self.models, self.offsets, plan)
+
+
+class Goal(NamedTuple):
+    """Goal of a group's placement."""
+
+    position: Float64Array
+    """[3] middle of the group, m."""
+    slide: Float64Array
+    """[3] direction in which it may move from there to find room; zero = it stays."""
 
 
 def half_extents_over_clip(

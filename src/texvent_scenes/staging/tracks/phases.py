@@ -94,12 +94,6 @@ def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
     return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
 
 
-def ends_at_rest(motions: Sequence[Motion]) -> bool:
-    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
-    goes = any(one.kind in PATH_KINDS for one in motions)
-    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
-
-
 def needs_steering(motions: Sequence[Motion]) -> bool:
     """Whether these motions are a track of keys, not one simple movement."""
     first = motions[0]
@@ -124,6 +118,12 @@ def usual_speed(noun: Noun, kind: str) -> float:
 def speeds_of(noun: Noun) -> Mapping[str, float]:
     """Kind of motion → the usual speed that is known of it, m/s."""
     return trait_value("speeds", noun.name) or {}
+
+
+def ends_at_rest(motions: Sequence[Motion]) -> bool:
+    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
+    goes = any(one.kind in PATH_KINDS for one in motions)
+    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
 
 
 def least_radius(model: Model, noun: Noun) -> float:
