@@ -24,6 +24,7 @@ from texvent_scenes.read.prepositions import (
     are_own_parts,
     claim_mutual,
     claim_relation,
+    dress,
     find_mutual,
     find_relation,
     go_to_place,
@@ -261,6 +262,8 @@ class _SentenceReader(ThingReader):
         kind = find_relation(draft, phrase, subjects)
         if not phrase.groups or find_mutual(phrase.groups):
             self._relate_back(kind, phrase, subjects)
+            return []
+        if dress(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"

@@ -180,7 +180,8 @@ class ThingReader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
-        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
+        is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
+        if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
