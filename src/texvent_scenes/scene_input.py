@@ -248,7 +248,8 @@ def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     """Words that are spelt nearly as a noun, each with it."""
     names = {name for key, noun in nouns.items() for name in (key, *noun.synonyms)}
     for word in words:
-        near = get_close_matches(word.lower(), names, 1, _NEAR) if len(word) > _SHORT else []
+        is_open = len(word) > _SHORT and word.lower() not in names
+        near = get_close_matches(word.lower(), names, 1, _NEAR) if is_open else []
         yield from (f"{word}: {name}" for name in near)
 
 

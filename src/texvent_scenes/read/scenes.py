@@ -33,13 +33,14 @@ from texvent_scenes.read.prepositions import (
     relate_one,
     say_parts,
 )
+from texvent_scenes.read.senses import choose_senses
 from texvent_scenes.read.things import ThingReader
 from texvent_scenes.spec.data import PLACING, SPACED
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
-    tokens = split_prompt(prompt, lexicon_of(nouns))
+    tokens = choose_senses(split_prompt(prompt, lexicon_of(nouns)), nouns)
     draft = SceneDraft(tokens, nouns)
     reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
