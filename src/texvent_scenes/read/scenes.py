@@ -24,6 +24,7 @@ from texvent_scenes.read.prepositions import (
     are_own_parts,
     claim_mutual,
     claim_relation,
+    dress,
     find_mutual,
     find_relation,
     go_to_place,
@@ -32,13 +33,14 @@ from texvent_scenes.read.prepositions import (
     relate_one,
     say_parts,
 )
+from texvent_scenes.read.senses import choose_senses
 from texvent_scenes.read.things import ThingReader
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
-    tokens = split_prompt(prompt, lexicon_of(nouns))
+    tokens = choose_senses(split_prompt(prompt, lexicon_of(nouns)), nouns)
     draft = SceneDraft(tokens, nouns)
     reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
@@ -261,6 +263,8 @@ class _SentenceReader(ThingReader):
         kind = find_relation(draft, phrase, subjects)
         if not phrase.groups or find_mutual(phrase.groups):
             self._relate_back(kind, phrase, subjects)
+            return []
+        if dress(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"

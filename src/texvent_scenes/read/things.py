@@ -185,7 +185,8 @@ class ThingReader:
         draft.show(verb)
         if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
-        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
+        is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
+        if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)

@@ -246,3 +246,56 @@ def test_a_place_far_off_is_behind_all(text, noun):
 )
 def test_weather_comes_down_on_all(text):
     assert "on" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "colours"),
+    [
+        ("a man in red runs past a man in blue", ["red", "blue"]),
+        ("a tennis player in white serves the ball", ["white", None]),
+        ("two girls in yellow dance beside a car", ["yellow", None]),
+    ],
+)
+def test_who_is_in_a_colour_wears_it(text, colours):
+    assert [one.colour for one in scene(text).objects] == colours
+    assert "in" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_so"),
+    [
+        ("a dog jumps onto a sofa and lies down", "lies down", True),
+        ("a bus drives and stops", "stops", True),
+        ("a cat sleeps", "sleeps", False),
+    ],
+)
+def test_a_change_is_shown_where_something_is_before_it(text, word, is_so):
+    assert (word in reader.read(text, NOUNS).shown) == is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("a mouse runs across the floor", "mouse"),
+        ("a mouse lies beside a keyboard", "computer mouse"),
+        ("mice run under a table", "mouse"),
+        ("the earth floats in space beside the moon", "earth"),
+        ("a crane turns at a construction site", "crane"),
+        ("a top spins on a table", "spinning top"),
+    ],
+)
+def test_company_decides_what_an_ambiguous_noun_is(text, noun):
+    assert scene(text).objects[0].noun == noun
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("an excavator lifts earth with its bucket", "earth"),
+        ("a crane flies over a lake", "crane"),
+        ("a bat flies past a house", "bat"),
+        ("a man watches a match", "match"),
+    ],
+)
+def test_an_ambiguous_noun_for_which_nothing_speaks_is_not_understood(text, word):
+    assert word in lost(text)
