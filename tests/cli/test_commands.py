@@ -82,19 +82,6 @@ def test_the_options_of_an_event_file_make_it_again_and_serve_another_run(folder
     assert texvent.load("c.h5").metadata["simulator"] == "v2e"
 
 
-def test_info_describes_events_and_videos(folder, capsys):
-    run("simulate", CLIP, "-q", "--previews", "none", "-o", "a.h5", *QUICK)
-    assert run("info", "a.h5", "--json") == 0
-    facts = json.loads(capsys.readouterr().out)
-    assert facts["sensor"] == "320x180"
-    assert facts["events"] == len(texvent.load("a.h5"))
-    assert facts["simulator"] == "texvent"
-    assert run("info", "a.h5") == 0
-    assert f"source             {CLIP}"[:60] in capsys.readouterr().out
-    assert run("info", CLIP) == 0
-    assert "25" in capsys.readouterr().out
-
-
 def test_the_version_is_said(capsys):
     assert run("--version") == 0
     assert texvent.__version__ in capsys.readouterr().out

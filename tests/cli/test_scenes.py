@@ -3,25 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from tests.scenes.assets.glb_bar import write_bar
 
 from texvent.cli.app import main
-
-
-def test_the_list_has_families_other_names_and_assets_first(tmp_path, capsys, monkeypatch) -> None:
-    monkeypatch.setenv("COLUMNS", "160")
-    write_bar(tmp_path / "magic_wand.glb")
-    assert main(["scenes", "--assets", str(tmp_path)]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[1].split() == ["assets", "magic", "wand"]
-    car = next(line for line in lines if line.startswith("vehicles") and " car " in line)
-    assert "automobile" in car
-
-
-def test_a_word_lists_the_nouns_that_have_it_with_their_sizes(capsys) -> None:
-    assert main(["scenes", "cube"]) == 0
-    _, *rows = map(str.rstrip, capsys.readouterr().out.splitlines())
-    assert any(row.split()[1] == "cube" and row.endswith("0.8 x 0.8 x 0.8 m") for row in rows)
 
 
 @pytest.mark.parametrize(

@@ -189,21 +189,3 @@ def test_frames_that_cannot_be_made_again_are_said(traffic: Path, tmp_path: Path
     folder = next((tmp_path / "out/train").iterdir())
     times = np.genfromtxt(folder / "images/timestamps.txt", dtype="int64")
     assert times.tolist() == [0, 41_667, 83_333, 125_000]
-
-
-def test_frames_of_a_replaced_video_are_not_put_beside_the_events(tmp_path: Path) -> None:
-    clip = np.random.default_rng(0).integers(0, 255, (4, 12, 16), dtype=np.uint8)
-    np.save(tmp_path / "v.npy", clip)
-    made = StoredDataset.open(
-        make_set(
-            tmp_path / "set",
-            splits={"train": 1.0},
-            sources=[{"videos": [str(tmp_path / "v.npy")]}],
-            options={"fps": 30},
-            variants={"paper": {}},
-        )
-    )
-    export(made, "timelens", tmp_path / "out")
-    np.save(tmp_path / "v.npy", clip[::-1])
-    with pytest.raises(InputError, match="is not the video that the events of"):
-        export(made, "timelens", tmp_path / "again")

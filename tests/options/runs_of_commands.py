@@ -28,8 +28,8 @@ ROW = re.compile(r"^  (?=-)(?:-\S+(?: \S+)?, )*--(?P<name>[a-z][a-z0-9-]*)(?: (?
 TIMES = re.compile(r"[\d.,]+ (?:s|ms|kB|MB|GB|hours)\b|[\d.,]+ per second")
 
 
-ENCODED = (".mp4", ".gif", ".avi", ".h5", ".tar", ".parquet")
-"""Files whose bytes are made by other programs."""
+OPAQUE = (".mp4", ".gif", ".avi", ".h5", ".hdf5", ".tar", ".parquet", ".bag", ".mcap", ".db3")
+"""Files whose bytes other programs make, or that hold the version between other bytes."""
 
 
 class Listed(NamedTuple):
@@ -121,12 +121,12 @@ class Outcome(NamedTuple):
     def mark(self) -> str:
         """Digests of what was said, of events with their facts, and of other files.
 
-        Without what differs from machine to machine; of films that other programs encode, the name.
+        Without what differs from machine to machine and by the version; of `OPAQUE` ones, the name.
         """
         arrays = [one.tobytes() for event in self.streams.values() for one in _arrays(event)]
         said, *facts = map(_settled, (f"{self.code} {self.printed} {self.said}", *self.facts))
         files = [
-            name.encode() + (b"" if name.endswith(ENCODED) else _content(name, self.files[name]))
+            name.encode() + (b"" if name.endswith(OPAQUE) else _content(name, self.files[name]))
             for name in sorted(self.files)
         ]
         parts = ([said], [*self.streams, *arrays, *facts], files)
@@ -166,9 +166,10 @@ def _arrays(events: texvent.EventStream) -> list[NDArray[Any]]:
 
 
 def _settled(text: str) -> str:
-    """Without times of work, places on the disk and the version."""
+    """Without times of work, places on the disk, the version, and digests that hang on these."""
     text = TIMES.sub("", text).replace(full_version(), "VERSION")
     text = re.sub(r'"(?:\w*seconds|seen)": ?[^,}\n]+', "", text)
+    text = re.sub(r"\b[0-9a-f]{24,64}\b", "DIGEST", text)
     return re.sub(r"/\S*/(run|cache)\b", r"\1", text)
 
 

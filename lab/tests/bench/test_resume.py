@@ -10,13 +10,37 @@ from typing import Any
 import pytest
 from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
 
+from ..train.written_samples import as_weights
+from .detection.test_training import SCENE, SPECIFICATION
+from .digits.synthetic_data import write_mnist, write_recordings
 from .objects.stand_in import write_frames, write_specifications, write_turntables
 
 RESULT = ("-o", "out/result.json", "--overwrite", "--quiet", "--seeds", 1)
+DIGITS = (
+    *("bench", "digits", "--mnist", "mnist", "--nmnist", "../nmnist", "--work", "out/work"),
+    *("--quick", "--arms", "frame difference", "--ways", "frames", "--digits", 10, "--jobs", 1),
+    *RESULT,
+)
 OBJECTS = (
     *("bench", "objects", "configs", "--frames", "frames", "--turntables", "turntables"),
     *("--work", "out/work", "--arms", "difference", "--steps", 1, *RESULT),
 )
+DETECTION = (
+    *("bench", "detection", "cars.toml", "--work", "out/work", "--arms", "frames", "--clips", 4),
+    *("--epochs", 1, "--batch-size", 2, "--device", "cpu", *RESULT),
+)
+
+
+def write_digits() -> None:
+    Path("out").mkdir()
+    images = write_mnist(Path("mnist"), count=200)
+    write_recordings(Path("../nmnist"), images, train=500, pairs=100)
+
+
+def other_digit() -> None:
+    path = Path("mnist/t10k-labels-idx1-ubyte")
+    content = path.read_bytes()
+    path.write_bytes(content[:-1] + bytes([(content[-1] + 1) % 10]))
 
 
 def write_objects() -> None:
@@ -30,6 +54,12 @@ def other_text(path: str, old: str, new: str) -> Callable[[], None]:
     return lambda: Path(path).write_text(Path(path).read_text().replace(old, new)) and None
 
 
+def write_cars() -> None:
+    Path("out").mkdir()
+    Path("car.toml").write_text(SCENE)
+    Path("cars.toml").write_text(SPECIFICATION)
+
+
 def as_arrays(path: Path) -> dict[str, Any]:
     """Stored bytes of arrays: padding of records that are read is anything."""
     with zipfile.ZipFile(path) as archive:
@@ -39,6 +69,16 @@ def as_arrays(path: Path) -> dict[str, Any]:
 KEPT = {"index": ("result.json",), "rewritten": ("result.json",)}
 KEPT |= {"named": ("*.npz",), "readers": {".npz": as_arrays}}
 BENCHMARKS = {
+    "digits": Resumable(
+        prepare=write_digits,
+        words=DIGITS,
+        changes={
+            "content": other_digit,
+            "option": lambda: (*DIGITS, "--digits", 20),
+            "seed": lambda: (*DIGITS, "--seeds", 2),
+        },
+        **KEPT,
+    ),
     "objects": Resumable(
         prepare=write_objects,
         words=OBJECTS,
@@ -50,12 +90,26 @@ BENCHMARKS = {
         },
         **KEPT,
     ),
+    "detection": Resumable(
+        prepare=write_cars,
+        words=DETECTION,
+        index=("result.json", "scores.json", "*.jsonl", "clips/*.json", "texvent-export.json"),
+        rewritten=("result.json", "weights.pt", "history.json", "curves.png", "*.yaml"),
+        readers={".pt": as_weights},
+        changes={
+            "scene": other_text("car.toml", "speed_m_s = 6", "speed_m_s = 5"),
+            "option": lambda: (*DETECTION, "--epochs", 2),
+        },
+    ),
 }
 
 
 @pytest.fixture(
     scope="module",
-    params=[pytest.param(one, marks=pytest.mark.torch) for one in BENCHMARKS],
+    params=[
+        *(pytest.param(one, marks=pytest.mark.torch) for one in ("digits", "objects")),
+        pytest.param("detection", marks=pytest.mark.detect),
+    ],
 )
 def runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory

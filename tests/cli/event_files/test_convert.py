@@ -45,19 +45,6 @@ def test_a_file_goes_through_every_format_and_comes_back(
     assert capsys.readouterr().out == ""
 
 
-def test_region_time_and_size_are_edits_in_this_order(recording: EventStream) -> None:
-    words = ["--roi", "100,50,128,100", "--resize", "64x50", "--from-zero", "--time", "0.1,0.5"]
-    assert run("convert", "in.h5", "part.npz", *words) == 0
-    part = load("part.npz")
-    inside = (recording.x >= 100) & (recording.x < 228) & (recording.y >= 50) & (recording.y < 150)
-    t = recording.t[inside] - recording.t[inside][0]
-    kept = (t >= 100_000) & (t < 500_000)
-    assert part.size == SensorSize(64, 50)
-    assert np.array_equal(part.t, t[kept])
-    assert np.array_equal(part.x, (recording.x[inside][kept] - 100) // 2)
-    assert part.metadata["edits"][0]["crop"] == "100,50,128,100"
-
-
 def test_a_file_is_not_merged_with_itself(
     recording: EventStream, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -103,39 +90,3 @@ def test_validate_says_whether_the_format_notices_damage(
     run("validate", name)
     said = capsys.readouterr().out
     assert ("the format cannot notice" in said) is not has_checksums
-
-
-def test_filters_run_in_order_and_are_noted(recording: EventStream) -> None:
-    texts = ("refractory:period_us=500", "background-activity:window_us=400000,radius=3")
-    assert run("convert", "in.h5", "clean.h5", "--filter", *texts) == 0
-    expected = recording.filter(texts[0]).filter(texts[1])
-    assert 0 < len(expected) < len(recording)
-    assert load("clean.h5").equals(expected)
-    assert load("clean.h5").metadata["edits"] == [{"filter": list(texts)}]
-
-
-def test_hot_pixels_are_left_out_by_a_mask_or_by_a_filter(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
-    count = 300
-    times = np.linspace(int(recording.t[0]), int(recording.t[-1]), count).astype(np.int64)
-    hot = EventStream([20] * count, [10] * count, times, [1] * count, SIZE)
-    save("hot.h5", hot)
-    assert run("convert", "in.h5", "both.h5", "--merge", "hot.h5") == 0
-    Path("hot.txt").write_text("20 10\n")
-    assert run("convert", "both.h5", "masked.h5", "--mask", "hot.txt") == 0
-    assert run("convert", "both.h5", "filtered.h5", "--filter", "hot-pixels") == 0
-    masked = load("masked.h5")
-    assert masked.metadata["edits"][1:] == [{"mask": "hot.txt"}]
-    assert len(load("both.h5")) - len(masked) >= count
-    assert not ((masked.x == 20) & (masked.y == 10)).any()
-    assert load("filtered.h5").equals(masked)
-
-
-def test_events_are_turned_mirrored_and_put_on_larger_pixels(recording: EventStream) -> None:
-    words = ("--resize", "173x130", "--rotate", "90", "--flip", "x")
-    assert run("convert", "in.h5", "turned.h5", *words, "-q") == 0
-    found = load("turned.h5")
-    assert found.size == SensorSize(130, 173)
-    assert found.equals(recording.resize("173x130").rotate(90).flip("x"))
-    assert found.metadata["edits"] == [{"resize": "173x130", "rotate": 90, "flip": "x"}]

@@ -21,13 +21,6 @@ def recording(folder) -> Path:
     return EventStream(step % 32, step % 18, step * 400, step % 2, size).save(folder / "in.h5")
 
 
-@pytest.fixture
-def generated(folder) -> Path:
-    words = ("generate", "a red ball bounces", "-o", "scene.h5", "--previews", "none", "-q", *SCENE)
-    assert run(*words) == 0
-    return folder / "scene.h5"
-
-
 def test_view_opens_a_temporary_page(recording, monkeypatch, tmp_path, capsys) -> None:
     opened: list[str] = []
     monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or True)
@@ -44,20 +37,3 @@ def test_view_saves_a_page_with_the_video_beside_and_opens_nothing(recording, mo
     page = Path("page.html").read_text("utf-8")
     assert "Shows 100 of 500 events" in page
     assert page.count("data:image/jpeg") > 3
-
-
-def test_a_generated_recording_is_seen_with_its_scene_unless_told_not_to(generated) -> None:
-    assert run("view", generated, "-o", "with.html") == 0
-    assert Path("with.html").read_text("utf-8").count("data:image/jpeg") == 2
-    assert run("view", generated, "-o", "without.html", "--video", "none") == 0
-    assert "data:image/jpeg" not in Path("without.html").read_text("utf-8")
-
-
-def test_a_part_of_the_time_is_shown_alone(recording) -> None:
-    assert run("view", recording, "-o", "part.html", "--time", "0.04,0.12") == 0
-    page = Path("part.html").read_text("utf-8")
-    # One event every 400 µs, from 40 ms to 120 ms.
-    assert "Shows all 200 events." in page
-    assert run("render", recording, "-o", "part.png", "--time", "0.04,0.12") == 0
-    assert run("render", recording, "-o", "whole.png") == 0
-    assert Path("part.png").read_bytes() != Path("whole.png").read_bytes()

@@ -10,7 +10,6 @@ from tests.cli.running import run
 
 import texvent
 from texvent.errors import FileFormatError
-from texvent.generation.video_models.known_models import MODELS
 from texvent.generation.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.settings.resolution import resolve
@@ -51,37 +50,12 @@ def test_the_written_video_is_what_was_rendered_to_16_bits(folder):
         assert np.abs(stored.pixels / 257.0 - ours.pixels).max() <= 0.5 / 257 + 1e-4
 
 
-def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "200")
-    assert run("generators") == 0
-    shown = capsys.readouterr().out
-    row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
-    assert {"24", "121", "1280x704", "74", "24.4", "NVIDIA", "bypassed"} <= set(row.split())
-    assert shown.splitlines()[0].startswith("procedural")
-    assert "texvent[generate]" in shown
-    marked = {line.split()[0] for line in shown.splitlines() if line[:40].split()[1:2] == ["*"]}
-    assert marked == {"cosmos-7b", "wan-1.3b", "wan-14b", "cogvideox-5b", "cogvideox-2b"}
-    unknown = next(line for line in shown.splitlines() if line.startswith("ltx2.5 "))
-    assert "  not known  " in unknown
-
-
 def test_a_model_of_few_frames_per_second_warns_in_one_line(folder, capsys):
     """Without diffusers the run ends there, with an error of its own."""
     run("generate", PROMPT, "--generator", "cogvideox-2b", "--dry-run")
     lines = capsys.readouterr().err.splitlines()
     assert lines[0].startswith("warning  cogvideox-2b makes 8 frames per second")
     assert not any("frames per second" in line for line in lines[1:])
-
-
-def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, capsys):
-    assert run("generators", "--json") == 0
-    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
-    assert list(rows) == ["procedural", "opensora", *MODELS]
-    row = rows["hunyuan1.5"]
-    assert row["licence"] == "Tencent Hunyuan Community License"
-    assert "not in the EU" in row["licence_terms"]
-    assert row["licence_source"] == "github.com/Tencent-Hunyuan/HunyuanVideo-1.5: LICENSE"
-    assert (row["fps"], row["is_low_fps"], rows["cogvideox-2b"]["is_low_fps"]) == (24, False, True)
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):

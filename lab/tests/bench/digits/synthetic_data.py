@@ -59,11 +59,11 @@ def tile_events(sheet, events, number):
     return EventStream(own.x - np.uint16(left), own.y - np.uint16(top), own.t, own.p, SIZE)
 
 
-def write_recordings(folder, mnist_images):
+def write_recordings(folder, mnist_images, train=TRAIN, pairs=PAIRS):
     """N-MNIST's folders: the stored bit is 1 where brightness falls."""
-    names = [(f"Train/{number % 10}", number + 1) for number in range(TRAIN)]
-    names += [(f"Test/{number % 10}", number + 1) for number in range(PAIRS)]
-    images = np.concatenate([figures(TRAIN, 9), mnist_images[:PAIRS]])
+    names = [(f"Train/{number % 10}", number + 1) for number in range(train)]
+    names += [(f"Test/{number % 10}", number + 1) for number in range(pairs)]
+    images = np.concatenate([figures(train, 9), mnist_images[:pairs]])
     for (name, number), events in zip(names, record(images), strict=True):
         (folder / name).mkdir(parents=True, exist_ok=True)
         content = encode(events.x, events.y, events.t, 1 - events.p)

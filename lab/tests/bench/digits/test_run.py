@@ -63,34 +63,6 @@ def test_networks_learn_the_recorded_figures_from_simulated_ones(report):
 
 
 @pytest.mark.torch
-def test_a_run_that_was_stopped_ends_as_one_that_was_not(data, tmp_path, report):
-    done = []
-
-    def stop(line):
-        done.append(line)
-        if len(done) in (1, 5):
-            raise KeyboardInterrupt
-
-    plan = tiny_plan(data, tmp_path)
-    for _ in range(2):
-        with pytest.raises(KeyboardInterrupt):
-            run_digits(plan, progress=stop)
-    resumed = run_digits(plan, progress=done.append)
-    assert dataclasses.replace(resumed, seconds=report.seconds) == report
-    again = []
-    run_digits(plan, progress=again.append)
-    assert again == []
-    for kind in ("recordings", "predicted"):
-        path = next(tmp_path.glob(f"{kind}-*"))
-        content = bytearray(path.read_bytes())
-        content[len(content) // 2] ^= 16
-        path.write_bytes(content)
-    resumed = run_digits(plan, progress=again.append)
-    assert len(again) == 1
-    assert dataclasses.replace(resumed, seconds=report.seconds) == report
-
-
-@pytest.mark.torch
 def test_the_page_shows_what_the_document_holds(report, tmp_path):
     write_document(tmp_path / "digits.json", report.document(), overwrite=False)
     document = read_document(tmp_path / "digits.json")
