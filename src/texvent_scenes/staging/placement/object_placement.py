@@ -179,8 +179,8 @@ class ObjectPlacer:
         """Scale of a passage: a foot tunnel for those who are small."""
         goers = [self._size_up(one.subject) for one in self._description.relations
                  if one.kind == "through" and index in one.targets]  # fmt: skip
-        is_tunnel = self._description.objects[index].noun in nouns_with("tunnel")
-        return fit_passage(goers) if is_tunnel and goers else 1.0
+        is_scaled = self._description.objects[index].noun in nouns_with("scaled passage")
+        return fit_passage(goers) if is_scaled and goers else 1.0
 
     def _size_up(self, index: int) -> Model:
         """A copy of an object at the size that is said."""
