@@ -30,7 +30,7 @@ _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
 _STRAY, _UNEVEN = 0.12, 2.0
-"""Of a row: most departure from its line, in gaps; most ratio of its gaps."""
+"""Most departure of a row from its line, in gaps; most ratio of its gaps."""
 _ROUND, _LEAST_ARC = 0.08, math.pi / 3.0
 """Most departure of a way from its circle, in radii; least angle of that circle that it covers."""
 _GROUNDED = 0.1

@@ -56,7 +56,7 @@ def _score(
     noun: Noun, kinds: Collection[str], places: Collection[str], others: Collection[str],
     nouns: Mapping[str, Noun],
 ) -> int:  # fmt: skip
-    """How much speaks for a noun: twice what it does, where it is, what is beside it."""
+    """Points for a noun: two for what it does, one each for where it is and what is beside it."""
     does = {noun.motion, *noun.acts, *(("run", "jump", "move") if noun.speed_m_s else ())}
     does |= {"work", "spin"} if noun.is_working else set()
     home = trait_value("usual place", noun.name) or noun.place

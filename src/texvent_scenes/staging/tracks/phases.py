@@ -53,7 +53,7 @@ _LEANS, _LEANT_S = {"towards": 0.4, "away": -0.4}, 1.7
 LEANING = frozenset({"sway", "tilt"})
 """Those of a body that stays upright on average."""
 _GROWTH = {"grow": (-0.6, 0.4), "shrink": (0.0, -0.4)}
-"""What grows or shrinks: change of its size at first, and per second, in sizes; it does for 2 s."""
+"""Growth: change of the size at first, and per second, in sizes; it goes on for 2 s."""
 _MOST_DRIFTING_M = 2.5
 """Size from which on what hovers drifts no further."""
 
