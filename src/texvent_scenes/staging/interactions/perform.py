@@ -227,7 +227,7 @@ def _send_to(
     cast: dict[int, Actor], act: IndexedRelation, said: Sequence[SceneObject], goal: int,
     duration_s: float,
 ) -> None:  # fmt: skip
-    """Path of a body kicked, thrown or rolled: back from what is fixed, to who is alive."""
+    """Send a kicked, thrown or rolled body back from what is fixed, or to who is alive."""
     things, goals = ([n for n, one in cast.items() if one.object_index == index]
                      for index in (act.targets[0], goal))  # fmt: skip
     for thing in things if goals else ():

@@ -58,7 +58,7 @@ class StreamedExamples:
     prompts: list[tuple[str, int]] = field(init=False)
     """Prompt and seed of each clip."""
     options: dict[str, Any] = field(init=False)
-    """Length of the videos."""
+    """Options of the videos."""
     _clips: dict[int, Clip] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
