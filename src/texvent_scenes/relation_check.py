@@ -239,7 +239,8 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     gone = (other.middle - other.middle[0])[:, None]
     parts = other.parts[None] + gone[:, :, None] if _stay(other) else _own_box(other)
     bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
-    reach = np.minimum(_FOOT * one.size, 0.35 * other.size)[:, :2]
+    is_larger = one.size > other.size  # such as a person on a chair, a bird on a fence
+    reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
     found = np.zeros(len(tall))
     for way in _AROUND:
         spot = (one.middle[:, :2] + way * reach)[:, None]

@@ -54,3 +54,25 @@ def test_who_goes_around_something_is_on_all_sides_of_it(text):
     angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
     assert np.ptp(angles) > np.pi
     assert lost_relations(said, scene, moved(scene, middle, (30.0, 0, 0))) == ["around"]
+
+
+@pytest.mark.parametrize("text", ["a man walks out of a house", "a dog runs out of a house"])
+def test_who_comes_out_of_a_house_starts_at_its_front_and_comes_nearer(text):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    one, house = scene.actors
+    (low, high), (_, start) = box(house, 0.0), box(one, 0.0)
+    assert low[1] - 1.0 < start[1] < low[1] + 1.0  # the front is towards the camera
+    assert low[0] < one.middle(0.0)[0] < high[0]
+    ways = [np.linalg.norm(one.middle(t) - scene.camera(t).position) for t in TIMES_S]
+    assert (np.diff(ways) < 0.0).all()
+
+
+@pytest.mark.parametrize("text", ["a row of parked cars", "two parked cars", "five parked trucks"])
+def test_parked_vehicles_stand_in_one_row(text):
+    actors = staged(text)[1].actors
+    places = np.array([one.middle(0.0)[:2] for one in actors])
+    assert np.ptp(places[:, 1]) < 0.5 * actors[0].model.width
+    gaps = np.diff(np.sort(places[:, 0]))
+    assert gaps.min() > actors[0].model.length
+    assert gaps.max() < 1.3 * gaps.min()

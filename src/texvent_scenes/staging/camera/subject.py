@@ -25,8 +25,9 @@ _WHOLE = 3.5
 """Other objects must fit as a whole if they are at most this many times as large as the movers."""
 _LOWER = 2.0
 """Height of the part of what is tall beside something, in sizes of the largest mover."""
-_PIECE = 0.7
-"""Reach of the piece of a larger one that must fit, in sizes of the largest mover."""
+_PIECE, _MOST_PIECE, _TOLD = 0.7, 3.0, 0.25
+"""Least and greatest reach of the piece of a larger one that must fit, in sizes of the largest
+mover; in its own, so that one tells what it is."""
 _GOALS = (1.0, 1.0, 0.9, 0.4)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
@@ -152,7 +153,8 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
         if is_large and not is_mover and actor.object_index not in scope.whole:
-            piece = _near_piece(actor, main, times, _PIECE * largest)
+            reach_m = max(_PIECE * largest, min(_TOLD * actor.size_m, _MOST_PIECE * largest))
+            piece = _near_piece(actor, main, times, reach_m)
             if actor.object_index in scope.sided:
                 piece = actor.corners(float(times[0])).copy()
                 piece[:, 2] = np.minimum(piece[:, 2], piece[:, 2].min() + _LOWER * largest)

@@ -64,10 +64,11 @@ def settle_motions(
     for each in relations:
         if each.kind == "on" and objects[each.targets[0]].noun in nouns_with("across a road"):
             objects[each.subject] = _directed(objects[each.subject], "across")
+        target = objects[each.targets[0]].noun
         is_led = each.kind == "between" and not are_driven(objects[each.subject].noun)
-        if is_led or (
-            each.kind == "through" and objects[each.targets[0]].noun in nouns_with("passage")
-        ):
+        is_led |= each.kind == "through" and target in nouns_with("passage")
+        is_led |= each.kind == "from" and target in nouns_with("has a door")
+        if is_led:
             objects[each.subject] = _directed(objects[each.subject], "towards")
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
@@ -75,8 +76,8 @@ def settle_motions(
 def _directed(said: SceneObject, direction: Direction) -> SceneObject:
     """An actor whose way a relation decides, where no other is said.
 
-    On a crosswalk it crosses the road; out of a tunnel, and between things that stand side by
-    side, it comes towards the camera.
+    On a crosswalk it crosses the road; out of a tunnel or a house, and between things that stand
+    side by side, it comes towards the camera.
     """
     first = said.motions[0] if said.motions else None
     if first is None or first.kind not in PATH_KINDS or first.direction is not None:

@@ -36,6 +36,8 @@ _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
 _NEAREST = 0.3
 """Least distance of a flake to the camera, as a share of that to what it looks at."""
+_ROUND = 0.5
+"""Thickness over length from which on a flake is round, as snow is."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -143,7 +145,8 @@ class Emitter:
         rate = style.turns * math.sqrt(GRAVITY_M_S2 / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
-        return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+        shape = Shape.ELLIPSOID if min(style.proportions) > _ROUND else Shape.BOX
+        return many_shapes(tumbling(flown.places, angles, half), shape, self.colours[which], glow)
 
     def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
         """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""

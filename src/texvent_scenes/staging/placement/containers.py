@@ -22,6 +22,8 @@ Hollow = tuple[float, float, float, float, float]
 scale."""
 _ROOM, _LEAST_SHARE = 1.1, 0.25
 """Room over the size of what is in it; least scale of a thing."""
+_OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
+"""Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
 _TURN_SHARE = 0.16
 """Share of the clip in which what goes to and fro in a container turns round."""
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
@@ -54,6 +56,12 @@ def reach_of(model: Model, count: int) -> float:
     """Extent along a row, in which several stand side by side, m."""
     sides = model.length, model.width
     return min(sides) if count > 1 else max(sides)
+
+
+def fit_passage(goers: Sequence[Model]) -> float:
+    """Scale of a tunnel for those who go through it."""
+    widest = max(max(one.width, _UPRIGHT * one.height) for one in goers)
+    return min(max(_OPENING * widest, _LEAST_TUNNEL), 1.0)
 
 
 def hollow_of(target: ObjectGroup) -> Support:

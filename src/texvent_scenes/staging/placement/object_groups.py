@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -98,6 +99,15 @@ class ObjectGroup:
         return half_extents_over_clip(self.models, self.offsets, plan)
 
 
+class Goal(NamedTuple):
+    """Goal of a group's placement."""
+
+    position: Float64Array
+    """[3] middle of the group, m."""
+    slide: Float64Array
+    """[3] direction in which it may move from there to find room; zero = it stays."""
+
+
 def half_extents_over_clip(
     models: list[Model], offsets: list[Vector], plan: MotionPlan
 ) -> Float64Array:
@@ -182,7 +192,8 @@ def stagger(
     is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
     tall = max(model.height for model in models) if is_deep else 0.0
     columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
-    columns = math.ceil(count / 2) if is_driven else columns
+    is_parked = is_driven and not (plan.is_path or plan.path)  # in one row
+    columns = count if is_parked else math.ceil(count / 2) if is_driven else columns
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
     for number in range(count):
@@ -190,7 +201,7 @@ def stagger(
         in_row = min(columns, count - row * columns)
         a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
         b = (row - 0.5 * ((count - 1) // columns)) * across
-        a += float(rng.uniform(-0.12, 0.12)) * along
+        a += float(rng.uniform(-0.12, 0.12)) * along * (not is_parked)
         stray = float(rng.uniform(-0.08, 0.08)) * across
         if not is_driven:  # vehicles keep to their lanes
             b = b + 0.6 * across * (number % 2) + stray

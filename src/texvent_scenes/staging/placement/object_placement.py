@@ -22,8 +22,9 @@ from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seede
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
-from texvent_scenes.staging.placement.containers import fit_in
+from texvent_scenes.staging.placement.containers import fit_in, fit_passage
 from texvent_scenes.staging.placement.object_groups import (
+    Goal,
     ObjectGroup,
     choose_props,
     dressed,
@@ -37,7 +38,6 @@ from texvent_scenes.staging.placement.object_groups import (
 from texvent_scenes.staging.placement.relations import (
     INVERSE,
     ON_TARGET,
-    Goal,
     place_at_distance,
     place_by_subject,
     place_on_targets,
@@ -63,8 +63,6 @@ _NEARER = 0.35
 _ROOMY, _LEAST_SHARE = 0.85, 0.3
 """Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
 """
-_OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
-"""Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
 _PASSED = 1.2
 """Room between what is passed one after the other, in their half extents."""
 _NOTED = 0.1
@@ -182,13 +180,10 @@ class ObjectPlacer:
 
     def _fit_through(self, index: int) -> float:
         """Scale of a passage: a foot tunnel for those who are small."""
-        objects = self._description.objects
         goers = [self._size_up(one.subject) for one in self._description.relations
                  if one.kind == "through" and index in one.targets]  # fmt: skip
-        if objects[index].noun not in nouns_with("tunnel") or not goers:
-            return 1.0
-        widest = max(max(one.width, _UPRIGHT * one.height) for one in goers)
-        return min(max(_OPENING * widest, _LEAST_TUNNEL), 1.0)
+        is_tunnel = self._description.objects[index].noun in nouns_with("tunnel")
+        return fit_passage(goers) if is_tunnel and goers else 1.0
 
     def _size_up(self, index: int) -> Model:
         """A copy of an object at the size that is said."""

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -37,21 +36,13 @@ from texvent_scenes.staging.placement.containers import (
 )
 from texvent_scenes.staging.placement.object_groups import (
     GAP_M,
+    Goal,
     ObjectGroup,
     list_around,
 )
-from texvent_scenes.staging.placement.zones import are_driven, hangs_on
-from texvent_scenes.staging.tracks.phases import PATH_KINDS, ends_at_rest
-
-
-class Goal(NamedTuple):
-    """Goal of a group's placement."""
-
-    position: Float64Array
-    """[3] middle of the group, m."""
-    slide: Float64Array
-    """[3] direction in which it may move from there to find room; zero = it stays."""
-
+from texvent_scenes.staging.placement.on_way import place_on_way
+from texvent_scenes.staging.placement.zones import hangs_on
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
 """Relations in which the subject's place follows from the target's; in the others the target's
@@ -75,8 +66,6 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
-_QUEUED, _QUEUE_M = ("behind", "front", "beside"), 1.2
-"""Relations of those who wait or stop one before the other, and the gap between them, m."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
@@ -156,12 +145,9 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
 
     `height` is that of the target's origin, m; the subject is placed already.
     """
-    if kind == "through" and subject.plan.is_path:
-        return _lead_through(group, subject, height)
-    if kind in _QUEUED:
-        goal = _place_in_queue(group, kind, subject, height)
-        if goal is not None:
-            return goal
+    goal = place_on_way(group, kind, subject, height)
+    if goal is not None:
+        return goal
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     x, y, _ = subject.half + group.half + gap
@@ -188,42 +174,6 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
-
-
-def _place_in_queue(
-    group: ObjectGroup, kind: str, subject: ObjectGroup, height: float
-) -> Goal | None:
-    """Before or behind a subject that comes to rest there, or vehicles at rest in one lane."""
-    path, yaw = subject.plan.path, subject.plan.yaw
-    is_stopping = path is not None and ends_at_rest(subject.scene_object.motions)
-    are_waiting = not (subject.plan.motion.is_moving or group.plan.motion.is_moving)
-    is_lane = are_driven(subject.noun.name, group.noun.name)
-    is_crossing = group.noun.name in nouns_with("across a road")
-    if not (is_stopping or is_crossing or (are_waiting and is_lane and kind != "beside")):
-        return None
-    place, apart = subject.centre, _QUEUE_M + 0.5 * subject.models[0].length
-    if path is not None and is_stopping:
-        state = path.at(subject.plan.duration_s)
-        place, yaw = place + np.array(state.position), state.yaw
-    apart += 0.5 * float(group.models[0].length if is_lane else max(group.half[:2]))
-    if is_lane:
-        group.plan = replace(group.plan, yaw=yaw)
-        group.fit()
-        apart *= -1.0 if kind == "front" and not is_stopping else 1.0
-    along = apart * np.array([math.cos(yaw), math.sin(yaw)])
-    return Goal(
-        np.array([*(place[:2] + along), height]), _FIXED if is_lane or is_crossing else _AWAY
-    )
-
-
-def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
-    """Along the way of who goes through, who is out at about half of that way."""
-    if group.noun.name in nouns_with("passage"):
-        group.plan = replace(group.plan, yaw=subject.plan.yaw)
-        group.fit()
-    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
-    back = min(0.1 * extent + 0.5 * group.models[0].length, 0.45 * extent)
-    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
