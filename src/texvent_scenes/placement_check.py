@@ -71,8 +71,8 @@ def find_misplaced(
     for number, one in enumerate(actors):
         lost = [*bodies.list_unborne(number, place)]
         is_free = description.objects[one.object_index].placement == "lane"
-        is_free |= any((each.subject == one.object_index and each.kind == "between")
-                        or (each.kind in WAYS and one.object_index in (each.subject, *each.targets))
+        is_free |= any(one.object_index in (each.subject, *each.targets) if each.kind in WAYS
+                       else each.subject == one.object_index and each.kind == "between"
                        for each in description.relations)  # fmt: skip
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []

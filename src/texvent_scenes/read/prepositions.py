@@ -17,6 +17,8 @@ _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
 _ARRIVALS = {"into": "in", "onto": "on"}
+_ON_FOOT = frozenset({"climb", "walk", "run", "move"})
+"""Motions of who climbs, as they are said."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _SMALL = nouns_with("in hand or on something")
@@ -116,7 +118,8 @@ def go_to_place(
     names = {one.value for head in heads for one in head.all("place")[:1]}
     on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
     is_in = on_foot and token.text in ("through", "in", "into")
-    if is_entered:
+    rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
+    if is_entered or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
@@ -228,7 +231,10 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     if kind in ("up", "down"):
         if noun in trait_values("slope"):
             return "on" if kind == "down" else kind
-        return kind if noun in trait_values("climbed") and "climb" in does else ""
+        can_climb = noun in trait_values("climbed") and bool(does) and does <= _ON_FOOT
+        if can_climb and draft.walks(index):
+            thing["motions"][-1]["kind"] = "climb"  # "goes up a tree"
+        return kind if can_climb else ""
     if kind == "off":
         return kind if does & {"jump", "fall"} else ""
     acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push"})

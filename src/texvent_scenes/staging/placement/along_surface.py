@@ -98,7 +98,8 @@ def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
     speed = max(2.0 * far / flown_s, min(usual_speed(group.noun, kind), _MOST_RUN_UP_M_S))
     run_s = 0.5 * (group.plan.duration_s - flown_s)
     run = Key(run_s, speed, ramp_s=0.0, activity=activity_of(kind))
-    keys = (Key(0.0, speed), run, replace(run, duration_s=flown_s, hop_m=hop_m), run)
+    leap = replace(run, duration_s=flown_s, hop_m=hop_m, activity="jump")
+    keys = (Key(0.0, speed), run, leap, run)
     back_m = 0.5 * speed * group.plan.duration_s
     path = Track((-back_m * math.cos(yaw), -back_m * math.sin(yaw), 0.0), yaw, keys, floor_m=0.0)
     group.plan = replace(group.plan, yaw=yaw, path=path, gesture=None)

@@ -10,6 +10,7 @@ import numpy as np
 
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
@@ -66,6 +67,8 @@ _PASSED = 1.2
 """Room between what is passed one after the other, in their half extents."""
 _NOTED = 0.1
 """Change of a size that the report names."""
+_PACE = 0.4
+"""From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
 _SIDES = {"left": -1.0, "right": 1.0}
 
@@ -390,10 +393,11 @@ class ObjectPlacer:
         if group.orbits is not None:
             x, y, _ = group.orbits.centre
             reach = group.orbits.reach_below(group.top_m) + 0.9 * group.size_m
-            return orbit(
-                group.plan, (float(x), float(y), float(group.centre[2])),
-                reach + 0.1 * group.orbits.size_m, number / len(group.models),
-            )  # fmt: skip
+            reach += 0.1 * group.orbits.size_m
+            if group.noun.name in PERSON_NOUNS:  # close round it, and so far round
+                reach = group.orbits.reach_below(group.top_m) + _PACE * group.size_m
+            home = (float(x), float(y), float(group.centre[2]))
+            return orbit(group.plan, home, reach, number / len(group.models))
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])

@@ -28,6 +28,7 @@ from texvent_scenes.models.shapes import (
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Shape
 from texvent_scenes.staging.actors import size_of
+from texvent_scenes.staging.placement.along_surface import go_down
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.tracks.keys import Key, flight_s
 from texvent_scenes.staging.tracks.phase_keys import DULL, QUARTER
@@ -71,7 +72,14 @@ def lead(group: ObjectGroup, kind: str, target: ObjectGroup, ahead_m: float) -> 
     if kind == "off":
         return _leave_top(group, target)
     if trait_value("slope", target.noun.name) is not None:
-        return _go_up(group, target)
+        plan, noun = group.plan, group.noun
+        if plan.motion.kind == "climb":  # the stairs: on foot
+            walk = replace(plan.motion, kind=noun.motion)
+            group.plan = replace(plan, motion=walk, speed_m_s=usual_speed(noun, noun.motion))
+        if kind == "up":
+            return _go_up(group, target)
+        go_down(group, target)
+        return target.to_world(0.0, 0.0, group.origin_m)
     return _climb(group, target, is_up=kind == "up")
 
 
@@ -93,6 +101,9 @@ def _put(
     keys: Sequence[Key], aside_m: float = 0.0, *, edge_m: float = 0.0,
 ) -> Float64Array:  # fmt: skip
     """The middle of a way that begins `along_m` of a heading from the middle of the target."""
+    if group.plan.motion.kind == "reverse":  # its rear first
+        yaw, along_m, aside_m = yaw + math.pi, -along_m, -aside_m
+        keys = [replace(key, speed_m_s=-key.speed_m_s) for key in keys]
     cosine, sine = math.cos(yaw), math.sin(yaw)
     start = (along_m * cosine - aside_m * sine, along_m * sine + aside_m * cosine, height_m)
     path = Track(

@@ -96,7 +96,7 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
     else:
         rate = min(rate, _ORBIT_HASTE * plan.speed_m_s / radius_m)
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
-    activity = "run" if plan.motion.kind == "run" else "move"
+    activity = plan.motion.kind if plan.motion.kind in ("walk", "run") else "move"
     begin, (x, y, z) = 2.0 * math.pi * share, centre
     start = (x + radius_m * math.cos(begin), y + radius_m * math.sin(begin), z)
     yaw = begin + math.copysign(0.5 * math.pi, rate)

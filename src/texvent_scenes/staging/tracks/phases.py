@@ -120,12 +120,6 @@ def speeds_of(noun: Noun) -> Mapping[str, float]:
     return trait_value("speeds", noun.name) or {}
 
 
-def ends_at_rest(motions: Sequence[Motion]) -> bool:
-    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
-    goes = any(one.kind in PATH_KINDS for one in motions)
-    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
-
-
 def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
     is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
