@@ -298,6 +298,19 @@ def _rises_from(staged: _Staged, claim: Claim) -> bool:
     )
 
 
+def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
+    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip."""
+    own, others = staged.own(claim), [one for one in staged.scene.actors]
+    for one in own:
+        low = np.array([one.lowest_m(time_s) for time_s in staged.times])
+        tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
+        gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)
+        is_near = gaps <= _GROUNDED * one.size_m
+        if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
+            return False
+    return True
+
+
 def _is_laid(staged: _Staged, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
     sizes = [one.size[-1] for one in staged.boxes[-1 if claim.subject is None else claim.subject]]
@@ -315,6 +328,7 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "colour": _has_colour, "material": _is_of, "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
-    "activity": _is_doing, "direction": _swings, "rise": _rises_from, "mutual": _are_mutual,
+    "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
+    "mutual": _are_mutual,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -177,6 +177,18 @@ def test_what_rises_from_a_place_was_on_its_ground(text, is_shown):
 
 
 @pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a pigeon walks in front of a bus", "walks", False),
+        ("a cat walks across a table", "walks", True),
+        ("a butterfly hovers above a flower", "hovers", True),
+    ],
+)
+def test_who_walks_is_on_the_ground_and_who_flies_is_not(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
 )
