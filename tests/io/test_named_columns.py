@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, TexventError, TexventWarning
 from texvent.events import COLUMN_TYPES, ID_COLUMNS, EventStream
 from texvent.io.files import load
+from texvent.io.tables import SPELLINGS
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(240, 180)
@@ -392,3 +393,14 @@ def test_an_attribute_states_the_order_of_columns(order: str, form: str) -> None
 def test_options_that_do_not_exist_are_named(name: str) -> None:
     with pytest.raises(TexventError, match=f"without an option '{name}'; "):
         load(written("h5"), **{name: "events"})
+
+
+@pytest.mark.parametrize("column", SPELLINGS)
+def test_of_two_names_of_a_column_the_shorter_one_counts(tmp_path: Path, column: str) -> None:
+    others = {name: np.array([0, 1]) for name in SPELLINGS if name != column}
+    for first, second in itertools.permutations(SPELLINGS[column], 2):
+        if len(first) != len(second):
+            short = min(first, second, key=len)
+            named = {name: np.array([0, int(name == short)]) for name in (first, second)}
+            np.savez(tmp_path / "e.npz", **named, **others)
+            assert getattr(load(tmp_path / "e.npz", size=SIZE), column).tolist() == [0, 1], named

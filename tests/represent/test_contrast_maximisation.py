@@ -1,13 +1,18 @@
 """Velocities that moving patterns have, found from their events alone."""
 
+import itertools
 import math
+from collections import defaultdict
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.contrast_maximisation import (
+    _contrast,
     find_flow,
     find_velocity,
     flow_warp_loss,
@@ -157,3 +162,22 @@ def test_impossible_searches_and_flows_are_refused():
         find_flow(events, patch_px=3)
     with pytest.raises(InputError, match=r"flow has shape \[3\]; give \[2\] or \[60, 120, 2\]"):
         warp_events(events, [1, 2, 3])
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(-3, 3), st.floats(-3, 3))
+def test_the_contrast_is_that_of_an_image_made_event_by_event(seed, across, down):
+    rng = np.random.default_rng(seed)
+    place, share = rng.integers(0, 6, (2, 9)).astype(float), rng.random(9)
+    image = defaultdict(float)
+    for column, row, part in zip(*place, share, strict=True):
+        where = column - across * part, row - down * part
+        for cell in itertools.product(
+            *([math.floor(one) + n for n in range(-1, 3)] for one in where)
+        ):
+            # A pixel's share is a tent, spread by (1 2 1): of each side, of both.
+            image[cell] += math.prod(
+                sum((2 - abs(n)) * max(1 - abs(at + n - one), 0.0) for n in (-1, 0, 1))
+                for at, one in zip(cell, where, strict=True)
+            )
+    found = _contrast(place, share, np.array([across, down]))
+    assert found == pytest.approx(sum(one * one for one in image.values()))

@@ -322,6 +322,17 @@ def test_boxes_lie_where_their_objects_are_in_a_mirrored_crop():
             assert torch.equal(WIDTH - one["boxes"][:, [2, 0]], other["boxes"][:, [0, 2]])
 
 
+def test_draws_and_orders_of_a_seed_are_those_of_the_release():
+    """A training that is begun with one release goes on with the next."""
+    assert [order_of_pass(7, number, 6).tolist() for number in range(3)] == ORDERS
+    found = {}
+    for name, ranges in RANGES.items():
+        draw = draw_clip(ranges, 7, 3, 5)
+        parts = (draw.numbers, draw.is_flipped, draw.speed, draw.place, draw.is_paused)
+        found[name] = round(sum(i * one for i, one in enumerate(np.hstack(parts), 1)), 4)
+    assert found == DRAWN
+
+
 def test_every_pass_of_every_seed_shows_all_sources_in_an_order_of_its_own():
     orders = [order_of_pass(seed, number, 9).tolist() for seed in (0, 1) for number in range(3)]
     assert all(sorted(one) == list(range(9)) for one in orders)

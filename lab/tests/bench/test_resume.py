@@ -10,8 +10,6 @@ from typing import Any
 import pytest
 from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
 
-from ..train.written_samples import as_weights
-from .detection.test_training import SCENE, SPECIFICATION
 from .digits.synthetic_data import write_mnist, write_recordings
 from .objects.stand_in import write_frames, write_specifications, write_turntables
 
@@ -24,10 +22,6 @@ DIGITS = (
 OBJECTS = (
     *("bench", "objects", "configs", "--frames", "frames", "--turntables", "turntables"),
     *("--work", "out/work", "--arms", "difference", "--steps", 1, *RESULT),
-)
-DETECTION = (
-    *("bench", "detection", "cars.toml", "--work", "out/work", "--arms", "frames", "--clips", 4),
-    *("--epochs", 1, "--batch-size", 2, "--device", "cpu", *RESULT),
 )
 
 
@@ -52,12 +46,6 @@ def write_objects() -> None:
 
 def other_text(path: str, old: str, new: str) -> Callable[[], None]:
     return lambda: Path(path).write_text(Path(path).read_text().replace(old, new)) and None
-
-
-def write_cars() -> None:
-    Path("out").mkdir()
-    Path("car.toml").write_text(SCENE)
-    Path("cars.toml").write_text(SPECIFICATION)
 
 
 def as_arrays(path: Path) -> dict[str, Any]:
@@ -90,26 +78,12 @@ BENCHMARKS = {
         },
         **KEPT,
     ),
-    "detection": Resumable(
-        prepare=write_cars,
-        words=DETECTION,
-        index=("result.json", "scores.json", "*.jsonl", "clips/*.json", "texvent-export.json"),
-        rewritten=("result.json", "weights.pt", "history.json", "curves.png", "*.yaml"),
-        readers={".pt": as_weights},
-        changes={
-            "scene": other_text("car.toml", "speed_m_s = 6", "speed_m_s = 5"),
-            "option": lambda: (*DETECTION, "--epochs", 2),
-        },
-    ),
 }
 
 
 @pytest.fixture(
     scope="module",
-    params=[
-        *(pytest.param(one, marks=pytest.mark.torch) for one in ("digits", "objects")),
-        pytest.param("detection", marks=pytest.mark.detect),
-    ],
+    params=[pytest.param(one, marks=pytest.mark.torch) for one in BENCHMARKS],
 )
 def runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from tests.dataset.stored.written_set import write_shard
@@ -52,13 +50,3 @@ def write_bars_training(folder: Path, *, epochs: int, shift: int = 0) -> Path:
         "batch_size = 5\nlearning_rate = 0.01\n"
     )
     return path
-
-
-def as_weights(path: Path) -> Any:
-    """Texts of tensors, which are equal where all bits are."""
-    import torch
-
-    content = torch.load(path, weights_only=True)
-    for row in content.get("rows", ()):
-        row.pop("seconds")
-    return json.dumps(content, default=torch.Tensor.tolist)

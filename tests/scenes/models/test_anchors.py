@@ -1,6 +1,7 @@
 """Places on models for other things: on their boxes, and on what carries things."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
@@ -11,6 +12,7 @@ from tests.scenes.raycast.intersect_reference import hit_shape_reference
 from texvent_scenes.models.anchors import locate, top_heights
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import ModelPart, Pose
+from texvent_scenes.models.skeleton import Anchor
 from texvent_scenes.rendered_scene import Shape
 from texvent_scenes.staging.actors import is_centred
 
@@ -64,3 +66,15 @@ def test_heights_from_above_are_where_rays_down_meet_the_parts(rows):
     is_sure = np.isfinite(found) == np.isfinite(expected)
     assert is_sure.mean() > 0.97  # rays that graze a part
     np.testing.assert_allclose(found[is_sure], expected[is_sure], atol=1e-4)
+
+
+@given(st.floats(-3.2, 3.2), st.floats(-1.2, 1.2))
+def test_level_axes_are_upright_and_turned_to_where_what_they_face_looks(yaw, pitch):
+    forward = np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), np.sin(pitch)])
+    maps = {"torso": np.column_stack([forward, np.eye(3)]), "hand": np.eye(3, 4)}
+    axes = Anchor(("hand",), (1.0, 2.0, 3.0), "torso").locate(maps)
+    x, y, z, place = axes.T
+    assert x @ forward == pytest.approx(np.hypot(*forward[:2]))
+    assert (z.tolist(), place.tolist()) == ([0.0, 0.0, 1.0], [1.0, 2.0, 3.0])
+    assert np.cross(z, x) == pytest.approx(y)
+    assert x @ x == pytest.approx(1.0)
