@@ -173,12 +173,12 @@ def digits(colours: tuple[str, ...]) -> Figure:
 def teaching(colours: tuple[str, ...]) -> Figure:
     """Change of each test's score where one property of the simulated clips is another."""
     scores = teaching_scores()
-    names = [one for one in TEACHING if any(one in found for _, found in scores.values())]
+    names = [one for one in TEACHING if any(one in found for found in scores.values())]
     figure, axes = plt.subplots(figsize=(5.8, 1.6 + 0.36 * len(names)))
-    for number, (label, (base, found)) in enumerate(scores.items()):
+    for number, (label, found) in enumerate(scores.items()):
         for row, name in enumerate(names):
             if name in found:
-                change, error = relative(found[name], base)
+                change, error = relative(*found[name])
                 place = row + 0.13 * (number - (len(scores) - 1) / 2)
                 mark = "osD^v"[number]
                 axes.errorbar(change, place, xerr=error, fmt=mark, ms=5, color=colours[number])
@@ -191,27 +191,31 @@ def teaching(colours: tuple[str, ...]) -> Figure:
     return figure
 
 
-def teaching_scores() -> dict[str, tuple[list[float], dict[str, list[float]]]]:
-    """Test → scores of its base, one per network, and those of each row of `TEACHING`."""
-    found = {}
-    objects = read("objects-factors.json.gz")
+def teaching_scores() -> dict[str, dict[str, tuple[list[float], list[float]]]]:
+    """Test → row of `TEACHING` → its scores, one per network, and those that it differs from."""
+    found: dict[str, dict[str, tuple[list[float], list[float]]]] = {}
     for test, measure in (("table", "AP50 visible"), ("turntable", "accuracy")):
-        arms = {row["arm"]: row["scores"][measure] for row in objects[test]}
-        found[test] = (arms["physical"], teaching_rows(arms, 0))
+        found[test] = {}
+        for name in ("objects-factors", "objects-clips"):  # of other frames, with their own base
+            rows = read(f"{name}.json.gz")[test]
+            arms = {row["arm"]: row["scores"][measure] for row in rows}
+            found[test] |= teaching_rows(arms, "physical", 0)
     for kind, label in (("histogram", "digits, counts"), ("surface", "digits, times")):
         rows = read("digits-ablation.json.gz")["scores"]
         arms = {row["arm"]: row["accuracy"] for row in rows if row["representation"] == kind}
-        found[label] = (arms["as measured"], teaching_rows(arms, 1))
+        found[label] = teaching_rows(arms, "as measured", 1)
     rows = read("reconstruction-factors.json.gz")["rows"]
     arms = {row["factor"]: [1 - one for one in row["scores"]["lpips"]] for row in rows}
-    found["images"] = (arms["as firenet.toml"], teaching_rows(arms, 2))
+    found["images"] = teaching_rows(arms, "as firenet.toml", 2)
     return found
 
 
-def teaching_rows(arms: dict[str, list[float]], place: int) -> dict[str, list[float]]:
-    """Row of `TEACHING` → scores of the arm that one of its tests has for it."""
+def teaching_rows(
+    arms: dict[str, list[float]], base: str, place: int
+) -> dict[str, tuple[list[float], list[float]]]:
+    """Row of `TEACHING` → scores of the arm that one of its tests has for it, and of the base."""
     names = {row: tests[place] for row, tests in TEACHING.items()}
-    return {row: arms[name] for row, name in names.items() if name in arms}
+    return {row: (arms[name], arms[base]) for row, name in names.items() if name in arms}
 
 
 def relative(values: list[float], base: list[float]) -> tuple[float, float]:
