@@ -54,3 +54,16 @@ def test_who_goes_around_something_is_on_all_sides_of_it(text):
     angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
     assert np.ptp(angles) > np.pi
     assert lost_relations(said, scene, moved(scene, middle, (30.0, 0, 0))) == ["around"]
+
+
+@pytest.mark.parametrize("text", ["a row of parked cars", "two parked cars", "five parked trucks",
+                                  "a row of trees", "a row of houses", "six ducks in a row",
+                                  "three men stand in a line"])  # fmt: skip
+def test_rows_and_parked_vehicles_stand_on_a_line_at_even_gaps(text):
+    actors = staged(text)[1].actors
+    places = np.array([one.middle(0.0)[:2] for one in actors])
+    reach = max(actors[0].model.width, actors[0].model.length)
+    assert np.ptp(places[:, 1]) < 0.3 * reach
+    gaps = np.diff(np.sort(places[:, 0]))
+    assert gaps.min() > 0.8 * reach
+    assert gaps.max() < 1.3 * gaps.min()
