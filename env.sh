@@ -1,3 +1,3 @@
 unset PYTHONDONTWRITEBYTECODE
-export PYTHONPATH=/tmp/s63/m/.dist:/tmp/s63/m/src:/tmp/s63/m/lab/src:/tmp/s63/m
+export PYTHONPATH=/work/wt/last/.dist:/work/wt/last/src:/work/wt/last/lab/src:/work/wt/last
 export PATH=/work/main/.venv/bin:$PATH OMP_NUM_THREADS=1

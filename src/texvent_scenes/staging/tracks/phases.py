@@ -106,6 +106,12 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
     )
 
 
+def ends_at_rest(motions: Sequence[Motion]) -> bool:
+    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
+    goes = any(one.kind in PATH_KINDS for one in motions)
+    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
+
+
 def usual_speed(noun: Noun, kind: str) -> float:
     """Usual speed in a kind of motion, m/s: 1 of what usually stands."""
     own = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
