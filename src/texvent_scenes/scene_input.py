@@ -112,19 +112,23 @@ def _without_idle(reading: Reading, nouns: Mapping[str, Noun]) -> tuple[Reading,
             for word in words if said.isdisjoint(after) or one.path.endswith("pace") else ():
                 shown.remove(word)
                 lost[word] = one.why
-                claims += _claim_material(one, word, scene_before)
+                claims += _claim_anyway(one, word, scene_before)
     claimed = (*reading.claims, *claims)
     return replace(reading, scene=scene, shown=tuple(shown), claims=claimed), lost
 
 
-def _claim_material(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
-    """Claim of a material that a thing may have anyway: "a wooden table"."""
+def _claim_anyway(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
+    """Claim of what a thing may be or do anyway: "a wooden table", "swings to and fro"."""
     from texvent_scenes.description import Claim
     from texvent_scenes.spec.data import steps_of
 
     first, *way = steps_of(idle.path)
-    if first == "objects" and way[1:] == ["material"]:
-        yield Claim(word, "material", scene.objects[int(way[0])].material or "", int(way[0]))
+    if first != "objects":
+        return
+    one, last = scene.objects[int(way[0])], str(way[-1])
+    value = getattr(one.motions[int(way[2])] if way[1] == "motions" else one, last, None)
+    if last == "material" or value == "to and fro":
+        yield Claim(word, last, str(value), int(way[0]))
 
 
 def _list_fields(scene: Scene) -> Iterator[tuple[str, str, object]]:
@@ -244,7 +248,8 @@ def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     """Words that are spelt nearly as a noun, each with it."""
     names = {name for key, noun in nouns.items() for name in (key, *noun.synonyms)}
     for word in words:
-        near = get_close_matches(word.lower(), names, 1, _NEAR) if len(word) > _SHORT else []
+        is_open = len(word) > _SHORT and word.lower() not in names
+        near = get_close_matches(word.lower(), names, 1, _NEAR) if is_open else []
         yield from (f"{word}: {name}" for name in near)
 
 

@@ -29,10 +29,12 @@ _INSTANTS, _PER_S = 9, 24.0
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
-_STRAY, _UNEVEN = 0.2, 2.0
+_STRAY, _UNEVEN = 0.12, 2.0
 """Of a row: most departure from its line, in gaps; most ratio of its gaps."""
 _ROUND, _LEAST_ARC = 0.08, math.pi / 3.0
 """Most departure of a way from its circle, in radii; least angle of that circle that it covers."""
+_GROUNDED = 0.1
+"""Height, in sizes of a body, up to which it is on the ground."""
 _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
 
@@ -90,8 +92,8 @@ class _Staged:
         """Copies of the object of which something is claimed."""
         return self.list_actors(-1 if claim.subject is None else claim.subject)
 
-    def departure(self, actor: Actor) -> Float64Array:
-        """[t] Departure of its parts from where they are at first, the greatest of all, m."""
+    def places(self, actor: Actor) -> Float64Array:
+        """[t, n, 3] Places of its parts, beside its own place on the ground, m."""
         count = max(int(self.duration_s * _PER_S), 2) + 1
         at = [actor.place(float(one)) for one in np.linspace(0.0, self.duration_s, count)]
         places = np.array([[part.to_body[:, 3] for part in one.parts] for one in at])
@@ -99,6 +101,11 @@ class _Staged:
         moved = np.array([each @ one[:, :3].T + one[:, 3]
                           for each, one in zip(places, world, strict=True)])  # fmt: skip
         moved -= np.array([[one.to_world[0, 3], one.to_world[1, 3], 0.0] for one in at])[:, None]
+        return moved
+
+    def departure(self, actor: Actor) -> Float64Array:
+        """[t] Departure of its parts from where they are at first, the greatest of all, m."""
+        moved = self.places(actor)
         return np.asarray(np.linalg.norm(moved - moved[0], axis=2).max(axis=1))
 
 
@@ -273,6 +280,37 @@ def _is_moving_inside(staged: _Staged, claim: Claim) -> bool:
     return True
 
 
+def _swings(staged: _Staged, claim: Claim) -> bool:
+    """Whether the part that moves most turns back on its way."""
+    for one in staged.own(claim):
+        steps = np.diff(staged.places(one), axis=0)
+        most = steps[:, np.linalg.norm(steps, axis=2).sum(axis=0).argmax()]
+        if not (most[1:] * most[:-1]).sum(axis=1).min() < 0.0:
+            return False
+    return True
+
+
+def _rises_from(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is on the ground of a place at first, and above it at the end."""
+    return all(
+        one.lowest_m(0.0) <= _GROUNDED * one.size_m < one.lowest_m(staged.duration_s)
+        for one in staged.own(claim)
+    )
+
+
+def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
+    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip."""
+    own, others = staged.own(claim), [one for one in staged.scene.actors]
+    for one in own:
+        low = np.array([one.lowest_m(time_s) for time_s in staged.times])
+        tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
+        gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)
+        is_near = gaps <= _GROUNDED * one.size_m
+        if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
+            return False
+    return True
+
+
 def _is_laid(staged: _Staged, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
     sizes = [one.size[-1] for one in staged.boxes[-1 if claim.subject is None else claim.subject]]
@@ -280,17 +318,17 @@ def _is_laid(staged: _Staged, claim: Claim) -> bool:
 
 
 def _is_doing(staged: _Staged, claim: Claim) -> bool:
-    """Whether a person, a hand or an animal does it at some instant."""
-    return all(
-        any(one.track.at(time_s).activity == claim.value for time_s in staged.times)
-        for one in staged.own(claim)
-    )
+    """Whether a person, a hand or an animal does it at some instant; it may "sit on ground"."""
+    done = ({f"{one.track.at(time_s).activity} " for time_s in staged.times}
+            for one in staged.own(claim))  # fmt: skip
+    return all(any(each.startswith(f"{claim.value} ") for each in one) for one in done)
 
 
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "colour": _has_colour, "material": _is_of, "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
-    "activity": _is_doing, "mutual": _are_mutual,
+    "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
+    "mutual": _are_mutual,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -153,6 +153,42 @@ def test_a_number_of_which_some_are_out_of_view_is_not_shown():
 
 
 @pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a pendulum swings to and fro", "to and fro", True),
+        ("a metronome ticks back and forth", "back and forth", True),
+        ("a fan rotates to and fro", "to and fro", False),
+    ],
+)
+def test_what_moves_by_itself_may_go_to_and_fro(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a plane takes off from a runway", True),
+        ("a helicopter rises from a field", True),
+        ("a bear walks from a forest", False),
+    ],
+)
+def test_what_rises_from_a_place_was_on_its_ground(text, is_shown):
+    check(text, "from", is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a pigeon walks in front of a bus", "walks", False),
+        ("a cat walks across a table", "walks", True),
+        ("a butterfly hovers above a flower", "hovers", True),
+    ],
+)
+def test_who_walks_is_on_the_ground_and_who_flies_is_not(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
 )

@@ -90,8 +90,9 @@ class _Parser(GroupReader):
         self._take()
         if self._token().has("conjunctions"):  # "and then"
             return self._end(clause)
-        if clause.verb is not None and self._is_verb(Clause(about="same")):
-            return Clause(about="same")
+        is_pronoun = self._token().has("pronouns") and self._token(1).has("verb")
+        if clause.verb is not None and (is_pronoun or self._is_verb(Clause(about="same"))):
+            return Clause(about="same")  # "and stops", "and it stops"
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         starts = self._starts_group() or self._token().has("camera") or self._token().is_time

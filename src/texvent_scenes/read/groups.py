@@ -176,6 +176,8 @@ class GroupReader:
             return True
         if token.has(*_HEADS, *MODIFIERS):
             return token.has("relation") and self._at > first
+        if token.is_unknown and self._at > first and self._has_object():
+            return True  # "a player in white serves the ball"
         before = self._token(-1)
         if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling"

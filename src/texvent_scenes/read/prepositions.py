@@ -123,6 +123,9 @@ def go_to_place(
         draft.show(token)  # "steps onto the road": and goes over it
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
+        does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
+        if token.text == "from" and does & word_set("things", "off_ground"):
+            draft.claim(token, "rise", "", moved)  # "takes off from a runway"
     is_road = token.text == "on" and place is PLACES["road"]
     for thing in (draft.things[index] for index in subjects if is_road):
         if draft.nouns[thing["noun"]].motion != "drive":
@@ -185,6 +188,20 @@ def claim_relation(
         draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
     elif not is_shown and kind in _CLAIMED:
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
+
+
+def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Give persons clothes of a colour: "a man in red"; whether it says so."""
+    words = [one.unknown[0] for one in phrase.groups if one.head is None and one.unknown]
+    said = [one.first("field") for one in words if len(words) == len(phrase.groups) == 1]
+    colours = [one.value[1] for one in said if one is not None and one.value[0] == "colour"]
+    are_persons = all(draft.things[one]["noun"] in PERSON_NOUNS for one in subjects)
+    if not (colours and subjects and are_persons and phrase.preposition.text == "in"):
+        return False
+    for one in subjects:
+        draft.things[one].setdefault("colour", colours[0])
+    draft.show(phrase.preposition, *words)
+    return True
 
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:

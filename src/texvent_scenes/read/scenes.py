@@ -24,6 +24,7 @@ from texvent_scenes.read.prepositions import (
     are_own_parts,
     claim_mutual,
     claim_relation,
+    dress,
     find_mutual,
     find_relation,
     go_to_place,
@@ -32,13 +33,14 @@ from texvent_scenes.read.prepositions import (
     relate_one,
     say_parts,
 )
+from texvent_scenes.read.senses import choose_senses
 from texvent_scenes.read.things import ThingReader
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
-    tokens = split_prompt(prompt, lexicon_of(nouns))
+    tokens = choose_senses(split_prompt(prompt, lexicon_of(nouns)), nouns)
     draft = SceneDraft(tokens, nouns)
     reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
@@ -240,7 +242,20 @@ class _SentenceReader(ThingReader):
             picked = [one for one, group in zip(named, clause.subjects, strict=True) if group.picks]
             self._leave_places([index for one in picked for index in one], clause.after[:1])
             return [index for one in (picked if any(picked) else named) for index in one]
-        return self._nearest if clause.about == "nearest" else self._subjects
+        first = clause.after[0] if clause.after and clause.verb is None else None
+        if isinstance(first, Token) and first.is_unknown and not clause.about:
+            return []  # "as wugs dax against it"
+        return self._nearest if clause.about == "nearest" else self._find_meant(clause)
+
+    def _find_meant(self, clause: Clause) -> list[int]:
+        """Objects of the last clause that a pronoun before a verb means: "drops it, it breaks"."""
+        verb = clause.verb
+        word = self._draft.tokens[verb.at - 1].text if verb is not None and verb.at else ""
+        if word not in ("it", "he", "she"):
+            return self._subjects
+        fits = [one for one in (*self._subjects, *self._acted, *self._nearest)
+                if (self._draft.things[one]["noun"] in PERSON_NOUNS) == (word != "it")]  # fmt: skip
+        return self._subjects if {*self._subjects} <= {*fits} else fits[:1]
 
     def _is_able(self, clause: Clause, index: int) -> bool:
         """Whether an object can do what not all can."""
@@ -261,6 +276,8 @@ class _SentenceReader(ThingReader):
         kind = find_relation(draft, phrase, subjects)
         if not phrase.groups or find_mutual(phrase.groups):
             self._relate_back(kind, phrase, subjects)
+            return []
+        if dress(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
@@ -337,3 +354,6 @@ class _SentenceReader(ThingReader):
             self._draft.add_move(move)
             if targets:
                 draft.parts["camera"].setdefault("target", targets[0])
+            followed = targets if move["kind"] == "follow" else []
+            for thing in (draft.things[one] for one in followed if draft.can_go(one)):
+                thing["motions"] = thing["motions"] or [{"kind": "move"}]

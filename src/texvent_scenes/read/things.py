@@ -185,13 +185,16 @@ class ThingReader:
         draft.show(verb)
         if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
-        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
+        is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
+        if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
             if act.who in ("person", "hand", "animal") or act.kind == "lie":
                 is_body = act.who != "plain" or draft.walks(index)
                 draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
+            elif act.kind in ("walk", "run", "fly", "hover"):
+                draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
