@@ -56,6 +56,19 @@ def test_who_goes_around_something_is_on_all_sides_of_it(text):
     assert lost_relations(said, scene, moved(scene, middle, (30.0, 0, 0))) == ["around"]
 
 
+@pytest.mark.parametrize("text", ["a man walks out of a house", "a dog runs out of a house"])
+def test_who_comes_out_of_a_house_starts_in_it_and_comes_nearer(text):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    one, house = scene.actors
+    (low, high), start = box(house, 0.0), one.middle(0.0)
+    assert (low < start).all()
+    assert (start < high).all()
+    ways = [np.linalg.norm(one.middle(t) - scene.camera(t).position) for t in TIMES_S]
+    assert (np.diff(ways) < 1e-9).all()
+    assert ways[-1] < ways[0] - 1.0
+
+
 @pytest.mark.parametrize("text", ["a row of parked cars", "two parked cars", "five parked trucks",
                                   "a row of trees", "a row of houses", "six ducks in a row",
                                   "three men stand in a line"])  # fmt: skip
