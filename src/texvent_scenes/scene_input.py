@@ -84,9 +84,10 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
 
 def _hint(reading: Reading) -> str:
     """A hint for a prompt whose words are known, but not as they are put together."""
-    from texvent_scenes.meanings import list_meanings
+    from texvent_scenes.read.lexicon import lexicon_of, split_prompt
 
-    known = [one for one in reading.not_understood if "noun" in dict(list_meanings(one))]
+    words = ((one, split_prompt(one, lexicon_of(None))) for one in reading.not_understood)
+    known = [one for one, tokens in words if len(tokens) == 1 and tokens[0].has("noun")]
     return f"known alone: {few(known, MOST_WORDS)}; say it in a plainer sentence; " if known else ""
 
 

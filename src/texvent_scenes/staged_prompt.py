@@ -108,4 +108,4 @@ def _staged(
     unseen = find_unseen(scene, description, size, duration_s)
     nouns = frozenset(str(value) for kind, value, _ in unseen.violations if kind == "noun")
     claims = description.claims
-    return scene, unseen, *find_held(claims, scene, description, nouns, duration_s)
+    return scene, unseen, *find_held(claims, scene, description, nouns, size, duration_s)

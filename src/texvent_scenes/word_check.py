@@ -14,6 +14,8 @@ from functools import cached_property
 
 import numpy as np
 
+from texvent.camera import project
+from texvent.sensor import SensorSize
 from texvent_scenes.colours import SURFACES, find_colour
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES
@@ -44,6 +46,7 @@ def find_held(
     scene: ComposedScene,
     description: SceneDescription,
     unseen: frozenset[str],
+    size: SensorSize,
     duration_s: float,
 ) -> tuple[frozenset[str], frozenset[str]]:
     """Words of which all that is claimed holds, and the others.
@@ -53,9 +56,10 @@ def find_held(
         scene: the staged scene.
         description: the scene before it was staged.
         unseen: nouns of objects that are out of view.
+        size: of the image, pixels.
         duration_s: length of the clip, s.
     """
-    staged, failed = _Staged(scene, description, duration_s), set[str]()
+    staged, failed = _Staged(scene, description, size, duration_s), set[str]()
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
         is_seen = unseen.isdisjoint(description.objects[index].noun for index in about)
@@ -70,6 +74,7 @@ class _Staged:
 
     scene: ComposedScene
     description: SceneDescription
+    size: SensorSize
     duration_s: float
 
     @cached_property
@@ -91,6 +96,11 @@ class _Staged:
     def own(self, claim: Claim) -> list[Actor]:
         """Copies of the object of which something is claimed."""
         return self.list_actors(-1 if claim.subject is None else claim.subject)
+
+    def has_in_image(self, actor: Actor, time_s: float) -> bool:
+        """Whether a part of a body is neither left nor right of the image."""
+        x = project(self.scene.camera(time_s), self.size, actor.corners(time_s))[:, 0]
+        return bool(((x >= 0.0) & (x <= self.size.width)).any())
 
     def places(self, actor: Actor) -> Float64Array:
         """[t, n, 3] Places of its parts, beside its own place on the ground, m."""
@@ -317,11 +327,27 @@ def _is_laid(staged: _Staged, claim: Claim) -> bool:
     return all(each[2] < max(each[:2]) for each in sizes)
 
 
+def _bounces(staged: _Staged, claim: Claim) -> bool:
+    """Whether it comes down in the image, and then up again."""
+    count = max(int(staged.duration_s * _PER_S), 2) + 1
+    times = [float(at) for at in np.linspace(0.0, staged.duration_s, count)]
+    for one in staged.own(claim):
+        height = [one.lowest_m(at) for at in times if staged.has_in_image(one, at)]
+        if not height:
+            return False
+        low = int(np.argmin(height))
+        if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
+            return False
+    return True
+
+
 def _is_doing(staged: _Staged, claim: Claim) -> bool:
-    """Whether a person, a hand or an animal does it at some instant; it may "sit on ground"."""
-    done = ({f"{one.track.at(time_s).activity} " for time_s in staged.times}
-            for one in staged.own(claim))  # fmt: skip
-    return all(any(each.startswith(f"{claim.value} ") for each in one) for one in done)
+    """Whether a person, a hand or an animal does it at some instant; who sits down, sits."""
+    first = str(claim.value).split()[0]
+    return all(
+        any(one.track.at(time_s).activity.split()[0] == first for time_s in staged.times)
+        for one in staged.own(claim)
+    )
 
 
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
@@ -329,6 +355,6 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
-    "mutual": _are_mutual,
+    "mutual": _are_mutual, "bounce": _bounces,
 }  # fmt: skip
 """Kind of claim → its check."""

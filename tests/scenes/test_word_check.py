@@ -198,6 +198,18 @@ def test_who_walks_is_on_the_ground_and_who_flies_is_not(text, word, is_shown):
 
 
 @pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a basketball bounces", "bounces", True),
+        ("a boy throws a ball and it bounces", "bounces", False),
+        ("a woman walks to a chair and sits down", "sits down", True),
+    ],
+)
+def test_what_is_done_is_seen_to_be_done(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
 )

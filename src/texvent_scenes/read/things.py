@@ -193,8 +193,9 @@ class ThingReader:
             if act.who in ("person", "hand", "animal") or act.kind == "lie":
                 is_body = act.who != "plain" or draft.walks(index)
                 draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
-            elif act.kind in ("walk", "run", "fly", "hover"):
-                draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
+            elif act.kind in ("walk", "run", "fly", "hover", "bounce"):
+                kind = "bounce" if act.kind == "bounce" else "ground"
+                draft.claim(verb, kind, act.kind in ("walk", "run"), [index])
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
