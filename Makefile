@@ -128,6 +128,9 @@ test-newest-releases test-lowest-releases: test-%-releases: $(VENV)/.dev
 fuzz: $(VENV)/.dev
 	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz $(UNHURRIED)
 
+# One thread of torch's each: two of these run at once, and threads that wait for a core cost most.
+test-torch test-detect: export OMP_NUM_THREADS := 1
+
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch
 

@@ -24,6 +24,7 @@ BENCHMARKS = {
     "digits-ablation": (),
     "objects": (),
     "objects-factors": (),
+    "objects-clips": (),
     "objects-programs": (),
     "reconstruction-factors": (),
     "selftest": (),

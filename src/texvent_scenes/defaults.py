@@ -15,15 +15,13 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.spec.data import SPACED
+from texvent_scenes.spec.data import ACTED, SPACED
 from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""
-_ACTS = frozenset({"push", "kick", "throw", "collide"})
-"""Relations in which something moves."""
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
                       "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
@@ -272,13 +270,14 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
 def _has_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
     moved = (
         one.blink_hz is not None
+        or one.switch_s is not None
         or _flickers(one, nouns[one.noun])
         or len(one.motions) > 1
         or one.noun in nouns_with("flows")
         or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
         for one in description.objects
     )
-    acts = any(one.kind in _ACTS for one in description.relations)
+    acts = any(one.kind in ACTED for one in description.relations)
     return description.camera.is_moving or bool(description.effects) or acts or any(moved)
 
 

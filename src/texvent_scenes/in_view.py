@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -42,9 +42,12 @@ MOST_POINTS = 12_000
 LEAST_PIXELS, _LEAST_AREA = 6, 0.00025
 """Pixels, and share of the image, below which an object is too small to be told."""
 LEAST_SEEN = 0.15
-"""Share of an object's pixels that nothing stands before; of less it is hidden."""
+"""Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
+several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
+_TOLD = 4
+"""Points of the grid from which on a body is no speck."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
@@ -101,7 +104,9 @@ def find_unseen(
         if not own:
             continue
         most = max(counts)
-        lost = sum(views[one.instance].share < LEAST_SEEN for one in own)
+        lost = sum(views[one.instance].share < LEAST_SEEN or
+                   (len(own) > 1 and _is_cut_off(one, cameras, times, size, LEAST_SEEN))
+                   for one in own)  # fmt: skip
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
@@ -130,7 +135,8 @@ def find_unseen(
         description, scene.place, scene.environment(0.0), scene.actors, times
     )
     violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
-    notes = () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
+    notes = [*_list_hidden(scene, views, cameras, times, size)]
+    notes += () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
@@ -166,6 +172,19 @@ def _list_departures(
             yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
         elif 0 < sum(inside) < 0.5 * len(inside) and one.noun.name not in told:
             yield f"the {one.noun.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
+
+
+def _list_hidden(
+    scene: ComposedScene, views: Mapping[int, View], cameras: Sequence[PosedCamera],
+    times: Sequence[float], size: SensorSize,
+) -> Iterator[str]:  # fmt: skip
+    """Notes on what something else hides for a part of the clip, such as a tunnel."""
+    for one in scene.actors:
+        counts = views[one.instance].at
+        gone = [not count and _is_inside(one, time_s, camera, size)
+                for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
+        if max(counts) >= _TOLD and sum(gone) > 1:
+            yield f"the {one.noun.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
 
 
 def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:
@@ -279,15 +298,16 @@ def _list_without(
 
 
 def _is_cut_off(
-    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
-) -> bool:
+    actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize,
+    least: float = LEAST_INSIDE,
+) -> bool:  # fmt: skip
     """Whether no instant has more than a share of its box in the image."""
     for time_s, camera in zip(times, cameras, strict=True):
         seen = project(camera, size, actor.corners(time_s))
         if (seen[:, 2] > 0.0).all():
             box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
             inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
-            if float(np.prod(inside / np.diff(box, axis=0))) >= LEAST_INSIDE:
+            if float(np.prod(inside / np.diff(box, axis=0))) >= least:
                 return False
     return True
 
@@ -313,6 +333,8 @@ class View(NamedTuple):
     """Its pixels at the instant that shows most of it."""
     share: float
     """Share of those that it would have if nothing stood before it."""
+    at: tuple[int, ...] = ()
+    """Points of the grid that show it at each instant."""
 
 
 def count_pixels(
@@ -331,7 +353,8 @@ def count_pixels(
         count_unoccluded(world.instant, owner, points, alone)
         for one in ids:
             count = seen[number][one]
-            views[one] = View(count * step * step, count / max(int(alone[one]), 1))
+            views[one] = View(count * step * step, count / max(int(alone[one]), 1),
+                              tuple(each[one] for each in seen))  # fmt: skip
     return {one: views[one] for one in instances}
 
 

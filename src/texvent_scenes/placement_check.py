@@ -13,26 +13,30 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
+from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import RoadLine
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
-                   "dive", "spin", "sway"})  # fmt: skip
+                   "dive", "spin", "sway", "climb", "grow", "shrink"})  # fmt: skip
 """Motions that need no support."""
-_SHARED = frozenset({"on", "in", "at", "under", "hold", "wear", "ride", "push", "kick", "throw",
-                     "collide", "through", "with", "from", "follow"})  # fmt: skip
+_SHARED = ACTED | WAYS | {"on", "in", "at", "under", "hold", "wear", "ride", "through", "with",
+                          "from", "follow"}  # fmt: skip
 """Relations in which two bodies may touch."""
 _ROOM_M, _ROOM = 0.06, 0.08
 """Gap below a body that is no gap: metres, and share of its height on top of that."""
+_LAID, _TILTED, _FLAT = ("lie", "topple"), 0.7, 1.1
+"""Motions that end in a body on its side; most cosine of its axis against the vertical then; height
+over width of what lies as it stands."""
 _SLIM, _CENTRAL = 0.2, 0.25
 """Half of the middle of a body that no larger one may have a part in, and of its foot that
 something must be below, in extents of its box."""
@@ -67,6 +71,9 @@ def find_misplaced(
     for number, one in enumerate(actors):
         lost = [*bodies.list_unborne(number, place)]
         is_free = description.objects[one.object_index].placement == "lane"
+        is_free |= any((each.subject == one.object_index and each.kind == "between")
+                        or (each.kind in WAYS and one.object_index in (each.subject, *each.targets))
+                       for each in description.relations)  # fmt: skip
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         for kind, value, text in lost:
@@ -75,6 +82,24 @@ def find_misplaced(
             if relation.subject == one.object_index and relation.kind in ("on", "above"):
                 yield Violation("relation", relation.kind, "")
     yield from bodies.find_intersections()
+    for one in actors:
+        last = (description.objects[one.object_index].motions or (STANDING,))[-1]
+        if last.kind in _LAID and not _is_laid(one, last.kind, times):
+            yield Violation("motion", last.kind, f"the {one.noun.name} on its side")
+
+
+def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
+    """Whether a body has fallen over or lies in the end, not upright on its foot or its wheels."""
+    turn, corners = one.track.at(times[-1]).to_world()[:, :3], one.corners(times[-1])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    is_tilted = turn[2, 2] < _TILTED
+    if kind == "topple":
+        longest = int(np.argmax([one.model.length, one.model.width, one.model.height]))
+        return bool(is_tilted and abs(turn[2, longest]) < _TILTED)
+    is_vehicle = one.noun.motion in ("drive", "roll", "sail") and one.noun.habitat != "fixed"
+    is_flat = (high - low)[2] <= _FLAT * (high - low)[:2].max()
+    is_round = one.noun.motion == "roll" and one.model.height <= 1.1 * one.model.width
+    return bool(is_tilted or is_round or (is_flat and not is_vehicle))
 
 
 def _list_strays(
@@ -123,7 +148,7 @@ class _Bodies:
         acts = {relation.kind for relation in self._description.relations
                 if one.object_index in relation.targets}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
-        is_free = bool(does & _FREE) or bool(acts & {"throw", "kick", "hold", "wear", "collide"})
+        is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip

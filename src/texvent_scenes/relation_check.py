@@ -15,11 +15,15 @@ from numpy.typing import NDArray
 
 from texvent.camera import PosedCamera
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.shapes import bounds, moved
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.tracks.phases import ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
@@ -30,7 +34,7 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 """Direction → axis of the camera (right, down, forward) and sign."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with")
+_LASTING = ("on", "in", "at", "with", "contained", "hung")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
@@ -39,13 +43,28 @@ least share of the way by which what goes "towards" something comes nearer; gap 
 what goes "from" something begins."""
 
 
+_AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+_FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
+"""Points of a foot around its middle, at so much of its size, of which something must be below so
+many; height of a seat over that of who sits there."""
+_LANE_M, _STOPPED = 3.0, 1.5
+"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes."""
+_ON_THE_WAY = 0.3
+"""Distance from the line between two things at which something is between them, of its length."""
+_BEFORE = 1.5
+"""Half widths of both by which what is before or behind something may be aside of it."""
+_PROTRUDING, _SUNKEN = 0.12, 0.2
+"""Share of the size of what is in a container that may be beyond its sides, and least share of its
+height below the rim."""
+
+
 class Violation(NamedTuple):
     """A word of a scene that no instant shows."""
 
     kind: str
     """"relation", "direction", "motion", "noun", "effect" or a field of light or place."""
-    value: str
-    """Such as "under", "left" or "snow"."""
+    value: str | float
+    """Such as "under", "left" or "snow"; 2 of a count."""
     line: str
     """For the report, such as "the ball under the chair"."""
 
@@ -63,6 +82,8 @@ class BodyBoxes(NamedTuple):
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
     parts: Float64Array
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
+    ahead: Float64Array = np.zeros((1, 2))
+    """[t, 2] unit vectors of its heading on the ground; zero: it has none."""
 
 
 def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
@@ -75,7 +96,9 @@ def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]
     seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
     displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
     parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
-    return BodyBoxes(middle, high - low, seen, displacement, np.array(parts))
+    yaws = np.array([actor.track.at(time).yaw for time in times])
+    ahead = np.stack([np.cos(yaws), np.sin(yaws)], axis=1)
+    return BodyBoxes(middle, high - low, seen, displacement, np.array(parts), ahead)
 
 
 def find_violations(
@@ -84,16 +107,14 @@ def find_violations(
     """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
-            if one.kind in ("kick", "throw")}  # fmt: skip
+            if one.kind in ("kick", "throw", "roll")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         side = description.objects[one.subject].placement
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
-        nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
-        is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
-        kind = "in" if is_flat else one.kind
+        kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
         if kind not in (*_RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
@@ -117,6 +138,28 @@ def find_violations(
             if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
+
+
+def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
+    """Name of the rule for a kind of relation between these bodies."""
+    noun, target = who.noun, what.noun
+    if kind in ("front", "behind", "beside") and ends_at_rest(who.motions):
+        return "stopped"
+    is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
+    if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
+        return f"{kind} in a lane"
+    if kind == "through" and target in nouns_with("passage"):
+        return "through an opening"
+    if kind == "in" and trait_value("container", target) is not None:
+        is_swimmer = noun in NOUNS and NOUNS[noun].habitat == "water" and noun not in AFLOAT
+        is_seen = target in nouns_with("see-through")
+        is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
+        return "never" if is_out else "contained"
+    if kind == "on" and hangs_on(noun, target):
+        return "hung"
+    if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
+        return "in"
+    return kind
 
 
 def _holds(
@@ -157,6 +200,30 @@ def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> 
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
 
 
+def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it is in one line with another vehicle, before it (1) or behind it (-1)."""
+    off, ahead = (one.middle - other.middle)[:, :2], other.ahead
+    aside = np.abs(off[:, 0] * ahead[:, 1] - off[:, 1] * ahead[:, 0])
+    return np.asarray((sign * (off * ahead).sum(axis=1) > 0.0) & (aside <= _LANE_M))
+
+
+def _is_stopped(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it comes to rest short of the other, near it."""
+    off = (other.middle - one.middle)[-1, :2]
+    gap = np.abs(off) - 0.5 * (one.size + other.size)[-1, :2]
+    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= max(_STOPPED * one.size[-1].max(), _LANE_M)
+    return np.array([is_near and off @ one.ahead[-1] > 0.0])
+
+
+def _is_contained(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is between the sides of a container, above its floor and partly below its rim."""
+    room = np.maximum(0.5 * (other.size - one.size), 0.0) + _PROTRUDING * one.size
+    is_amid = (np.abs(one.middle - other.middle) <= room)[:, :2].all(axis=1)
+    is_below = _clears(one, other, 0.5) <= -_SUNKEN * np.minimum(one.size, other.size)[:, 2]
+    is_above_floor = _clears(one, other, -0.5) >= -_PROTRUDING * one.size[:, 2] - 0.01
+    return np.asarray(is_amid & is_below & is_above_floor)
+
+
 def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
     """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
     level = other.middle[:, 2] + share * other.size[:, 2]
@@ -164,10 +231,35 @@ def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
 
 
 def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it is over its lower half and not above it."""
-    room = 0.5 * one.size[:, 2] + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
-    is_over = (_clears(one, other, 0.5) <= room) & (_clears(one, other, -0.5) >= -0.05)
-    return np.asarray(_within(one, other, 2) & is_over)
+    """Whether parts of the other are below most of its foot, and none of it above."""
+    tall = one.size[:, 2]
+    room = 0.2 * tall + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
+    foot_m = one.middle[:, 2] - 0.5 * tall
+    low, high = (one[:, None] for one in (foot_m - room, foot_m + _SEATED * tall + 0.05))
+    gone = (other.middle - other.middle[0])[:, None]
+    parts = other.parts[None] + gone[:, :, None] if _stay(other) else _own_box(other)
+    bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
+    is_larger = one.size > other.size  # such as a person on a chair, a bird on a fence
+    reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
+    found = np.zeros(len(tall))
+    for way in _AROUND:
+        spot = (one.middle[:, :2] + way * reach)[:, None]
+        is_below = ((parts[..., 0, :2] <= spot) & (parts[..., 1, :2] >= spot)).all(axis=-1)
+        found += (is_below & bears).any(axis=1)
+    return np.asarray((found >= _BORNE) & (_clears(one, other, 0.5) <= room))
+
+
+def _own_box(one: BodyBoxes) -> Float64Array:
+    """[t, 1, 2, 3] its box as its only part, of a body that may turn."""
+    half = 0.5 * one.size + 0.02
+    return np.stack([one.middle - half, one.middle + half], axis=1)[:, None]
+
+
+def _is_hung(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it touches a side of the other, no higher than that and no lower."""
+    gap = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
+    is_beside = (gap[:, :2] <= 0.05).all(axis=1)
+    return np.asarray(is_beside & (gap[:, 2] <= -0.98 * one.size[:, 2]))
 
 
 def _is_under(one: BodyBoxes, other: BodyBoxes) -> _Flags:
@@ -188,17 +280,30 @@ def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
 
 
 def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    is_near = np.abs(_aside(one, other)) <= 2.0
+    is_near = np.abs(_aside(one, other)) <= _BEFORE
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
 
 
-def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it has come so much nearer or gone away, and not mostly past it."""
-    off = one.middle - other.middle
+def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
+    """Whether it has come so much nearer or gone away along `axes`, and not mostly past it."""
+    off = (one.middle - other.middle)[:, :axes]
     away, way = np.linalg.norm(off, axis=1), off - off[0]
     gone = sign * (away - away[0])
     is_direct = gone >= _DIRECT * np.linalg.norm(way, axis=1)
     return np.asarray((gone > _LEAST_DISPLACEMENT * one.size.max()) & is_direct)
+
+
+def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its foot is at the top of the other, give or take some of its height."""
+    is_level = np.abs(_clears(one, other, 0.5)) < 2.0 * _LEAST_DISPLACEMENT * one.size[:, 2] + 0.02
+    return np.asarray(_within(one, other, 2) & is_level)
+
+
+def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it gets higher, or of sign -1 lower, where the other is."""
+    risen = sign * (one.middle[-1] - one.middle[0])[2]
+    is_high = risen > _LEAST_DISPLACEMENT * one.size[0, 2]
+    return np.asarray(_within(one, other, 2, 1.0)[[0, -1]] & is_high)
 
 
 def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
@@ -207,6 +312,16 @@ def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
     displacement = off[-1] - off[0]
     room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
     return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
+
+
+def _is_through(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it goes in before the middle and out behind it, meets no part, and one is above."""
+    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
+    slim = 0.3 * one.size[:, None]
+    is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2).any(axis=1)
+    is_under = ((low < middle) & (high > middle))[..., :2].all(axis=2)
+    is_roofed = (is_under & (low[:, 2] > middle[..., 2])).any(axis=1)
+    return np.asarray(_is_passing(one, other) & ~is_met.any() & is_roofed)
 
 
 def _is_around(one: BodyBoxes, other: BodyBoxes) -> _Flags:
@@ -235,19 +350,24 @@ def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 
 
 def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
-    """Whether its middle lies beside the way from one to the other, nearer than half of that."""
+    """Whether its middle lies on the way from one to the other, or near that."""
     way = (second.middle - first.middle)[:, :2]
     off = (one.middle - first.middle)[:, :2]
     length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
     along = (off * way).sum(axis=1) / length**2
     aside = np.abs(off[:, 0] * way[:, 1] - off[:, 1] * way[:, 0]) / length
-    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= 0.5 * length))
+    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= _ON_THE_WAY * length))
 
 
 _RULES: Mapping[str, _Rule] = {
     "on": _is_on, "under": _is_under, "around": _is_around,
     "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
     "in": lambda one, other: _within(one, other, 3),
+    "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
+    "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,
+    "contained": _is_contained, "hung": _is_hung,
+    "never": lambda one, other: np.zeros(1, dtype=np.bool_),
+    "through an opening": _is_through,
     "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),
     "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
     "behind": lambda one, other: _deeper(one, other, 1),
@@ -259,6 +379,12 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
+    "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
+    "into": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _within(one, other, 2)[-1:],
+    "out of": lambda one, other: _recedes(one, other, 1, 2)[-1:] & _within(one, other, 2)[:1],
+    "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
+    "up": lambda one, other: _climbs(one, other, 1),
+    "down": lambda one, other: _climbs(one, other, -1),
     "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, _AT_START)[:1],
 }  # fmt: skip
 """Kind of relation → whether a body is so to another; acts have none."""

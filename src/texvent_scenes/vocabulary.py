@@ -19,7 +19,7 @@ _KINDS = {
     "direction": "direction",
 }  # fmt: skip
 """Kinds of `meanings_of`, and the families that they are listed under."""
-_READ_ONLY = ("route", "off")
+_READ_ONLY = ("route",)
 """Relations that sentences have and scene files have not."""
 
 

@@ -8,9 +8,15 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.dataset.simulated_samples import SimulatedSamples
-from texvent.errors import InputError, MissingDependencyError
+from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.generation.videos.stored_video import write_video
-from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
+from texvent.run.prepare import (
+    make_video,
+    open_subject,
+    prepare_prompt,
+    prepare_source,
+    prepare_video,
+)
 from texvent.settings.resolution import resolve
 from texvent_lab.bench.fidelity.entries import simulate_video
 from texvent_scenes.procedural import ProceduralGenerator
@@ -102,3 +108,12 @@ def test_a_prompt_changes_no_level_of_a_stored_video(tmp_path, options):
     )
     assert len(unnamed) > 0
     assert named.equals(unnamed)
+
+
+def test_a_field_of_a_scene_file_without_effect_is_refused_with_the_name_of_the_file(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text('[[objects]]\nnoun = "car"\n[[objects.motions]]\nkind = "drive"\nrate_hz = 3\n')
+    with pytest.raises(ConfigError) as caught:
+        open_subject(str(path))
+    where = f"{path}: objects[0].motions[0].rate_hz has no effect: 'drive' of a car"
+    assert str(caught.value).startswith(where)

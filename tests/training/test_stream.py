@@ -209,6 +209,17 @@ def test_physical_clips_are_the_models_own_events_of_what_was_drawn(per):
     assert seen > 1000
 
 
+def test_thresholds_that_the_pixel_model_refuses_are_refused_at_once():
+    ranges = PhysicalRanges(threshold=(0.2, 2.5), ratio=(1.0, 10.0))
+    highest = np.array([2.5, 25.0, *(getattr(ranges, name)[1] for name in ranges.drawn)])
+    assert ranges.config(highest).contrast_threshold == pytest.approx(2.5 * 10**0.5)
+    assert PhysicalRanges(threshold=(0.2, 10.0), ratio=(1.0, 1.0)).threshold == (0.2, 10.0)
+    with pytest.raises(
+        ConfigError, match=r"^threshold is .* would reach 12\.2, and 10 is the most"
+    ):
+        PhysicalRanges(threshold=(0.2, 10.0))
+
+
 def test_every_physical_range_is_drawn_from_for_each_clip(folder):
     ranges = PhysicalRanges()
     batches = take(EventStream(folder, randomize="physical", outputs="counts", **SMALL), 10)
@@ -309,6 +320,10 @@ def test_boxes_lie_where_their_objects_are_in_a_mirrored_crop():
     for straight, turned in zip(take(stream, 2), take(mirror, 2), strict=True):
         for one, other in zip(straight.truth["boxes"][0], turned.truth["boxes"][0], strict=True):
             assert torch.equal(WIDTH - one["boxes"][:, [2, 0]], other["boxes"][:, [0, 2]])
+
+
+ORDERS = [[1, 4, 3, 5, 0, 2], [1, 3, 4, 2, 0, 5], [4, 2, 0, 3, 5, 1]]
+DRAWN = {"recommended": 5208.2176, "physical": 5208.4999, "v2v": 35.3505, "none": 17.0606}
 
 
 def test_draws_and_orders_of_a_seed_are_those_of_the_release():

@@ -75,6 +75,14 @@ def test_a_video_of_a_model_goes_from_its_decoder_to_events_and_a_file():
 
 
 @pytest.mark.filterwarnings("ignore:.*DeprecationWarning")
+@pytest.mark.skipif(torch.cuda.is_available(), reason="a GPU can do it")
+@pytest.mark.parametrize("words", [[], ["--tiny"]])
+def test_a_published_size_is_not_tried_on_a_cpu(words, capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["gpu", "--real-size", "wan-vace-1.3b", *words])
+    assert gpu.main() == 2
+    assert "no GPU, which --real-size needs" in capsys.readouterr().err
+
+
 def test_a_model_of_real_size_goes_from_its_files_to_events():
     pytest.importorskip("diffusers")
     size = RealSize(2, 12, 2, 32, 32, 1, 4)

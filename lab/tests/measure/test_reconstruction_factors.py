@@ -24,6 +24,7 @@ from texvent_lab.measure.reconstruction_factors import (
     main,
     trainings,
 )
+from texvent_lab.train.reconstruction.streamed import StreamedExamples
 
 pytestmark = pytest.mark.torch
 TRAINING = """\
@@ -48,6 +49,9 @@ options = {contrast_threshold = 0.4}
 [factors."frame times"]
 video = {fps = 40}
 options = {interpolate = "none", timestamp_rule = "end"}
+[factors.streamed]
+video = {fps = 100}
+stream = "v2v"
 [factors.esim]
 specification = "tiny.toml"
 variant = "esim"
@@ -106,7 +110,7 @@ def test_what_cannot_be_changed_is_refused(folder, changes, message):
 
 def test_each_factor_has_a_training_of_its_own(folder):
     found = trainings(folder / "factors.toml", folder / "work", None)
-    assert list(found) == ["as it is", "threshold .4", "frame times", "esim"]
+    assert list(found) == ["as it is", "threshold .4", "frame times", "streamed", "esim"]
     slow = read_specification(found["frame times"].data.specification)
     assert slow.options["fps"] == 40
     assert found["esim"].data.variant == "esim"
@@ -114,6 +118,28 @@ def test_each_factor_has_a_training_of_its_own(folder):
     assert written.variants[0].options == {"contrast_threshold": 0.4}
     with pytest.raises(ConfigError, match="unknown factor 'noise'"):
         trainings(folder / "factors.toml", folder / "work", ["noise"])
+    (folder / "factors.toml").write_text(FACTORS.replace('"v2v"', '"v3v"'))
+    with pytest.raises(ConfigError, match=r"streamed: stream is 'v3v'; .* did you mean 'v2v'"):
+        trainings(folder / "factors.toml", folder / "work", ["as it is"])
+
+
+def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(folder):
+    config = trainings(folder / "factors.toml", folder / "work", ["streamed"])["streamed"]
+    examples = StreamedExamples(config, "v2v")
+    assert len(examples.prompts) == 2
+    clip = examples.clip(1)
+    assert len(clip.frames) == 13  # .125 s at 100 frames per second
+    first, again, other = (examples(1, np.random.default_rng(n)) for n in (0, 0, 1))
+    assert first["voxels"].shape == (4, 5, 16, 16)
+    assert all(np.array_equal(first[name], again[name]) for name in first)
+    assert not np.array_equal(first["voxels"], other["voxels"])
+    kept = StreamedExamples(config, "none")
+    assert kept.identity != examples.identity
+    images = (kept(1, np.random.default_rng(0))["images"][:, 0] * 255).round()
+    crops = np.lib.stride_tricks.sliding_window_view(clip.frames, (16, 16), (1, 2))
+    found = [(crops == image).all(axis=(-1, -2)).any(axis=(1, 2)) for image in images]
+    starts = range(2, 13 - 6)
+    assert any(all(found[k][n + 2 * k] for k in range(4)) for n in starts)  # grids of 20 ms
 
 
 def test_every_factor_of_the_repository_can_be_made(tmp_path):
@@ -154,17 +180,17 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     write_recording(folder / "bar")
     monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))  # without LPIPS' weights
     words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
-    words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,frame times"]
+    words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,streamed"]
     words += ["--clips", "1", "--epochs", "1"]
     monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
     assert main() == 0
     rows = read_document(folder / "a.json")["rows"]
-    assert [one["factor"] for one in rows] == ["as it is", "frame times"]
+    assert [one["factor"] for one in rows] == ["as it is", "streamed"]
     assert {len(values) for one in rows for values in one["scores"].values()} == {1}
     monkeypatch.setattr(sys, "argv", [*sys.argv, "--overwrite"])
     assert main() == 0
     assert read_document(folder / "a.json")["rows"] == rows
-    assert "| frame times |" in capsys.readouterr().out
+    assert "| streamed |" in capsys.readouterr().out
     document = read_document(folder / "a.json")
     assert document["protocol"] == {"networks per row": 1, "clips": 1, "epochs": 1}
     pages = page_files(document, "reconstruction-factors.json")

@@ -36,7 +36,9 @@ def test_the_scores_are_those_of_the_best_epoch(trained: Path) -> None:
     best = max(told["epochs"], key=lambda row: row["accuracy"])
     found = json.loads((trained / "scores.json").read_text())
     assert found["scores"]["accuracy"] == best["accuracy"]
-    assert found["scores"]["validation loss"] == pytest.approx(best["validation loss"], rel=1e-6)
+    assert found["scores"]["loss"] == pytest.approx(best["validation loss"], rel=1e-6)
+    assert found["scores"]["samples"] == best["validation samples"]
+    assert not any("validation" in name for name in found["scores"])  # the split is "test"
     assert found["weights"]["file"] == "weights.pt"
     assert found["scored_on"]["data"]["validation_split"] == "test"
     predictions = found["predictions"]

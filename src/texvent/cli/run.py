@@ -133,7 +133,10 @@ def _frames_of(found: Sequence[Frame], _: Any) -> Iterator[Frame]:
 
 
 def _with_frames(video: FrameStream, read: Callable[[Any], Iterator[Frame]]) -> FrameStream:
-    """The video, of which `read` gives the frames: interpolators ask it for all else."""
+    """The video, of which `read` gives the frames: interpolators ask it for all else.
+
+    A wrapper would have to be of every protocol that the video is of, and of no other.
+    """
     kind = type(video)
     part = copy.copy(video)
     part_kind = type(kind.__name__, (kind,), {"__slots__": (), "__iter__": lambda one: read(one)})

@@ -169,6 +169,12 @@ class PhysicalRanges(MotionRanges):
                 f"cutoff_hz is {shown(self.cutoff_hz)}, and 0 is unlimited, the opposite of slow; "
                 "give a lowest value above 0, or (0, 0)"
             )
+        highest, most = self.threshold[1] * math.sqrt(self.ratio[1]), _ALLOWED["threshold"][1]
+        if highest > most:
+            raise ConfigError(
+                f"threshold is {shown(self.threshold)}, ratio {shown(self.ratio)}; the geometric "
+                f"mean of ON and OFF would reach {highest:.3g}, and {most:g} is the most: lower one"
+            )
 
     def config(self, numbers: NDArray[np.float64]) -> PhysicalConfig:
         """Options of the pixels of a clip, by what `draw_clip` drew."""

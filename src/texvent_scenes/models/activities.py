@@ -34,6 +34,8 @@ class Activity:
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
     """Time of the contact in an act that has one, if the act is repeated, s."""
+    repeats_hz: float = 0.0
+    """Repetitions per second, of an act that is counted; 0 = it is not."""
     is_hop: bool = False
     """Whether it follows the time of a hop."""
 

@@ -22,7 +22,8 @@ MOTIONS = frozenset(
      "float",
      "hover", "blow", "turn", "reverse",
      "spin", "rotate", "orbit", "sway", "tilt", "bounce", "jump", "fall", "rise", "sink", "throw",
-     "topple", "work", "hang", "stand", "sit", "lie"}
+     "topple", "climb", "grow",
+     "shrink", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip
 """Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a
 machine, "stand" rest."""

@@ -28,6 +28,12 @@ PLACING = frozenset(
 )  # fmt: skip
 """Relations that say where their subject stands: a circle of them places nothing."""
 
+WAYS = frozenset({"to", "into", "out of", "off", "up", "down"})
+"""Relations whose subject goes a way that its target decides."""
+
+ACTED = frozenset({"push", "kick", "throw", "roll", "lift", "set down", "drop", "collide"})
+"""Relations in which the subject moves its target."""
+
 SPACED = ("left of", "right of", "front", "behind", "beside")
 """Relations with a distance."""
 STEEPEST = 0.08

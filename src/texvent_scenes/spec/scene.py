@@ -42,7 +42,9 @@ RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
-    "hold", "wear", "ride", "push", "kick", "throw", "collide",
+    "to", "into", "out of", "off", "up", "down",
+    "hold", "wear", "ride", "push", "kick", "throw", "roll", "lift", "set down", "drop",
+    "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
@@ -141,6 +143,8 @@ class SceneObject:
     """Texture image."""
     blink_hz: Hertz | None = None
     """Frequency of its own lamp, on and off, Hz."""
+    switch_s: Seconds | None = None
+    """Time at which its lamps are switched on, s; off where `is_lit` is false."""
     is_lit: bool | None = None
     """Whether its lamps are on; left out: headlights at night, candles always."""
     position_m: tuple[Coordinate, Coordinate] | None = None

@@ -225,7 +225,7 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
             yield Idle(f"{where}.colour", f"a {one.noun} has colours of its own")
     if one.material is not None and build(None, one.material) == build(None, None):
         yield Idle(f"{where}.material", f"a {one.noun} is of it anyway, or cannot be of any other")
-    for name in ("blink_hz", "is_lit"):
+    for name in ("blink_hz", "switch_s", "is_lit"):
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
         if getattr(one, name) is not None and not has_light:
             known = few(sorted(LAMPS), _MOST_NAMED)

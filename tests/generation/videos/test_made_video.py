@@ -43,5 +43,5 @@ def test_a_model_that_makes_no_numbers_or_no_frame_is_refused(bad):
     frames[1, 2, 3, 0] = bad
     with pytest.raises(InputError, match="NaN or infinite values; try another seed"):
         to_16_bits_there(frames)
-    with pytest.raises(InputError, match="made no frame"):
+    with pytest.raises(InputError, match="the video has no frame"):
         to_16_bits_there(frames[:0])

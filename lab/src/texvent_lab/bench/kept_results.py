@@ -22,7 +22,17 @@ def digest_of(*values: Any) -> str:
     for value in values:
         content = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True).encode()
         found.update(hashlib.sha256(content).digest())
-    return found.hexdigest()[:20]
+    return _name(found)
+
+
+def digest_of_file(path: Path) -> str:
+    """`digest_of` the content of a file, read in pieces."""
+    with path.open("rb") as file:
+        return _name(hashlib.sha256(hashlib.file_digest(file, "sha256").digest()))
+
+
+def _name(found: Any) -> str:
+    return str(found.hexdigest()[:20])
 
 
 def is_whole(path: Path) -> bool:

@@ -15,8 +15,8 @@ from texvent.io.atomic import check_output
 from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
 
-DESCRIPTION = """Score trained weights on the validation samples of a training file: those it was
-trained with, or others. Needs torch: the extra ./lab[train].
+DESCRIPTION = """Score trained weights on the `validation_split` of a training file: the one it
+was trained with, or another, such as a test's. Needs torch: the extra ./lab[train].
 
   texvent evaluate classification real.toml digits/weights.pt"""
 
@@ -32,7 +32,7 @@ class EvaluateOptions:
     task: str = REQUIRED
     """classification, detection or reconstruction."""
     specification: Path = REQUIRED
-    """As for training; the samples of its validation split are scored."""
+    """As for training; the samples of its `validation_split` are scored."""
     weights: Path = REQUIRED
     """weights.pt of a training, or published weights of the same layout."""
     out: Path | None = None

@@ -376,8 +376,9 @@ def main() -> int:
     device = "cuda" if is_there else "cpu"
     if not is_there:
         os.environ.setdefault("TRITON_INTERPRET", "1")
-    if not is_there and not chosen.tiny:
-        print("nothing was measured: torch finds no GPU", file=sys.stderr)
+    if not is_there and (chosen.real_size is not None or not chosen.tiny):
+        what = "" if chosen.real_size is None else ", which --real-size needs, --tiny or not"
+        print(f"nothing was measured: torch finds no GPU{what}", file=sys.stderr)
         return 2
 
     def save(document: dict[str, Any]) -> None:

@@ -11,8 +11,8 @@ last epoch, since two clips that validate cannot choose one. Trainings are kept.
         --work work -o factors.json
 
 The file names the training and, per factor, `options` of the simulator, those of the `video`, a
-number of `scenes`, each made so often that clips are as many, or another `specification` and its
-`variant`.
+number of `scenes`, each made so often that clips are as many, another `specification` and its
+`variant`, or the draws of a training `stream` that takes the simulator's place.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ from texvent.options.values import plain
 from texvent.runtime.files.cache_folder import make_folder
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.settings.config_files import read_document
+from texvent.training.draws import RANGES
 from texvent_lab.bench.document import describe_environment, read_records, write_document
 from texvent_lab.bench.reconstruction.factors import SCHEMA, FactorScore, factors_table
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
@@ -47,7 +48,7 @@ from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.run import read_training
 from texvent_lab.train.schedule import Hardware
 
-KEYS = ("options", "video", "scenes", "specification", "variant")
+KEYS = ("options", "video", "scenes", "specification", "variant", "stream")
 
 
 @dataclass(frozen=True)
@@ -144,6 +145,10 @@ def trainings(
         for key in changes:
             if key not in KEYS:
                 raise ConfigError(f"{path}: {name}: unknown {shown(key)}; {suggest(key, KEYS)}")
+        draws = changes.get("stream")
+        if draws is not None and draws not in RANGES:
+            allowed = suggest(str(draws), tuple(RANGES))
+            raise ConfigError(f"{path}: {name}: stream is {shown(draws)}; {allowed}")
         if names and name not in names:
             continue
         own = changes.get("specification")
@@ -155,7 +160,8 @@ def trainings(
         spec = changed(read_specification(source), variant, changes, listed, scale.clips)
         written.write_text(json.dumps(spec.tables), encoding="utf-8")  # JSON is YAML
         data = dataclasses.replace(base.data, specification=written, variant=variant)
-        loss = dataclasses.replace(base.loss, consistency=0.0) if own else base.loss
+        has_flow = not own and draws is None
+        loss = base.loss if has_flow else dataclasses.replace(base.loss, consistency=0.0)
         epochs = scale.epochs or base.schedule.epochs
         schedule = dataclasses.replace(base.schedule, epochs=epochs, keep="last")
         found[name] = dataclasses.replace(base, data=data, loss=loss, schedule=schedule)
@@ -187,17 +193,22 @@ def run(
 ) -> Any:
     """Train and score what was not before; the document."""
     from texvent_lab.train.loop import train  # imports torch
+    from texvent_lab.train.reconstruction.streamed import StreamedTask
 
     start, rows = time.perf_counter(), []
     recording = dataclasses.replace(open_recording(locate_source(source)[0]), name=source)
     configs = trainings(path, work, names, scale)
+    draws = {name: one.get("stream") for name, one in read_document(path)["factors"].items()}
     for name, config in configs.items():
         values: dict[str, list[float]] = {}
         for seed in range(seeds):
             one = dataclasses.replace(config, seed=seed)
             folder = work / f"{config.data.specification.stem}-{seed}"
             options: Any = {"hardware": Hardware(device="cpu"), "progress": NO_PROGRESS}
-            train(one.make_task(), one.schedule, folder, tables=plain(one), **options)
+            task, tables = one.make_task(), plain(one)
+            if draws[name] is not None:
+                task, tables = StreamedTask(one, draws[name]), {**tables, "stream": draws[name]}
+            train(task, one.schedule, folder, tables=tables, **options)
             for measure, value in score(folder / "weights.pt", one, recording).items():
                 values.setdefault(measure, []).append(value)
             print(f"{name}, seed {seed}: {time.perf_counter() - start:.0f} s", file=sys.stderr)

@@ -110,7 +110,7 @@ def train_from_file(
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Scores of trained weights on the validation samples of a training file."""
+    """Scores of trained weights on the split that a training file names for validation."""
 
     scores: Mapping[str, float]
     facts: Mapping[str, Any]
@@ -145,7 +145,10 @@ def evaluate_from_file(
 
 
 def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evaluation:
-    """Score trained weights on the validation samples of a training; see `evaluate_from_file`."""
+    """Score trained weights on the `validation_split` of a training; see `evaluate_from_file`.
+
+    Names of scores do not say "validation": the split may be a test's.
+    """
     if not weights.is_file():
         raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
     task, device = config.make_task(), hardware.find_device()
@@ -161,4 +164,5 @@ def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evalu
         "scored_on": plain(config),
         **({"predictions": predictions} if predictions else {}),
     }
-    return Evaluation(scores, facts)
+    named = {name.replace("validation ", ""): value for name, value in scores.items()}
+    return Evaluation(named, facts)

@@ -1,6 +1,7 @@
 """Rows of other programs: the frames they get, and the event files they give."""
 
 import math
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +21,7 @@ from texvent_lab.bench.fidelity.oracle_run import (
     run_fidelity,
 )
 from texvent_lab.bench.fidelity.run import score_entry
+from texvent_lab.bench.kept_results import digest_of, digest_of_file
 from texvent_lab.bench.oracle.recording import LAST_US, SIZE, oracle_scene, render_video
 from texvent_lab.bench.real import run as real_run
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
@@ -192,3 +194,18 @@ def test_a_recordings_files_are_refused_before_any_work_and_may_be_silent_for_a_
     scene.check(row)
     assert scene.count(row, None) == 0
     assert scene.simulate(row, None)[-1] == scene.references[-1]
+
+
+def test_the_digest_of_files_is_that_of_their_content_read_in_pieces(tmp_path):
+    content = np.random.default_rng(0).bytes(8_000_000)
+    digests = []
+    for name, data in {"one": content, "same": content, "other": content[:-1] + b"."}.items():
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "a.h5").write_bytes(data)
+        entry = FileEntry.find("Mine", tmp_path / name, ["a"])
+        tracemalloc.start()
+        digests.append(entry.digest)
+        assert tracemalloc.get_traced_memory()[1] < 1_000_000
+        tracemalloc.stop()
+    assert digests[0] == digests[1] != digests[2]
+    assert digest_of_file(tmp_path / "one" / "a.h5") == digest_of(content)

@@ -1,6 +1,8 @@
 """Arms that differ from one in a property of their clips, as a file says."""
 
 import json
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import pytest
 from texvent.dataset import read_specification
 from texvent.errors import ConfigError
 from texvent_lab.bench.objects.arms import Arm, read_factors
+from texvent_lab.bench.objects.plan import ObjectsPlan, Run
 from texvent_lab.bench.page import page_files
 from texvent_lab.commands.bench.bench import run
 
@@ -141,3 +144,18 @@ def test_the_command_compares_factors_with_their_arm(configs, tmp_path, capsys):
     assert "| less texvent |" in capsys.readouterr().out
     page = page_files(document, "one.json")["one.md"].decode()
     assert "| more | – | " in page
+
+
+@pytest.mark.parametrize(
+    ("test", "factor"), [("table", "three times the clips"), ("turntable", "things as recorded")]
+)
+def test_recorded_clips_of_the_repository_are_those_of_the_factors_that_taught(test, factor):
+    configs, none = Path(__file__).parents[4] / "configs/objects", Path("none")
+    usual: dict[str, Any] = {"frames": none, "turntables": none, "work": none}
+    varied = ObjectsPlan(configs=configs, factors=configs / "factors.toml", **usual)
+    recorded = ObjectsPlan(configs=configs / "recorded", **usual)
+    arms = (varied, varied.sets[test][factor]), (recorded, recorded.sets[test]["physical"])
+    clips = [[Run(plan, {}).frames_path(arm, one) for one in arm.items]
+             for plan, arm in arms]  # fmt: skip
+    assert clips[0] == clips[1]
+    assert arms[0][1].options == arms[1][1].options

@@ -54,7 +54,7 @@ REMEDY = "delete it and generate again"
 """Advice about a damaged file."""
 FULL_SCALE = 65_535.0
 NOT_FINITE = "the generator made a frame with NaN or infinite values; try another seed"
-NO_FRAME = "the generator made no frame"
+NO_FRAME = "the video has no frame; events need the change between at least two"
 _CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
 _EIGHT_BITS = 8
 

@@ -9,13 +9,15 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import is_room
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.camera.camera_track import TimedMove
 
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 """View → elevation of the camera, rad."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
-_ROOM_ELEVATION = 0.24
+_ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP = 0.24, 0.6, 0.16
+"""Elevation in rooms, from which one sees into an open container, and a runway as a strip, rad."""
 _ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
 """Length over height, and length in m, from which on a subject is seen at an angle to its side."""
 
@@ -24,6 +26,13 @@ def goes_in_depth(actor: Actor) -> bool:
     """Whether it goes away from the camera or towards it, rather than across the picture."""
     step = np.subtract(actor.track.at(0.5).position, actor.track.at(0.0).position)
     return bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+
+
+def is_in_container(description: SceneDescription, index: int) -> bool:
+    """Whether an object is in an open container, into which one sees from above."""
+    kept = {description.objects[one.targets[0]].noun for one in description.relations
+            if one.kind == "in" and one.subject == index}  # fmt: skip
+    return any(trait_value("container", noun) for noun in kept - nouns_with("see-through"))
 
 
 def choose_angles(
@@ -39,7 +48,11 @@ def choose_angles(
     length = main.model.length  # all of a train or a ship from the side would be a thin line
     is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
     follows = any(one.move.kind == "follow" for one in moves)
-    if is_in_depth:
+    is_amid = any(one.kind == "between" and one.subject == main.object_index
+                  for one in description.relations)  # fmt: skip
+    if is_amid:
+        azimuth = 0.5 * wander  # what is on both sides stays there
+    elif is_in_depth:
         azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
     elif is_long and main.noun.motion in ("drive", "sail"):
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
@@ -48,6 +61,8 @@ def choose_angles(
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
+        if is_in_container(description, main.object_index):
+            elevation = max(elevation, _INTO_IT)
     return azimuth, elevation
 
 
@@ -58,6 +73,8 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
         return _PLACE_ELEVATIONS[place]
     if is_room(place):
         return _ROOM_ELEVATION
+    if main.noun.name in nouns_with("takes off") and place == "runway":
+        return _ONTO_STRIP
     if main.noun.habitat == "air":
         return -0.03
     if not main.is_mover and model.height > 5.0:

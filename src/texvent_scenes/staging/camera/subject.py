@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.camera_track import Tie, TimedMove
@@ -22,8 +23,11 @@ _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbi
                  "handheld": 0.84, "roll": 0.7}  # fmt: skip
 _WHOLE = 3.5
 """Other objects must fit as a whole if they are at most this many times as large as the movers."""
-_PIECE = 0.7
-"""Reach of the piece of a larger one that must fit, in sizes of the largest mover."""
+_LOWER = 2.0
+"""Height of the part of what is tall beside something, in sizes of the largest mover."""
+_PIECE, _MOST_PIECE, _TOLD = 0.7, 3.0, 0.25
+"""Least and greatest reach of the piece of a larger one that must fit, in sizes of the largest
+mover; in its own, so that one tells what it is."""
 _GOALS = (1.0, 1.0, 0.9, 0.4)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
@@ -77,6 +81,10 @@ class _Scope(NamedTuple):
     """Objects that something goes past."""
     cut: Collection[int]
     """Objects of which the lower part may be out of the image: people who act with their arms."""
+    whole: Collection[int] = ()
+    """Containers and passages, which tell what they are as a whole."""
+    sided: Collection[int] = ()
+    """Objects between which something is: of what is tall, the lower part from side to side."""
 
 
 def list_framing_choices(
@@ -88,7 +96,9 @@ def list_framing_choices(
     passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
-    scope = _Scope(main, times, tie, passed, cut)
+    whole = {n for r in relations for n in r.targets if _tells_as_a_whole(r.kind, description, n)}
+    sided = {n for r in relations if r.kind == "between" for n in r.targets}
+    scope = _Scope(main, times, tie, passed, cut, whole, sided)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
@@ -104,17 +114,28 @@ def list_framing_choices(
     ]
     related = set().union(*tied) - {main.object_index}
     landmarks = {n for r in relations if r.kind in _KEPT_TOGETHER for n in r.targets}
-    partners = [one for one in near if one.object_index in related - {main.object_index}]
+    sides = {n for n, one in enumerate(description.objects) if one.placement in ("left", "right")}
+    partners = [one for one in near if one.object_index in (related | sides) - {main.object_index}]
     # A lighthouse and a swing only work where they are.
     goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
     others = goes if main.is_mover else near
-    kept = [one for one in partners if one.object_index in landmarks]
+    kept = [one for one in partners if one.object_index in landmarks | sides | whole]
     copies = [one for one in actors if one.object_index == main.object_index]
     choices = (near, [*others, *partners], partners, kept)
     return [
         FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)
     ]
+
+
+def _tells_as_a_whole(kind: str, description: SceneDescription, index: int) -> bool:
+    """Whether a thing that something is in, or goes through or around, must be seen as a whole."""
+    noun = description.objects[index].noun
+    if kind == "around":
+        return True
+    if kind == "through":
+        return noun in nouns_with("passage")
+    return kind == "in" and trait_value("container", noun) is not None
 
 
 def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
@@ -131,8 +152,13 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
         if scope.tie is not None and not is_mover:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
-        if is_large and not is_mover:
-            points.append(_near_piece(actor, main, times, _PIECE * largest))
+        if is_large and not is_mover and actor.object_index not in scope.whole:
+            reach_m = max(_PIECE * largest, min(_TOLD * actor.size_m, _MOST_PIECE * largest))
+            piece = _near_piece(actor, main, times, reach_m)
+            if actor.object_index in scope.sided:
+                piece = actor.corners(float(times[0])).copy()
+                piece[:, 2] = np.minimum(piece[:, 2], piece[:, 2].min() + _LOWER * largest)
+            points.append(piece)
             continue
         for time in map(float, times):
             box = _box_at(actor, time, scope.tie)

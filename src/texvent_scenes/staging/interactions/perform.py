@@ -20,6 +20,7 @@ from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
+from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 from texvent_scenes.staging.tracks.track import attached
 
@@ -62,16 +63,25 @@ def settle_motions(
                 objects[index] = one
     for each in relations:
         if each.kind == "on" and objects[each.targets[0]].noun in nouns_with("across a road"):
-            objects[each.subject] = _across(objects[each.subject])
+            objects[each.subject] = _directed(objects[each.subject], "across")
+        is_led = each.kind == "between" and not are_driven(objects[each.subject].noun)
+        if is_led or (
+            each.kind == "through" and objects[each.targets[0]].noun in nouns_with("passage")
+        ):
+            objects[each.subject] = _directed(objects[each.subject], "towards")
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
-def _across(said: SceneObject) -> SceneObject:
-    """An actor on a crosswalk crosses the road, where no other way is said."""
+def _directed(said: SceneObject, direction: Direction) -> SceneObject:
+    """An actor whose way a relation decides, where no other is said.
+
+    On a crosswalk it crosses the road; out of a tunnel, and between things that stand side by
+    side, it comes towards the camera.
+    """
     first = said.motions[0] if said.motions else None
     if first is None or first.kind not in PATH_KINDS or first.direction is not None:
         return said
-    return replace(said, motions=(replace(first, direction="across"), *said.motions[1:]))
+    return replace(said, motions=(replace(first, direction=direction), *said.motions[1:]))
 
 
 def _in_hand(
@@ -104,7 +114,8 @@ def _settle(
     if kind == "collide":
         return replace(subject, motions=()), still
     if kind in striking.IMPACTS:
-        return replace(subject, motions=(Motion(kind, to),)), still
+        doing = striking.IMPACTS[kind].activity or kind
+        return replace(subject, motions=(Motion(doing, to),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):
             walk = Motion("walk", motion.direction)
@@ -192,10 +203,10 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
-    sent = {one.subject: one.targets[0] for one in acts if one.kind in ("kick", "throw")}
+    sent = {one.subject: one for one in acts if one.kind in ("kick", "throw", "roll")}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
-            _send_against(cast, sent[each.subject], description.objects, each.targets[0])
+            _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
     for each in description.relations:
         seats = [n for n, one in cast.items() if one.object_index in each.targets]
         riders = [n for n, one in cast.items() if one.object_index == each.subject]
@@ -212,17 +223,24 @@ def perform_acts(
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _send_against(
-    cast: dict[int, Actor], sent: int, said: Sequence[SceneObject], goal: int
-) -> None:
-    """Rebound of what is kicked or thrown from what is fixed, which keeps its stated pose."""
-    things, walls = ([n for n, one in cast.items() if one.object_index == index]
-                     for index in (sent, goal))  # fmt: skip
-    for thing in things if walls and cast[walls[0]].noun.habitat == "fixed" else ():
-        cast[thing], cast[walls[0]] = striking.rebound(
-            cast[thing], cast[walls[0]], is_turned=said[goal].heading_deg is None,
-            is_moved=said[goal].position_m is None,
-        )  # fmt: skip
+def _send_to(
+    cast: dict[int, Actor], act: IndexedRelation, said: Sequence[SceneObject], goal: int,
+    duration_s: float,
+) -> None:  # fmt: skip
+    """What is kicked, thrown or rolled goes back from what is fixed, and ends at who is alive."""
+    things, goals = ([n for n, one in cast.items() if one.object_index == index]
+                     for index in (act.targets[0], goal))  # fmt: skip
+    for thing in things if goals else ():
+        wall = cast[goals[0]]
+        if wall.noun.habitat == "fixed":
+            cast[thing], cast[goals[0]] = striking.rebound(
+                cast[thing], wall, is_turned=said[goal].heading_deg is None,
+                is_moved=said[goal].position_m is None,
+            )  # fmt: skip
+        elif wall.track.is_resting and said[goal].position_m is None:
+            cast[thing], cast[goals[0]] = striking.deliver(
+                cast[thing], wall, duration_s, is_thrown=act.kind == "throw"
+            )
 
 
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:

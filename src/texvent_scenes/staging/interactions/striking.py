@@ -9,22 +9,24 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from texvent_scenes.models.shapes import bounds, moved, point, shift
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.holding import (
     held_at,
     is_person,
     moving,
 )
-from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead
 from texvent_scenes.staging.tracks.phases import speeds_of
 from texvent_scenes.staging.tracks.track import (
+    Attachment,
     BodyState,
     Term,
     Track,
@@ -50,12 +52,20 @@ class Impact(NamedTuple):
     """Upward speed of the thing, as a share of its speed along the ground."""
     tumble_rad_s: float | None = None
     """None = it rolls."""
+    is_flung: bool = True
+    """Whether the thing leaves the body at a speed."""
+    carried: Literal["before", "after"] | None = None
+    """When the thing is at that place, if it stands on the ground else."""
 
 
 IMPACTS: Mapping[str, Impact] = MappingProxyType(
     {
         "kick": Impact(0.45, "kick", "right foot", loft=0.45),
         "throw": Impact(0.35, "throw", "right hand", is_held=True, loft=0.35, tumble_rad_s=6.0),
+        "roll": Impact(0.35, "underarm", "right hand", is_held=True),
+        "lift": Impact(0.4, "pick up", "hands", carried="after"),
+        "set down": Impact(0.5, "put down", "hands", carried="before"),
+        "drop": Impact(0.3, "let go", "hands", is_held=True, is_flung=False),
         "collide": Impact(0.5),
     }
 )
@@ -86,16 +96,32 @@ def strike(kind: str, subject: Actor, thing: Actor, duration_s: float) -> tuple[
     is_limbed = is_person(subject) or act.is_held
     rest = steady(home.position, home.yaw, activity=act.activity if is_limbed else "stand")
     subject = moving(subject, replace(rest, contact_s=contact_s))
+    if act.carried is not None:
+        return subject, moving(thing, _carry(act, subject, thing, contact_s))
     if not act.is_held:
         tip = subject.anchor(act.by, contact_s)[:, 3]
         start = BodyState(_meet(thing, tip, home), home.yaw, pivot_m=thing.lift_m)
         return subject, moving(thing, _fly_off(act, thing, start, home, contact_s))
     reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
     place = act.by if is_person(subject) else "mouth"
-    held = held_at(subject, place, shift(reach, 0.0, -thing.lift_m))
+    reach = reach if act.is_flung else 0.0
+    held = held_at(subject, place, shift(reach, 0.0, -thing.lift_m), is_upright=not act.is_flung)
     start = state_of(held.at(contact_s).to_world(), thing.lift_m)
     flight = _fly_off(act, thing, start, home, contact_s)
     return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=contact_s))
+
+
+def _carry(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> Track:
+    """At rest below the place of the body that has it before or after, and there as it was."""
+    axes, home = partial(subject.anchor, act.by), subject.track.at(0.0)
+    x, y, _ = point(axes(contact_s)[:, 3])
+    rest = steady((x, y, home.position[2] + thing.foot_m), home.yaw, activity="stand")
+    world = (axes(contact_s), rest.at(0.0).to_world())
+    square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in world)
+    anchor = Attachment(subject.track, axes, np.linalg.solve(*square)[:3])
+    if act.carried == "after":
+        return replace(rest, anchor=anchor, grab_s=contact_s)
+    return replace(rest, anchor=anchor, release_s=contact_s)
 
 
 def _meet(thing: Actor, tip: Float64Array, home: BodyState) -> Vector:
@@ -111,7 +137,7 @@ def _fly_off(
     act: Impact, thing: Actor, start: BodyState, home: BodyState, contact_s: float
 ) -> Track:
     """From a start to where the subject faces at home, after the contact."""
-    speed = float(speeds_of(thing.noun).get("throw", _FLUNG_M_S))
+    speed = float(speeds_of(thing.noun).get("throw", _FLUNG_M_S)) * act.is_flung
     half = 0.5 * thing.model.height
     tumble = act.tumble_rad_s or speed / max(half, 0.05)
     turned = start.pitch - tumble * contact_s
@@ -162,6 +188,40 @@ def rebound(thing: Actor, wall: Actor, *, is_turned: bool, is_moved: bool) -> tu
     return replace(thing, track=replace(track, keys=keys)), wall
 
 
+def deliver(
+    thing: Actor, receiver: Actor, duration_s: float, *, is_thrown: bool
+) -> tuple[Actor, Actor]:
+    """Both, the thing ending at who receives it: caught if it is thrown, else before the feet.
+
+    The receiver stands on its way and faces it.
+    """
+    track, person = thing.track, is_person(receiver)
+    sent_s, size = sum(key.duration_s for key in track.keys[:-1]), size_of(receiver.model)
+    flown_s = min(max(duration_s - sent_s - 0.2, 0.2), _MOST_FLIGHT_S)
+    speed = min(track.keys[-1].speed_m_s, _DELIVERED_M / flown_s)
+    (x, y, z), level_m = track.start, receiver.track.at(0.0).position[2]
+    caught_m = level_m + (1.08 * size if person else 0.62 * receiver.model.height) - thing.lift_m
+    up = (caught_m - z) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
+    flight = replace(track.keys[-1], duration_s=flown_s, speed_m_s=speed, climb_m_s=up, ramp_s=0.0)
+    last = Key(1.0, ramp_s=0.0) if is_thrown else Key(1.0, ramp_s=0.15, restitution=0.2)
+    if not is_thrown:
+        flight = replace(flight, climb_m_s=_LOW * speed)
+    terms = (one._replace(end_s=sent_s + flown_s) if one.drift else one for one in track.terms)
+    sent = replace(track, keys=(*track.keys[:-1], flight, last), terms=tuple(terms))
+    arm_m = 0.36 * size if person else 0.5 * receiver.model.length
+    way_m = speed * flown_s + arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
+    place = ahead((x, y, level_m), track.yaw, way_m, level_m)
+    rest = steady(place, track.yaw + math.pi, activity="stand")
+    if is_thrown and person:
+        side, high = 0.5 * thing.model.width, 1.08 * size
+        rest = replace(
+            rest, grips=(("left hand", (arm_m, side, high)), ("right hand", (arm_m, -side, high)))
+        )
+    return replace(thing, track=sent), moving(receiver, rest)
+
+
+_DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
+"""Way of what is sent to somebody, m; its time, s; upward share of its speed along the ground."""
 _STEP_S, _KEPT = 1e-3, 0.6
 """Half of the time over which a speed is measured; share of a speed after a wall."""
 _RAISED_M, _LEAST_ROOM_M = 0.02, 0.02

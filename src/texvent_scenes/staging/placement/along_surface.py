@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent_scenes.models.activities import PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import size_of
@@ -28,16 +29,23 @@ _ROLLING, _STEPS = 5.0 / 7.0, 8
 
 def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
     """Have what goes on a ramp go down it, at the speed that is said or let go from rest."""
-    plan, (length, height) = group.plan, trait_value("slope", target.noun.name)
+    plan, (length, height, foot) = group.plan, trait_value("slope", target.noun.name)
     scale = size_of(target.models[0])
-    length, height = scale * length, scale * height
+    length, height, foot = scale * length, scale * height, scale * foot
     way_m, said_m_s = math.hypot(length, height), plan.motion.speed_m_s
+    if said_m_s is None and plan.motion.kind in TRAVELLING:
+        said_m_s = plan.speed_m_s
+        plan = replace(plan, motion=replace(plan.motion, speed_m_s=said_m_s))
     keys = [Key(plan.duration_s, activity="stand")]
     if said_m_s != 0.0:
         keys = _list_keys(plan, length / way_m, -height / way_m, way_m)
     yaw = target.plan.yaw
-    start = (-0.5 * length * math.cos(yaw), -0.5 * length * math.sin(yaw), height)
-    path = Track(start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m)
+    top = foot - length
+    start = (top * math.cos(yaw), top * math.sin(yaw), height)
+    path = Track(
+        start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m,
+        is_upright=group.noun.name in PERSON_NOUNS,
+    )  # fmt: skip
     group.plan = replace(plan, yaw=yaw, path=path)
     group.fit()
 

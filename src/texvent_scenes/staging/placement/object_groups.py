@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +17,8 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import SEAT, dress
 from texvent_scenes.models.protocol import Model, Noun, Pose
-from texvent_scenes.models.shapes import moved
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
@@ -73,6 +74,15 @@ class ObjectGroup:
         """Height of its origin above what it rests on."""
         return -lowest_point(self.models[0]) if is_centred(self.noun) else 0.0
 
+    def reach_below(self, height_m: float) -> float:
+        """Half its extent up to a height above its foot, m: of a tree, that of its trunk."""
+        low, body = lowest_point(self.models[0]), self.models[0]
+        boxes = [bounds([one]) for one in body.parts(Pose(0.0, 0.0, 0.0, "stand"))]
+        below = [np.abs(box[:, :2]).max() for box in map(np.array, boxes)
+                 if box[0, 2] - low < height_m]  # fmt: skip
+        is_alone = len(self.models) == 1 and not self.plan.motion.is_moving
+        return float(max(below)) if below and is_alone else float(np.max(self.half[:2]))
+
     def to_world(self, x: float, y: float, z: float) -> Float64Array:
         """[3] a place in its body coordinates, where its middle is, in the world, m."""
         cosine, sine = math.cos(self.plan.yaw), math.sin(self.plan.yaw)
@@ -87,6 +97,15 @@ class ObjectGroup:
         """[3] half extents of all copies where they stand, without their way, m."""
         plan = replace(self.plan, motion=STANDING, path=None)
         return half_extents_over_clip(self.models, self.offsets, plan)
+
+
+class Goal(NamedTuple):
+    """Goal of a group's placement."""
+
+    position: Float64Array
+    """[3] middle of the group, m."""
+    slide: Float64Array
+    """[3] direction in which it may move from there to find room; zero = it stays."""
 
 
 def half_extents_over_clip(
@@ -222,8 +241,18 @@ def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, f
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:
-    """Move every second copy of a group to the left, the others to the right, by that room."""
-    if len(group.models) > 1:
+    """Move every second copy of a group to the left, the others to the right, by that room.
+
+    Two stand side by side, the room in their middle.
+    """
+    if len(group.models) == 2:
+        plan = replace(group.plan, motion=STANDING, path=None)
+        half = half_extents_over_clip(group.models, [(0.0, 0.0, 0.0)], plan)
+        reach = float(half[0]) + room_m
+        group.offsets = [(side * reach, 0.0, z) for side, (_, _, z) in
+                         zip((-1.0, 1.0), group.offsets, strict=True)]  # fmt: skip
+        group.fit()
+    elif len(group.models) > 1:
         group.offsets = [
             (x + (room_m if number % 2 else -room_m), y, z)
             for number, (x, y, z) in enumerate(group.offsets)
@@ -236,9 +265,15 @@ _SEAT_BACK_M = 0.03
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object: a person in what it wears."""
+    """The noun of an object: a person in what it wears, a box open if something is in it."""
     objects = description.objects
     noun = nouns[objects[index].noun]
+    opened, put = trait_value("drawn open", noun.name), trait_value("drawn put up", noun.name)
+    for one in description.relations if opened or put else ():
+        if opened and one.kind == "in" and index in one.targets:
+            return replace(nouns[opened], name=noun.name)
+        if put and one.kind == "on" and index == one.subject:
+            return replace(nouns[put], name=noun.name)
     worn = [
         (objects[target].noun, rgb_of(objects[target].colour))
         for one in description.relations

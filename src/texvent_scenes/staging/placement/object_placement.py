@@ -13,13 +13,17 @@ from texvent_scenes.description import STANDING, IndexedRelation, SceneDescripti
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
+from texvent_scenes.staging.placement.containers import fit_in, fit_passage
 from texvent_scenes.staging.placement.object_groups import (
+    Goal,
     ObjectGroup,
     choose_props,
     dressed,
@@ -33,11 +37,11 @@ from texvent_scenes.staging.placement.object_groups import (
 from texvent_scenes.staging.placement.relations import (
     INVERSE,
     ON_TARGET,
-    Goal,
     place_at_distance,
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
@@ -58,6 +62,10 @@ _NEARER = 0.35
 _ROOMY, _LEAST_SHARE = 0.85, 0.3
 """Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
 """
+_PASSED = 1.2
+"""Room between what is passed one after the other, in their half extents."""
+_NOTED = 0.1
+"""Change of a size that the report names."""
 _ATTEMPTS = 400
 _SIDES = {"left": -1.0, "right": 1.0}
 
@@ -112,7 +120,8 @@ class ObjectPlacer:
         scene_object = self._description.objects[index]
         noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
-        size = scene_object.size * self._fit_on(index, noun)
+        size = scene_object.size * self._fit_on(index, noun) * self._fit_in(index)
+        size *= self._fit_through(index)
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
@@ -147,6 +156,36 @@ class ObjectPlacer:
             self.notes.append(f"the {said.noun} is drawn at {max(share, _LEAST_SHARE):.0%} of its "
                               f"size, for which the {below[0].name} has room")  # fmt: skip
         return min(max(share, _LEAST_SHARE), 1.0)
+
+    def _fit_in(self, index: int) -> float:
+        """Scale of a container that holds what is in it, or of what it has no room for."""
+        objects, own = self._description.objects, 1.0
+        for one in self._description.relations if self._travel is None else ():
+            hollow = trait_value("container", objects[one.targets[0]].noun)
+            if one.kind != "in" or hollow is None or index not in (one.subject, *one.targets):
+                continue
+            inside = [r.subject for r in self._description.relations
+                      if r.kind == "in" and r.targets[0] == one.targets[0]]  # fmt: skip
+            models = [(self._size_up(n), objects[n].count) for n in inside]
+            whole, share = fit_in(self._size_up(one.targets[0]), hollow, models)
+            own = whole if index == one.targets[0] else share
+            if abs(own - 1.0) > _NOTED:
+                self.notes.append(f"the {objects[index].noun} is drawn at {own:.0%} of its usual "
+                                  "size, as one is in the other")  # fmt: skip
+            break
+        return own
+
+    def _fit_through(self, index: int) -> float:
+        """Scale of a passage: a foot tunnel for those who are small."""
+        goers = [self._size_up(one.subject) for one in self._description.relations
+                 if one.kind == "through" and index in one.targets]  # fmt: skip
+        is_scaled = self._description.objects[index].noun in nouns_with("scaled passage")
+        return fit_passage(goers) if is_scaled and goers else 1.0
+
+    def _size_up(self, index: int) -> Model:
+        """A copy of an object at the size that is said."""
+        noun = dressed(self._description, index, self._nouns)
+        return noun.build(colour=None, scale=self._description.objects[index].size, seed=0)
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""
@@ -195,7 +234,11 @@ class ObjectPlacer:
         height = self._height(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
-            if relation.kind in ON_TARGET and targets:
+            if relation.kind in WAYS and targets:
+                if not has_fault(group, relation.kind, targets[0]):
+                    way = lead(group, relation.kind, targets[0], self._pushed_m(group.index))
+                    return Goal(way, np.zeros(3))
+            elif relation.kind in ON_TARGET and targets:
                 shared = self._list_sharing(relation)
                 return place_on_targets(group, relation.kind, targets, height, shared)
         for relation in related:
@@ -207,12 +250,32 @@ class ObjectPlacer:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 goal = place_by_subject(group, relation.kind, subject, height)
+                goal = self._one_after_another(goal, group, subject, relation)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
             scene = self._description
             is_goal = scene.index(scene.camera.target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
+
+    def _pushed_m(self, index: int) -> float:
+        """Length of what an object pushes before it, m."""
+        pushed = [one.targets[0] for one in self._description.relations
+                  if one.kind == "push" and one.subject == index]  # fmt: skip
+        return sum(self.build_group(n).models[0].length for n in pushed)
+
+    def _one_after_another(
+        self, goal: Goal, group: ObjectGroup, subject: ObjectGroup, relation: IndexedRelation
+    ) -> Goal:
+        """The goal of one of several that something goes past: along the way, at either end."""
+        number = relation.targets.index(group.index)
+        first = self.groups.get(relation.targets[0])
+        if relation.kind != "past" or first is None or number == 0:
+            return goal
+        apart = _PASSED * float(np.max(first.half[:2]) + np.max(group.half[:2])) * (number + 1) / 2
+        side = apart if number % 2 else -apart
+        along = np.array([math.cos(subject.plan.yaw), math.sin(subject.plan.yaw), 0.0])
+        return goal._replace(position=goal.position + side * along)
 
     def _list_sharing(self, relation: IndexedRelation) -> list[int]:
         """Index of each copy that has the same relation to the same objects."""
@@ -326,7 +389,7 @@ class ObjectPlacer:
         """The track of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             x, y, _ = group.orbits.centre
-            reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
+            reach = group.orbits.reach_below(group.top_m) + 0.9 * group.size_m
             return orbit(
                 group.plan, (float(x), float(y), float(group.centre[2])),
                 reach + 0.1 * group.orbits.size_m, number / len(group.models),

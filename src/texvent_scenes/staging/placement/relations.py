@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +15,11 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -26,24 +28,23 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.containers import (
+    depth_in,
+    go_inside,
+    hollow_of,
+    reach_of,
+)
 from texvent_scenes.staging.placement.object_groups import (
     GAP_M,
+    Goal,
     ObjectGroup,
     list_around,
 )
+from texvent_scenes.staging.placement.on_way import place_on_way
+from texvent_scenes.staging.placement.zones import hangs_on
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
-
-class Goal(NamedTuple):
-    """Goal of a group's placement."""
-
-    position: Float64Array
-    """[3] middle of the group, m."""
-    slide: Float64Array
-    """[3] direction in which it may move from there to find room; zero = it stays."""
-
-
-ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
+ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 INVERSE: Mapping[str, str] = {
@@ -61,13 +62,12 @@ _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
 """Angle by which the camera may see past an edge, and room beside a passed object."""
 
 
-_SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
-"""Share of the height of what is in something that looks out of it; of an animal, whose ears reach
-above its head."""
 _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
+_HUNG = 0.58
+"""Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -145,8 +145,9 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
 
     `height` is that of the target's origin, m; the subject is placed already.
     """
-    if kind == "through" and subject.plan.is_path:
-        return _lead_through(group, subject, height)
+    goal = place_on_way(group, kind, subject, height)
+    if goal is not None:
+        return goal
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     x, y, _ = subject.half + group.half + gap
@@ -173,16 +174,6 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
-
-
-def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
-    """Along the way of who goes through, who is out at about half of that way."""
-    if group.noun.name in nouns_with("passage"):
-        group.plan = replace(group.plan, yaw=subject.plan.yaw)
-        group.fit()
-    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
-    back = 0.1 * extent + 0.5 * group.models[0].length
-    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
@@ -225,6 +216,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
+    if hangs_on(group.noun.name, target.noun.name):
+        return _hang_on(group, target, neighbours)
     if target.plan.motion.is_moving:
         group.carrier = target
     if is_person and _sits(group, target):
@@ -247,6 +240,18 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """The middle of what hangs on the face of a wall that is turned to the camera, m."""
+    own, wall = group.models[0], target.models[0]
+    face_m = float(bounds(wall.parts(Pose(0.0, 0.0, 0.0, "stand"))[:1])[1][0])
+    support = Support(0.0, (0.0, -0.45 * wall.width), (0.0, 0.45 * wall.width))
+    _line_up(group, target, support, neighbours)
+    group.plan = replace(group.plan, yaw=target.plan.yaw)
+    group.fit()
+    low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
+    return target.to_world(face_m + 0.5 * own.length, 0.0, low_m + group.origin_m)
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
@@ -285,13 +290,31 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
         return target.to_world(0.0, 0.0, low + group.origin_m)
+    if trait_value("container", target.noun.name) and group.noun.name not in PERSON_NOUNS:
+        return _put_in(group, target, neighbours)
     place = rest_on(group, target, neighbours)
     if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
         return place
-    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
-    rim, tall = find_support(target.models[0]).height, group.models[0].height
-    low = max(rim - (1.0 - seen) * tall, 0.08 * target.models[0].height)
+    low = depth_in(group, target)
     return np.array([place[0], place[1], target.centre[2] + low + group.origin_m])
+
+
+def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
+    """The middle of a group in a container, where what goes somewhere goes to and fro."""
+    support = hollow_of(target)
+    if target.plan.motion.is_moving:
+        group.carrier = target
+    reach_m = reach_of(group.models[0], len(neighbours))
+    _line_up(group, target, support, neighbours, reach_m)
+    if len(neighbours) > 1:  # side by side in their row
+        is_wide = target.models[0].width > target.models[0].length
+        is_long = group.models[0].length > reach_m
+        turns = is_wide + is_long
+        group.plan = replace(group.plan, yaw=target.plan.yaw + 0.5 * math.pi * turns)
+    if group.plan.is_path and group.carrier is None:
+        go_inside(group, target, support)
+    group.fit()
+    return target.to_world(*support.middle, depth_in(group, target) + group.origin_m)
 
 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
@@ -320,9 +343,16 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
 
 def _line_up(
-    group: ObjectGroup, target: ObjectGroup, support: Support, neighbours: Sequence[int]
+    group: ObjectGroup,
+    target: ObjectGroup,
+    support: Support,
+    neighbours: Sequence[int],
+    reach_m: float | None = None,
 ) -> None:
-    """Spread the copies along the longer side of the surface; several carriers share them out."""
+    """Spread the copies along the longer side of the surface; several carriers share them out.
+
+    `reach_m` is the extent of one along that side; None: that of its longer side.
+    """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     first = neighbours.index(group.index)
     axis = 1 if body.width > body.length else 0
@@ -331,6 +361,7 @@ def _line_up(
         extent = 0.8 * max(body.width, body.length)
     is_person = group.noun.name in PERSON_NOUNS
     size = _PERSON_M if is_person else max(group.models[0].width, group.models[0].length)
+    size = size if reach_m is None else reach_m
     count = math.ceil(len(neighbours) / several)
     spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
     yaw = target.plan.yaw + 0.5 * math.pi * axis

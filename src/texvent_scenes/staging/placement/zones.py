@@ -14,10 +14,12 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor, is_centred
 from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
 
@@ -30,8 +32,8 @@ _SHORE_M = 1.2
 """From who stands at the shore to what floats."""
 _INSTANTS = 9
 _CARRYING = frozenset(
-    {"on", "in", "hold", "wear", "ride", "push", "kick", "throw", "collide", "towards", "from",
-     "away from", "through", "around"}
+    {"on", "in", "hold", "wear", "ride", "towards", "from", "away from", *ACTED,
+     "through", "around", *WAYS}
 )  # fmt: skip
 """Relations that hang on how a body is turned."""
 _LOOSE = frozenset({"beside", "front", "behind", "left of", "right of", "past", "towards", "with",
@@ -47,6 +49,16 @@ def zone_of(noun: Noun) -> str:
     if noun.habitat not in ("ground", "fixed"):
         return "any"
     return "road" if noun.motion == "drive" else "pavement"
+
+
+def are_driven(*nouns: str) -> bool:
+    """Whether all are vehicles of the road."""
+    return all(one in NOUNS and zone_of(NOUNS[one]) == "road" for one in nouns)
+
+
+def hangs_on(noun: str, target: str) -> bool:
+    """Whether what is on another thing hangs on its face, as a clock does on a wall."""
+    return noun in nouns_with("hangs on a wall") and target in nouns_with("only a background")
 
 
 def list_orphans(description: SceneDescription) -> Iterator[int]:

@@ -170,12 +170,15 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
 
 def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     """The actors, with what is painted across a road turned to it."""
-    painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
-    return [
-        replace(one, track=steady(one.track.at(0.0).position, yaw))
-        if one.noun.name in painted else one
-        for one in actors
-    ]  # fmt: skip
+
+    def laid(one: Actor) -> Actor:
+        x, y, z = one.track.at(0.0).position
+        aside = float(road.across(np.array([[x, y]]))[0])
+        place = (x + aside * math.sin(road.angle), y - aside * math.cos(road.angle), z)
+        return replace(one, track=steady(place, road.angle + 0.5 * math.pi))
+
+    painted = nouns_with("across a road")
+    return [laid(one) if one.noun.name in painted else one for one in actors]
 
 
 def is_afloat(actor: Actor) -> bool:

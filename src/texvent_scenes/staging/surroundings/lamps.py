@@ -62,9 +62,13 @@ class LitActor:
     """Index and greatest emission of each glowing part, and what kind of lamp it is."""
     casts: bool = False
     """Whether its lamps cast shadows."""
+    switch_s: float | None = None
+    """As `SceneObject.switch_s`."""
 
     def is_on(self, lamp: LampKind) -> bool:
-        """Whether a lamp is on."""
+        """Whether a lamp is on, at some time."""
+        if self.switch_s is not None:
+            return True
         if self.is_lit is not None:
             return self.is_lit
         return lamp.always_on or self.strength > lamp.least_dark
@@ -91,6 +95,8 @@ class LitActor:
         """Light of a lamp of the object at that instant, as a share of its usual light."""
         if not self.is_on(lamp):
             return 0.0
+        if self.switch_s is not None:
+            return float((time_s >= self.switch_s) is (self.is_lit is not False))
         full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
         rate = self._blink_of(lamp)
         if rate is None:
@@ -127,7 +133,7 @@ class LitActor:
 
     def steady_at(self, time_s: float) -> NDArray[Any]:
         """[m] `LAMP_RECORD` at that instant, as if no lamp blinked."""
-        return replace(self, blink_hz=0.0).at(time_s)
+        return replace(self, blink_hz=0.0, switch_s=None).at(time_s)
 
 
 def part_lamp(
@@ -217,7 +223,8 @@ def plan_lamps(
     lit = []
     for one in actors:
         said, lamps = description.objects[one.object_index], _list_lamps(one)
-        lit += [LitActor(one, said.is_lit, said.blink_hz, strength, lamps)] if lamps else []
+        each = LitActor(one, said.is_lit, said.blink_hz, strength, lamps, switch_s=said.switch_s)
+        lit += [each] if lamps else []
     still = _still_lamps(items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT

@@ -152,6 +152,8 @@ class _Scatterer:
         """Heading of the first object."""
         on_rails = (one for one in actors if trait_value("zone", one.noun.name) == "rails")
         self._train = next(on_rails, None)
+        wheeled = (one for one in actors if one.noun.name in nouns_with("takes off"))
+        self._lander = next(wheeled, None)
         rows = [
             (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
             for one in actors
@@ -228,6 +230,9 @@ class _Scatterer:
         ahead, angle = rule.reach[0], self._view.road.angle
         if rule.noun in nouns_with("rails") and self._train is not None:
             x, y, angle = *self._train.middle(0.0)[:2], self._train.track.at(0.0).yaw
+        elif rule.noun in nouns_with("strip") and self._lander is not None:
+            ends = [self._lander.middle(time_s)[:2] for time_s in (0.0, self._view.clip_s)]
+            (x, y), angle = np.mean(ends, axis=0), self._lander.track.at(0.0).yaw
         spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
         self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
 

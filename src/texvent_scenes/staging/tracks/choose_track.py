@@ -135,7 +135,13 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         waves = _tempo(sign * motion.pace, sign * _gain(plan))
     elif motion.kind in LEANING:
         activity = "stand"
-    return replace(steady(home, plan.yaw, activity=activity), terms=waves)
+    if plan.is_laid:
+        on_side = 0.5 * max(model.length, model.width) - 0.5 * model.height
+        waves = (Term("pitch", offset=0.5 * math.pi), Term("z", offset=on_side))
+        laid = steady(home, plan.yaw, activity="stand")
+        return replace(laid, terms=waves, pivot_m=0.5 * model.height)
+    rest = replace(steady(home, plan.yaw, activity=activity), terms=waves)
+    return replace(rest, pivot_m=0.5 * model.height) if plan.is_facing else rest
 
 
 def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:

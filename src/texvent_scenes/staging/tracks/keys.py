@@ -88,9 +88,10 @@ def advance(knot: Knot, key: Key, elapsed: float, floor_m: float) -> Knot:
         drop = max(knot.place[2] - floor_m, 0.0)
         flown_s = max(elapsed, 0.0)
         z = floor_m + bounce_height(drop, key.climb_m_s, key.restitution, flown_s)
+    way = math.hypot(travelled, risen) if key.activity == "climb" else travelled
     return Knot(
         knot.time_s + elapsed, (x, y, max(z, floor_m)), knot.heading + turned,
-        knot.distance_m + travelled, (speed, turn, climb, pitch),
+        knot.distance_m + way, (speed, turn, climb, pitch),
     )  # fmt: skip
 
 

@@ -29,6 +29,8 @@ from texvent_scenes.staging.tracks.phases import (
 )
 from texvent_scenes.staging.tracks.track import Track
 
+_TALL = 1.2
+"""Height over width from which on a thing lies on its side, not on its foot."""
 FLAT, _WIDE = 0.62, 0.7
 """Objects whose length is below this share of their width show their front to the camera; the
 second is for what slides: a board, a mirror."""
@@ -54,6 +56,8 @@ class MotionPlan:
     """Height above the ground at which what falls, bounces or sinks begins; None: the usual one."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
+    is_laid: bool = False
+    """Whether a thing that usually stands lies on its side."""
 
     @property
     def is_path(self) -> bool:
@@ -96,6 +100,9 @@ def plan_motion(
         start_m: height above the ground at time 0, if it is said.
     """
     motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
+    is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)
+    if is_tall and motions[0].kind == "fall":
+        motions = [replace(one, kind="topple") if one.kind == "lie" else one for one in motions]
     start_m = start_m if any(one.kind in COMING_DOWN for one in motions) else None
     motion, toss = motions[0], rng.random()
     yaw = _choose_yaw(motions, noun, model, toss)
@@ -107,7 +114,7 @@ def plan_motion(
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
         radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
-        spin_axis="roll" if is_facing else axle,
+        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie",
     )  # fmt: skip
     if needs_steering(motions):
         path = build_path(
@@ -153,6 +160,8 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
     is_toppling = motion.kind == "topple" or any(one.kind == "fall" for one in motions[1:])
     if motion.kind == "turn":
         return default  # "turns left" is to its own left
+    if motion.kind in ("rise", "sink") and noun.name in nouns_with("takes off"):
+        return YAWS.get(direction, default)  # along a runway
     if noun.habitat == "fixed" and is_toppling:
         return default  # what falls over does so to a side of the picture
     if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
@@ -165,7 +174,9 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
 def _faces_camera(noun: Noun, model: Model, motion: Motion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in nouns_with("flat pattern"):
-        return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
+        return motion.kind in PATH_KINDS | {
+            "orbit", "spin", "rise", "sink", "grow", "shrink"
+        }  # fmt: skip
     if motion.kind == "spin":
         return noun.name in nouns_with("flat picture")
     is_wide = model.length < _WIDE * model.width

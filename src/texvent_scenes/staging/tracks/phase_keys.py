@@ -7,7 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
-from texvent_scenes.models.activities import DONE_SEATED, ON_GROUND, PERSON_NOUNS
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    DONE_SEATED,
+    ON_GROUND,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
@@ -363,7 +369,8 @@ class _KeyBuilder:
             activity = f"{ON_GROUND['sit']} and {activity}" if is_low else activity
         if self._noun.name in PERSON_NOUNS:
             activity = ON_GROUND.get(activity, activity)
-        if not self._is_first and motion.kind == "stand":
+        is_done = last.activity in ACTIVITIES and last.activity not in TRAVELLING
+        if not self._is_first and motion.kind == "stand" and not is_done:
             activity = last.activity  # wheels and legs go on until it stands
         braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
         ramp = min(braking, 0.9 * span)

@@ -52,6 +52,8 @@ _LEANS, _LEANT_S = {"towards": 0.4, "away": -0.4}, 1.7
 """Rates at which what tilts to one side does so, its front at the camera, rad/s; and until when."""
 LEANING = frozenset({"sway", "tilt"})
 """Those of a body that stays upright on average."""
+_GROWTH = {"grow": (-0.6, 0.4), "shrink": (0.0, -0.4)}
+"""What grows or shrinks: change of its size at first, and per second, in sizes; it does for 2 s."""
 _MOST_DRIFTING_M = 2.5
 """Size from which on what hovers drifts no further."""
 
@@ -118,6 +120,12 @@ def speeds_of(noun: Noun) -> Mapping[str, float]:
     return trait_value("speeds", noun.name) or {}
 
 
+def ends_at_rest(motions: Sequence[Motion]) -> bool:
+    """Whether a body that goes comes to rest in the end: it brakes or stops there."""
+    goes = any(one.kind in PATH_KINDS for one in motions)
+    return goes and (motions[-1].end_pace == 0.0 or motions[-1].kind == "stand")
+
+
 def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
     is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
@@ -136,6 +144,10 @@ def oscillations(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]
     size, lean = model.height, _LEANS.get(motion.direction or "", 0.0)
     if motion.kind == "tilt" and lean and motion.rate_hz is None:
         return (Term("pitch", drift=lean * motion.pace, begin_s=0.0, end_s=_LEANT_S),)
+    if motion.kind in _GROWTH:
+        offset, drift = _GROWTH[motion.kind]
+        end_s = 2.0 / max(motion.pace, 1e-3)
+        return (Term("scale", drift=drift * motion.pace, offset=offset, begin_s=0.0, end_s=end_s),)
     if motion.kind in ("hover", "float"):
         size = min(max(model.length, model.width, size), _MOST_DRIFTING_M) * motion.pace
     rate_hz = motion.rate_hz or 0.5 * motion.pace
@@ -156,5 +168,6 @@ def between(terms: tuple[Term, ...], begin_s: float, end_s: float) -> tuple[Term
         halves = math.floor(2.0 * (end_s - begin_s) * one.rate_hz + 1e-9)
         last_s = begin_s + 0.5 * halves / one.rate_hz if halves else end_s
         phase = -2.0 * math.pi * one.rate_hz * begin_s
-        found.append(one._replace(phase=phase, begin_s=begin_s, end_s=last_s))
+        offset = one.offset - one.drift * begin_s
+        found.append(one._replace(phase=phase, offset=offset, begin_s=begin_s, end_s=last_s))
     return tuple(found)

@@ -59,6 +59,8 @@ class BodyState:
     """`Pose.grips`."""
     tempo: float = 1.0
     """Rate of its gestures, as a multiple of their usual rate."""
+    scale: float = 1.0
+    """Size, as a multiple of that of its model."""
 
     def with_fields(self, **fields: Any) -> BodyState:
         """The state with other values; several times as fast as `dataclasses.replace`."""
@@ -68,7 +70,7 @@ class BodyState:
 
     def to_world(self) -> Float64Array:
         """[3, 4] map from body to world coordinates."""
-        turn = rotation(self.yaw, self.pitch, self.roll)
+        turn = self.scale * rotation(self.yaw, self.pitch, self.roll)
         pivot = np.array([0.0, 0.0, self.pivot_m])
         offset = np.array(self.position) + pivot - turn @ pivot
         return affine(turn, offset)
@@ -98,7 +100,8 @@ class Term(NamedTuple):
     """A constant, a drift and a sine that are added to one channel."""
 
     channel: str
-    """`BodyState`: "x", "y", "z", "yaw", "pitch", "roll", "tempo"; cameras have their own."""
+    """`BodyState`: "x", "y", "z", "yaw", "pitch", "roll", "tempo", "scale"; cameras have
+    their own."""
     amplitude: float = 0.0
     rate_hz: float = 0.0
     phase: float = 0.0
@@ -167,8 +170,11 @@ class Track:
     """From its middle to the edge about which it falls over, on which it then lies."""
     is_facing: bool = False
     """Whether it shows its front to the camera all along."""
+    is_upright: bool = False
+    """Whether it stays upright on a slope: a body on two legs."""
     anchor: Attachment | None = None
-    """Carries it up to `release_s`."""
+    """Carries it from `grab_s` up to `release_s`."""
+    grab_s: float = -math.inf
     release_s: float = math.inf
     activity: str | None = None
     """Takes the place of those of the keys."""
@@ -198,7 +204,7 @@ class Track:
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        if self.anchor is not None and time_s < self.release_s:
+        if self.anchor is not None and self.grab_s <= time_s < self.release_s:
             state = self.anchor.at(time_s)
         else:
             state = self._add_terms(self._follow_keys(time_s), time_s)
@@ -218,14 +224,15 @@ class Track:
             height += hop
         height += self.edge_m * abs(math.sin(pitch))
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
-        pitch -= math.atan(climb * abs(speed) / (speed**2 + slow**2))
+        if not self.is_upright:
+            pitch -= math.atan(climb * abs(speed) / (speed**2 + slow**2))
         pitch = now.distance_m / self.radius_m if self.radius_m else pitch
         return BodyState(
             (x, y, height),
             TO_CAMERA if self.is_facing else now.heading + turn_round(key, elapsed),
             0.0 if self.is_facing else pitch,
             distance_m=now.distance_m,
-            speed_m_s=abs(speed),
+            speed_m_s=math.hypot(speed, climb) if key.activity == "climb" else abs(speed),
             activity=key.activity,
             pivot_m=self.radius_m or self.pivot_m,
             act_s=act_s,

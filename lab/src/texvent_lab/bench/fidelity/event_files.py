@@ -15,7 +15,7 @@ from texvent.io.files import is_event_path, open_events
 from texvent.run.rate_search import ThresholdMatch
 from texvent.sensor import SensorSize
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.kept_results import digest_of
+from texvent_lab.bench.kept_results import digest_of, digest_of_file
 
 TOLERANCE_US = 1_000
 """Jitter of event times that is no other clock; what lies outside the frames is not scored."""
@@ -94,7 +94,7 @@ class FileEntry(Entry):
     def digest(self) -> str:
         """Name of the content of all files."""
         every = [(one, *pair) for one, files in self.files.items() for pair in files.items()]
-        return digest_of([(one, name, digest_of(path.read_bytes())) for one, name, path in every])
+        return digest_of([(one, name, digest_of_file(path)) for one, name, path in every])
 
     def fit(
         self, count_events: Callable[[float | None], int], target: int

@@ -1,0 +1,105 @@
+"""Things in containers: sizes that fit, places below the rim, ways inside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.models.anchors import Support, find_support
+from texvent_scenes.models.protocol import Model
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.staging.placement.object_groups import ObjectGroup
+from texvent_scenes.staging.tracks.keys import Key
+from texvent_scenes.staging.tracks.phase_keys import arc
+from texvent_scenes.staging.tracks.phases import activity_of
+from texvent_scenes.staging.tracks.track import Track, centred
+
+Hollow = tuple[float, float, float, float, float]
+"""Inner length and width as shares of a box, floor as a share of its height, least and greatest
+scale."""
+_ROOM, _LEAST_SHARE = 1.1, 0.25
+"""Room over the size of what is in it; least scale of a thing."""
+_OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
+"""Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
+_TURN_SHARE = 0.16
+"""Share of the clip in which what goes to and fro in a container turns round."""
+_SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
+"""Share of the height of what is in something that looks out of it; of an animal, whose ears reach
+above its head."""
+
+
+def fit_in(
+    container: Model, hollow: Hollow, inside: Sequence[tuple[Model, int]]
+) -> tuple[float, float]:
+    """Scale of a container, and of what is in it, with which that fits.
+
+    Args:
+        container: at the size that is said.
+        hollow: its trait.
+        inside: models at the size that is said, and how many of each.
+    """
+    across_m, along_m = hollow[0] * container.length, hollow[1] * container.width
+    if container.length >= container.width:  # the side along which they are lined up
+        across_m, along_m = along_m, across_m
+    count = sum(number for _, number in inside)
+    longest = max(max(one.length, one.width) for one, _ in inside)
+    row_m = sum(reach_of(one, count) * number for one, number in inside)
+    share = _ROOM * max(row_m / along_m, longest / across_m)
+    scale = min(max(share, hollow[3]), hollow[4])
+    return scale, max(min(scale / share, 1.0), _LEAST_SHARE)
+
+
+def reach_of(model: Model, count: int) -> float:
+    """Extent along a row, in which several stand side by side, m."""
+    sides = model.length, model.width
+    return min(sides) if count > 1 else max(sides)
+
+
+def fit_passage(goers: Sequence[Model]) -> float:
+    """Scale of a tunnel for those who go through it."""
+    widest = max(max(one.width, _UPRIGHT * one.height) for one in goers)
+    return min(max(_OPENING * widest, _LEAST_TUNNEL), 1.0)
+
+
+def hollow_of(target: ObjectGroup) -> Support:
+    """The floor of a container, body coordinates, m."""
+    long, wide, floor, *_ = trait_value("container", target.noun.name)
+    body = target.models[0]
+    half = 0.5 * long * body.length, 0.5 * wide * body.width
+    return Support(floor * body.height, (-half[0], -half[1]), half)
+
+
+def depth_in(group: ObjectGroup, target: ObjectGroup) -> float:
+    """Height of a thing's lowest point above the foot of what it is in, m.
+
+    It looks out of what cannot be seen into, stands on the floor of the rest, and swims above it.
+    """
+    body, own = target.models[0], group.models[0]
+    hollow = trait_value("container", target.noun.name)
+    floor_m = (hollow[2] if hollow else 0.08) * body.height
+    is_open = trait_value("drawn open", target.noun.name) is not None
+    if target.noun.name in nouns_with("see-through"):
+        return 0.5 * (body.height - own.height) if group.noun.habitat == "water" else floor_m
+    if is_open:
+        return floor_m
+    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
+    return max(find_support(body).height - (1.0 - seen) * own.height, floor_m)
+
+
+def go_inside(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have what goes somewhere go to and fro in the container along its longer side."""
+    plan, own = group.plan, group.models[0]
+    sides = np.subtract(support.high, support.low)
+    way_m = max(float(sides.max()) - 1.1 * max(own.length, own.width), 0.02)
+    speed = way_m / (0.5 * (1.0 - _TURN_SHARE) * plan.duration_s)
+    turn_s, activity = _TURN_SHARE * plan.duration_s, activity_of(plan.motion.kind)
+    going = Key(way_m / speed, speed, ramp_s=0.1 * plan.duration_s, activity=activity)
+    turn = [replace(key, activity=activity) for key in arc(turn_s, 0.1 * speed, math.pi, 0.0)]
+    yaw = target.plan.yaw + 0.5 * math.pi * int(np.argmax(sides))
+    path = Track((0.0, 0.0, 0.0), yaw, (replace(going, duration_s=0.0), going, *turn, going))
+    path = centred(replace(path, radius_m=plan.radius_m), plan.duration_s)
+    group.plan = replace(plan, yaw=yaw, path=path, speed_m_s=speed)
+    group.fit()

@@ -1,0 +1,76 @@
+"""Places of things on the way of who goes through, out of or up to them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.staging.placement.object_groups import Goal, ObjectGroup
+from texvent_scenes.staging.placement.zones import are_driven
+from texvent_scenes.staging.tracks.phases import ends_at_rest
+
+_FIXED, _AWAY = np.zeros(3), np.array([0.0, 1.0, 0.0])
+_AT_DOOR_M, _QUEUE_M = 0.3, 1.2
+"""From the wall of a house to the middle of who has come out of it; gap between those who wait or
+stop one before the other, m."""
+
+
+def place_on_way(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal | None:
+    """Position of a target on the way of its subject, which is placed already; None: elsewhere.
+
+    `height` is that of the target's origin, m.
+    """
+    if kind == "through" and subject.plan.is_path:
+        return _lead_through(group, subject, height)
+    has_door = group.noun.name in nouns_with("has a door")
+    if kind == "from" and has_door and subject.plan.motion.direction == "towards":
+        return _lead_out(group, subject, height)
+    if kind in ("behind", "front", "beside"):
+        return _place_in_queue(group, kind, subject, height)
+    return None
+
+
+def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
+    """Along the way of who goes through, who is out at about half of that way."""
+    if group.noun.name in nouns_with("passage"):
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
+        group.fit()
+    extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+    back = min(0.1 * extent + 0.5 * group.models[0].length, 0.45 * extent)
+    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
+    """Behind who comes out, its front turned the same way."""
+    group.plan = replace(group.plan, yaw=subject.plan.yaw)
+    group.fit()
+    back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
+    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _place_in_queue(
+    group: ObjectGroup, kind: str, subject: ObjectGroup, height: float
+) -> Goal | None:
+    """Before or behind a subject that comes to rest there, or vehicles at rest in one lane."""
+    path, yaw = subject.plan.path, subject.plan.yaw
+    is_stopping = path is not None and ends_at_rest(subject.scene_object.motions)
+    are_waiting = not (subject.plan.motion.is_moving or group.plan.motion.is_moving)
+    is_lane = are_driven(subject.noun.name, group.noun.name)
+    is_crossing = group.noun.name in nouns_with("across a road")
+    if not (is_stopping or is_crossing or (are_waiting and is_lane and kind != "beside")):
+        return None
+    place, apart = subject.centre, _QUEUE_M + 0.5 * subject.models[0].length
+    if path is not None and is_stopping:
+        state = path.at(subject.plan.duration_s)
+        place, yaw = place + np.array(state.position), state.yaw
+    apart += 0.5 * float(group.models[0].length if is_lane else max(group.half[:2]))
+    if is_lane:
+        group.plan = replace(group.plan, yaw=yaw)
+        group.fit()
+        apart *= -1.0 if kind == "front" and not is_stopping else 1.0
+    along = apart * np.array([math.cos(yaw), math.sin(yaw)])
+    slide = _FIXED if is_lane or is_crossing else _AWAY
+    return Goal(np.array([*(place[:2] + along), height]), slide)

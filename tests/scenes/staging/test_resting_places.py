@@ -1,0 +1,141 @@
+"""Walls, runways, lanes and falls: where things come to rest, and on which side."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.scenes.staged import DURATION_S, SIZE
+from tests.scenes.staging.test_containers import lost_relations, staged
+
+from texvent_scenes.in_view import find_unseen
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import nouns_with, trait_values
+
+
+def box(actor, time_s):
+    corners = actor.corners(time_s)
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def moved(scene, actor, shift):
+    """The actors, one of them elsewhere."""
+    track = replace(actor.track, start=tuple(np.add(actor.track.start, shift)))
+    return [replace(one, track=track) if one is actor else one for one in scene.actors]
+
+
+@pytest.mark.parametrize(
+    "text", ["a clock on a brick wall", "two posters on a wall", "a tv on a plain wall"]
+)
+def test_what_hangs_on_a_wall_is_on_its_face_and_not_on_its_top(text):
+    said, scene = staged(text)
+    *hung, wall = scene.actors
+    for one in hung:
+        low, high = box(one, 0.0)
+        assert low[2] > 0.0
+        assert high[2] < box(wall, 0.0)[1][2]
+    assert lost_relations(said, scene) == []
+    tall = float(box(wall, 0.0)[1][2])
+    assert lost_relations(said, scene, moved(scene, hung[-1], (0, 0, tall))) == ["on"]
+
+
+@pytest.mark.parametrize("text", ["a cat on a brick wall", "a bird sits on a wall"])
+def test_animals_are_on_top_of_a_wall(text):
+    one, wall = staged(text)[1].actors
+    assert one.middle(0.0)[2] > box(wall, 0.0)[1][2]
+
+
+@pytest.mark.parametrize(
+    ("text", "shift"),
+    [("a vase on a stool", (0.25, 0, 0)), ("a ball on a table", (0, 0, -0.7)),
+     ("a lamp on a desk", (0, 1.5, 0)), ("a dog on a rock", (1.2, 0, 0)),
+     ("three candles on a cake", (0.12, 0, 0))],
+)  # fmt: skip
+def test_what_is_on_something_has_it_below_most_of_its_foot(text, shift):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    first, *_ = scene.actors
+    assert lost_relations(said, scene, moved(scene, first, shift)) == ["on"]
+
+
+@pytest.mark.parametrize("noun", ["bottle", "glass", "vase", "candle"])
+@pytest.mark.parametrize("verb", ["falls and lies on the floor", "lies on the floor"])
+def test_a_tall_thing_that_lies_is_on_its_side_on_the_ground(noun, verb):
+    (one,) = staged(f"a {noun} {verb}")[1].actors
+    low, high = box(one, DURATION_S)
+    assert (high - low)[2] < 0.8 * one.model.height
+    assert abs(one.lowest_m(DURATION_S)) < 0.1 * one.model.height
+
+
+@pytest.mark.parametrize("text", ["a book lies on a table", "an apple lies on the floor"])
+def test_a_low_thing_that_lies_is_as_it_stands(text):
+    one = staged(text)[1].actors[0]
+    assert one.track.at(1.0).pitch == 0.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["an airplane lands on a runway", "a jet takes off from a runway",
+     "a plane lands towards the camera on a runway", "an airplane stands on a runway"],
+)  # fmt: skip
+def test_an_aircraft_on_the_ground_has_the_strip_under_it(text):
+    scene = staged(text)[1]
+    one, strip = scene.actors[0], scene.still
+    paved = int(np.argmax(np.linalg.norm(strip.to_world[:, :, 0], axis=1)))  # the longest part
+    to_strip = np.linalg.inv(np.vstack([strip.to_world[paved], [0, 0, 0, 1]]))
+    met = [time for time in np.linspace(0.0, DURATION_S, 9) if one.lowest_m(time) < 0.5]
+    assert met
+    for time in met:
+        across = to_strip @ [*one.middle(time), 1.0]
+        assert abs(across[:2]).max() < 1.0
+
+
+@pytest.mark.parametrize(
+    ("text", "sign"),
+    [("a taxi waits behind a van", -1), ("two trucks behind a bus", -1),
+     ("a bus stands in front of a car", 1)],
+)  # fmt: skip
+def test_vehicles_at_rest_are_one_behind_the_other_in_a_lane(text, sign):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    *own, other = scene.actors
+    yaw = other.track.at(0.0).yaw
+    for one in own:
+        off = (one.middle(0.0) - other.middle(0.0))[:2]
+        along = off @ [np.cos(yaw), np.sin(yaw)]
+        assert sign * along > 0.5 * (one.model.length + other.model.length)
+        assert np.hypot(*off) - abs(along) < 1.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a cyclist brakes in front of a pedestrian", "a man walks and stops in front of a bench"],
+)
+def test_who_stops_before_something_comes_to_rest_short_of_it(text):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    one, other = scene.actors
+    gone = one.middle(DURATION_S) - one.middle(0.0)
+    assert (other.middle(DURATION_S) - one.middle(DURATION_S)) @ gone > 0.0
+    assert lost_relations(said, scene, moved(scene, other, -2.0 * gone)) != []
+
+
+def test_several_things_that_are_passed_stand_one_after_the_other():
+    said, scene = staged("a woman runs past a fountain and two benches")
+    assert find_unseen(scene, said, SIZE, DURATION_S).out_of_view == ()
+    fountain, *benches = scene.actors[1:]
+    (low, high) = box(fountain, 0.0)
+    assert all(box(one, 0.0)[0][0] > high[0] or box(one, 0.0)[1][0] < low[0] for one in benches)
+
+
+def test_traits_name_nouns():
+    assert nouns_with("hangs on a wall") | nouns_with("only a background") <= NOUNS.keys()
+    put = trait_values("drawn put up")
+    assert {*put, *put.values()} <= NOUNS.keys()
+
+
+@pytest.mark.parametrize(("noun", "least_m", "most_m"), [
+    ("football", 0.21, 0.23), ("basketball", 0.23, 0.25), ("tennis ball", 0.06, 0.07),
+    ("ball", 0.15, 0.3), ("ping-pong ball", 0.035, 0.045), ("volleyball", 0.2, 0.22),
+])  # fmt: skip
+def test_balls_have_the_sizes_of_their_rules(noun, least_m, most_m):
+    assert least_m <= NOUNS[noun].build(colour=None, scale=1.0, seed=0).height <= most_m

@@ -1,0 +1,56 @@
+"""Ways through, between, around and past: what the swept path shows, and what the image holds."""
+
+import numpy as np
+import pytest
+from tests.scenes.staged import DURATION_S, SIZE, in_image
+from tests.scenes.staging.test_containers import lost_relations, staged
+from tests.scenes.staging.test_resting_places import box, moved
+
+from texvent_scenes.in_view import find_unseen
+
+TIMES_S = np.linspace(0.0, DURATION_S, 9)
+
+
+@pytest.mark.parametrize(
+    ("text", "shift"),
+    [("a bus drives through a tunnel", (5.0, 0, 0)), ("a dog runs through a tunnel", (2.5, 0, 0)),
+     ("a man rides a bicycle through a tunnel", (0, -40.0, 0))],
+)  # fmt: skip
+def test_who_goes_through_a_tunnel_keeps_clear_of_its_walls_and_is_seen_to_come_out(text, shift):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    goer, tunnel = scene.actors[0], scene.actors[-1]
+    (low, _), (least, _) = box(goer, DURATION_S), box(tunnel, 0.0)
+    assert low[1] < least[1]  # it has come out, on the camera's side
+    inside = in_image(scene, tunnel, 1.0)
+    assert ((inside > -0.05) & (inside < 1.05)).all()
+    assert "through" in lost_relations(said, scene, moved(scene, tunnel, shift))
+
+
+@pytest.mark.parametrize(
+    "text", ["a dog runs between two trees", "a boy walks between two parked cars"]
+)
+def test_who_goes_between_two_things_crosses_the_line_between_them(text):
+    said, scene = staged(text)
+    goer, first, second = scene.actors
+    assert lost_relations(said, scene) == []
+    way = (second.middle(0.0) - first.middle(0.0))[:2]
+    off = np.array([goer.middle(t) - first.middle(0.0) for t in TIMES_S])[:, :2]
+    sides = np.sign(off @ [-way[1], way[0]])
+    assert set(sides) >= {-1.0, 1.0}
+    seen = find_unseen(scene, said, SIZE, DURATION_S)
+    assert (seen.out_of_view, [one.line for one in seen.violations]) == ((), [])
+    assert lost_relations(said, scene, moved(scene, goer, 2.0 * np.array([*way, 0.0]))) != []
+
+
+@pytest.mark.parametrize(
+    "text", ["a girl runs around a tree", "a dog runs around a man", "a bee flies around a flower"]
+)
+def test_who_goes_around_something_is_on_all_sides_of_it(text):
+    said, scene = staged(text)
+    assert lost_relations(said, scene) == []
+    goer, middle = scene.actors
+    off = np.array([goer.middle(t) - middle.middle(t) for t in TIMES_S])
+    angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
+    assert np.ptp(angles) > np.pi
+    assert lost_relations(said, scene, moved(scene, middle, (30.0, 0, 0))) == ["around"]
