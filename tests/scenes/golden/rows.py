@@ -3,13 +3,15 @@
     python -m tests.scenes.golden.rows    # writes the sums anew; CHANGELOG.md says why
 
 `rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
-do, motions, relations, places, lights, effects, camera moves, materials; and a third of the
-sentences of `sentences.txt` as they are staged, which hold what these rows do to each other.
+do, motions and their tracks, relations, places, lights, effects, camera moves, materials; and a
+third of the sentences of `sentences.txt` as they are staged, which hold what these rows do to each
+other. Places, lights and effects have small pictures, with truth, too.
 """
 
 from __future__ import annotations
 
 import gzip
+import itertools
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
@@ -20,16 +22,19 @@ from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.scenes.golden.golden import decided, stored_scenes
+from tests.scenes.golden.golden import block_means, decided, see, stored_scenes
+from tests.scenes.read.phrases import ENDS, OBJECTS, RELATIONS, SUBJECTS, VERBS
 
 from texvent.sensor import SensorSize
-from texvent_scenes.defaults import complete
+from texvent_scenes import read as reader
+from texvent_scenes.defaults import complete, decide_motions
 from texvent_scenes.description import to_description
 from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Model, Noun, Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, SURFACES, build_tile
 from texvent_scenes.rendered_scene import Texture
 from texvent_scenes.spec import scene as spec
@@ -47,7 +52,10 @@ from texvent_scenes.spec.scene import (
 )
 from texvent_scenes.staging.camera.camera_track import time_moves
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.surroundings.lighting import choose_lighting
+from texvent_scenes.staging.tracks.choose_track import choose_track
+from texvent_scenes.staging.tracks.motion_plan import plan_motion
 
 SUMS = Path(__file__).with_name("rows.json.gz")
 SIZE, SEED, DURATION_S = SensorSize(96, 72), 5, 1.0
@@ -55,7 +63,11 @@ INSTANTS_S = (0.23, 0.81)
 ACTED_S = (0.13, 0.46, 0.71)
 MOVING = (Pose(0.31, 0.17, 1.3), Pose(2.9, 11.3, 4.0, "run"), Pose(0.4, 0.0, 0.0, "sit"))
 EMPTY = Place("plain", is_empty=True)
+BODIES = ("car", "man", "dog", "airplane", "ball", "boat")
 DIRECTIONS, MOVE_DIRECTIONS = get_args(spec.Direction), get_args(spec.MoveDirection)
+SMALL, PICTURE = SensorSize(48, 36), "picture"
+WAY = Motion("move", "left"), Motion("move", "right")
+SIMPLE = sorted(MOTIONS - set(ACTIVITIES) | {"walk", "run", "jump", "sit", "swim"})
 Marks = dict[str, list[float]]
 
 
@@ -124,6 +136,50 @@ def mark_scene(scene: Scene) -> Marks:
     return found
 
 
+def mark_seen(scene: Scene) -> Marks:
+    """As `mark_scene`, and how it looks."""
+    picture = block_means(see(stage(scene), INSTANTS_S[0], SMALL), 12)
+    return mark_scene(scene) | {PICTURE: picture.round(4).ravel().tolist()}
+
+
+def mark_tracks(kind: str) -> Marks:
+    """A motion of bodies in every direction, slower in the end, and one after another."""
+    found: dict[str, list[Any]] = {}
+    for way, name in itertools.product(DIRECTIONS, BODIES):
+        noun, motions = NOUNS[name], (Motion(kind, way, 1.2), Motion(kind, way, end_pace=0.5))
+        model, height_m = usual_model(noun), _one_of((None, 1.7), f"{kind} {name}")
+        for said in (motions[:1], motions[1:], motions):
+            rng = np.random.default_rng(SEED)
+            plan = plan_motion(decide_motions(said, noun), noun, model, DURATION_S, rng, height_m)
+            track = choose_track(plan, model, (1.0, 2.0, 0.7), rng)
+            found.setdefault(str(way), []).extend((plan, *map(track.at, INSTANTS_S)))
+    return {way: mark(*plans) for way, plans in found.items()}
+
+
+def mark_acts(kind: str) -> Marks:
+    """What a person does with an eighth of all things, and with those of which a trait says how."""
+    traits = ("held as a tool", "held upright", "held up high", "held hanging", "worn")
+    special = {_one_of(sorted(nouns_with(one)), kind, step) for one in traits for step in (0, 1)}
+    found = {}
+    for name in NOUNS:
+        if name in special or crc32(f"{kind} {name}".encode()) % 8 == 0:
+            man = SceneObject("man", relations=(Relation(kind, (name,)),))
+            man = replace(man, motions=_one_of(((), (Motion("walk"),), WAY), f"{name} {kind}"))
+            staged = stage(Scene(objects=(man, SceneObject(name)), place=EMPTY))
+            found[name] = mark(*map(staged.primitives, INSTANTS_S), staged.not_shown, staged.notes)
+    return found
+
+
+def mark_readings(subject: str) -> Marks:
+    """How sentences about a subject are read, one of a few thousand that its words make."""
+    found = {}
+    for words in itertools.product(VERBS, RELATIONS, OBJECTS, ENDS):
+        sentence = " ".join((subject, *words)).strip()
+        if crc32(sentence.encode()) % 499 == 0:
+            found[sentence] = mark(*vars(reader.read(sentence, NOUNS)).values())
+    return found
+
+
 def mark_moves() -> Marks:
     """All camera moves, each in every direction."""
     path = stage(Scene(objects=(SceneObject("box"),), place=EMPTY)).camera_path
@@ -165,21 +221,23 @@ def _one_of(words: Sequence[Any], name: str, step: int = 0) -> Any:
 
 
 def _of_objects() -> Iterator[tuple[str, Scene]]:
-    bodies = ("car", "man", "dog", "airplane", "ball", "boat")
-    for kind in sorted(MOTIONS - set(ACTIVITIES) | {"walk", "run", "jump", "sit", "swim"}):
+    for kind in SIMPLE:
         for step in (0, 1):
-            noun, way = _one_of(bodies, kind, step), _one_of(DIRECTIONS, kind, step)
+            noun, way = _one_of(BODIES, kind, step), _one_of(DIRECTIONS, kind, step)
             actor = SceneObject(noun, motions=(Motion(kind, way), Motion("move", start_s=0.6)))
             yield f"{noun} {kind} {way}", Scene(objects=(actor,), place=EMPTY)
     pairs = (("man", "table"), ("cat", "box"), ("car", "truck"), ("man", "chair"))
     for kind in get_args(spec.RelationKind):
         for noun, target in pairs[::2] if kind in ("on", "at") else [_one_of(pairs, kind)]:
-            count = 2 if noun == "cat" else 1
-            actor = SceneObject(noun, count=count, relations=(Relation(kind, (target,)),))
-            others = SceneObject(target), SceneObject("dog")
-            yield f"{noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
-            actor = replace(actor, motions=(Motion("move", "left"), Motion("move", "right")))
-            yield f"moving {noun} {kind} {target}", Scene(objects=(actor, *others), place=EMPTY)
+            for count, several in ((1, 1), (2, 1), (3, 2), (1, 2)):
+                actor = SceneObject(noun, count=count, relations=(Relation(kind, (target,)),))
+                if count < several:
+                    actor = replace(actor, motions=WAY)
+                others = SceneObject(target, count=several), SceneObject("dog")
+                yield (
+                    f"{count} {noun} {kind} {several} {target}",
+                    Scene(objects=(actor, *others), place=EMPTY),
+                )
     for one in get_args(spec.Placement):
         placed = SceneObject("man", placement=one), SceneObject("car")
         yield f"placed {one}", Scene(objects=placed, place=EMPTY)
@@ -227,8 +285,16 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
         yield name, partial(mark_noun, noun)
     for texture in SURFACES:
         yield f"surface: {texture.name}", partial(mark_surface, texture)
-    for name, scene in (*_of_objects(), *_of_surroundings()):
+    for kind in SIMPLE:
+        yield f"tracks: {kind}", partial(mark_tracks, kind)
+    for subject in SUBJECTS:
+        yield f"readings: {subject}", partial(mark_readings, subject)
+    for kind in ACTS:
+        yield f"acts: {kind}", partial(mark_acts, kind)
+    for name, scene in _of_objects():
         yield f"scene: {name}", partial(mark_scene, scene)
+    for name, scene in _of_surroundings():
+        yield f"scene: {name}", partial(mark_seen, scene)
     for sentence in list(stored_scenes())[::3]:
         yield f"sentence: {sentence}", partial(mark_sentence, sentence)
 

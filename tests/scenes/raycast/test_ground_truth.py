@@ -4,11 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.camera import PosedCamera, camera_rays
 from texvent.sensor import SensorSize
-from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.raycast.ground_truth import _hidden, ground_truth
+from texvent_scenes.raycast.render import world_at
 from texvent_scenes.rendered_scene import Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, look_at, moving, showcase, still
@@ -95,6 +98,18 @@ def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded():
     assert passed.any()
     assert np.isnan(truth.flow[passed & (truth.depth < 5.99)]).all()
     assert truth.occluded[passed].all()
+
+
+@given(st.sampled_from([-1.0, -0.5, 0.0, 0.25, 1.0]), st.sampled_from([-1.0, -0.5, 0.0, 0.25, 1.0]))
+@settings(max_examples=25)
+def test_a_point_is_in_the_image_from_its_first_edge_up_to_the_last(beside, above):
+    """`beside` and `above` are pixels from an edge; 0 is on the first, and out of the last."""
+    world = world_at(HandScene((), level, class_names=NAMES), 0.0, SIZE, shadows=False)
+    places = [(x, y) for x in (beside, SIZE.width + beside) for y in (above, SIZE.height + above)]
+    hidden = _hidden(world, np.array([(x, y, 1e-3) for x, y in places]), SIZE)
+    inside = [0.0 <= x < SIZE.width and 0.0 <= y < SIZE.height for x, y in places]
+    assert hidden.tolist() == [not one for one in inside]
+    assert _hidden(world, np.array([(x, y, 0.0) for x, y in places]), SIZE).all()
 
 
 def test_boxes_hold_the_visible_pixels_and_say_how_much_is_visible():

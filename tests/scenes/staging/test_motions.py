@@ -1,5 +1,6 @@
 """Motions: continuous, physical, of the stated speed, and what sequences of them come to."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -7,15 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import stage, thing
 
 from texvent_scenes.defaults import decide_motions
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, bounce_height
+from texvent_scenes.staging.tracks.motion_plan import plan_motion
 from texvent_scenes.staging.tracks.phase_keys import build_path
-from texvent_scenes.staging.tracks.phases import schedule
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, schedule
 from texvent_scenes.staging.tracks.track import Term, Track, seated, steady
 
 TIMES_S = np.linspace(0.0, 2.0, 5)
@@ -68,6 +72,23 @@ def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
         assert np.abs(np.subtract(after.position, before.position)).max() < 0.05
         assert abs(after.yaw - before.yaw) < 0.2
         assert abs(after.speed_m_s - before.speed_m_s) < 1.0
+
+
+@for_every([*itertools.product(sorted(PATH_KINDS | {"bounce", "throw"}), ("car", "man", "ball"))])
+def test_what_goes_one_way_is_at_home_at_mid_clip(row):
+    """So it is in view before and after: half of its way lies behind its place."""
+    kind, name = row
+    noun, home = NOUNS[name], (3.0, -2.0, 0.5)
+    model = NOUNS[name].build(colour=None, scale=1.0, seed=0)
+    for way in ("left", "right", "towards", "away"):
+        rng = np.random.default_rng(0)
+        plan = plan_motion([Motion(kind, way)], noun, model, 3.0, rng)
+        track = replace(choose_track(plan, model, home, rng), terms=())
+        begin, middle, end = (np.array(track.at(t).position[:2]) for t in (0.0, 1.5, 3.0))
+        if plan.path is None and plan.gesture is None:
+            assert middle == pytest.approx(home[:2], abs=1e-6)
+            assert begin + end == pytest.approx(2.0 * middle, abs=1e-6)
+            assert np.hypot(*(end - begin)) > 0.1
 
 
 @given(st.floats(0.5, 20.0))
