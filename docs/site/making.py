@@ -25,6 +25,7 @@ BENCHMARKS = {
     "objects": (),
     "objects-factors": (),
     "objects-clips": (),
+    "objects-recorded": (),
     "objects-programs": (),
     "reconstruction-factors": (),
     "selftest": (),
