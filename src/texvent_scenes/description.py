@@ -30,12 +30,30 @@ class IndexedRelation:
 
 
 @dataclass(frozen=True)
+class Claim:
+    """A word of which only the staged scene tells whether it is shown."""
+
+    word: str
+    """As the report has it, such as "row of"."""
+    kind: str
+    """Check that decides: a key of `word_check.CHECKS`, such as "colour" or "relation"."""
+    value: str | float = ""
+    """As "black" of colours, "behind" of relations, 3 of repetitions."""
+    subject: int | None = None
+    """Index of the object of which it is said; None: the camera."""
+    targets: tuple[int, ...] = ()
+    """Indices of the other objects of a relation."""
+
+
+@dataclass(frozen=True)
 class SceneDescription(Scene):
     """A scene whose objects have ids of their own, which their nouns may no longer tell."""
 
     relations: tuple[IndexedRelation, ...] = ()
     words: PromptReport = field(default_factory=PromptReport)
     """Report of the words of a prompt that was read."""
+    claims: tuple[Claim, ...] = ()
+    """Words that the report of the staged scene takes in."""
     notes: tuple[str, ...] = ()
     """Decisions where the scene leaves a choice open, as sentences."""
 

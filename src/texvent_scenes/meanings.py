@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.lexicon import Senses, lexicon_of, split_prompt
+from texvent_scenes.read.senses import find_nouns
 
 _FIELDS = {"turns_hz": "rate_hz"}
 """Fields of words, and of scenes, where they differ."""
@@ -18,6 +20,8 @@ def list_meanings(word: str) -> Iterator[tuple[str, object]]:
         ([('noun', 'car')], [('direction', 'left')])
     """
     tokens = split_prompt(word.replace("_", " "), lexicon_of(None))
+    if len(tokens) == 1 and not tokens[0].senses:  # of an ambiguous word all that it may mean
+        return iter([("noun", noun) for noun in find_nouns(tokens[0].text, NOUNS)])
     return meanings_of(tokens[0].senses if len(tokens) == 1 else ())
 
 

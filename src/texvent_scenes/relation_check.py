@@ -63,8 +63,8 @@ class Violation(NamedTuple):
 
     kind: str
     """"relation", "direction", "motion", "noun", "effect" or a field of light or place."""
-    value: str
-    """Such as "under", "left" or "snow"."""
+    value: str | float
+    """Such as "under", "left" or "snow"; 2 of a count."""
     line: str
     """For the report, such as "the ball under the chair"."""
 

@@ -17,7 +17,7 @@ from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Light, Place, Scene
 
 if TYPE_CHECKING:
-    from texvent_scenes.description import SceneDescription
+    from texvent_scenes.description import Claim, SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
     from texvent_scenes.staging.idle_fields import Idle
@@ -49,14 +49,14 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    reading, idle, _ = _read(prompt, list_nouns(assets))
+    reading, idle = _read(prompt, list_nouns(assets))
     return replace(reading, not_understood=(*reading.not_understood, *idle))
 
 
-def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str], list[str]]:
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
     """The reading of a prompt, without fields that change nothing.
 
-    With the words that stand for such fields, each with the reason, and notes of other fields.
+    With the words that stand for such fields, each with the reason.
     """
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent_scenes import read as reader
@@ -90,18 +90,18 @@ def _hint(reading: Reading) -> str:
     return f"known alone: {few(known, MOST_WORDS)}; say it in a plainer sentence; " if known else ""
 
 
-def _without_idle(
-    reading: Reading, nouns: Mapping[str, Noun]
-) -> tuple[Reading, dict[str, str], list[str]]:
+def _without_idle(reading: Reading, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
     from texvent_scenes.meanings import list_meanings
     from texvent_scenes.staging.idle_fields import leave_out
 
     scene, shown = reading.scene, list(reading.shown)
-    lost, notes = dict[str, str](), list[str]()
+    claims: list[Claim] = []
+    lost = dict[str, str]()
     for _ in range(_MOST_PASSES):
         idle = _list_idle(scene, nouns)
         if not idle:
             break
+        scene_before = scene
         before, scene = set(_list_fields(scene)), leave_out(scene, idle)
         after = {(name, value) for path, name, value in _list_fields(scene)}
         for one in idle:
@@ -109,12 +109,26 @@ def _without_idle(
             words = [word for word in shown if not said.isdisjoint(list_meanings(word))]
             if one.path.endswith("pace"):  # "land", which has a pace of its own, "smoothly"
                 words = words or [word for word in shown if "pace" in dict(list_meanings(word))]
-            if not words:
-                notes.append(f"{one.path} would change nothing and is left out: {one.why}")
             for word in words if said.isdisjoint(after) or one.path.endswith("pace") else ():
                 shown.remove(word)
                 lost[word] = one.why
-    return replace(reading, scene=scene, shown=tuple(shown)), lost, notes
+                claims += _claim_anyway(one, word, scene_before)
+    claimed = (*reading.claims, *claims)
+    return replace(reading, scene=scene, shown=tuple(shown), claims=claimed), lost
+
+
+def _claim_anyway(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
+    """Claim of what a thing may be or do anyway: "a wooden table", "swings to and fro"."""
+    from texvent_scenes.description import Claim
+    from texvent_scenes.spec.data import steps_of
+
+    first, *way = steps_of(idle.path)
+    if first != "objects":
+        return
+    one, last = scene.objects[int(way[0])], str(way[-1])
+    value = getattr(one.motions[int(way[2])] if way[1] == "motions" else one, last, None)
+    if last == "material" or value == "to and fro":
+        yield Claim(word, last, str(value), int(way[0]))
 
 
 def _list_fields(scene: Scene) -> Iterator[tuple[str, str, object]]:
@@ -216,23 +230,26 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     """
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading, lost, notes = _read(str(subject), nouns)
+    reading, lost = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
+    open_words = {one.word for one in reading.claims}
+    unread = tuple(one for one in reading.not_understood if one not in open_words)
     words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
-        not_understood=reading.not_understood,
-        meant=tuple(_meant(reading.not_understood, nouns)),
-        not_shown=tuple(f"{word} ({why})" for word, why in lost.items()),
+        not_understood=unread,
+        meant=tuple(_meant(unread, nouns)),
+        not_shown=tuple(f"{word} ({why})" for word, why in lost.items() if word not in open_words),
     )
-    return replace(description, words=words, notes=(*description.notes, *notes))
+    return replace(description, words=words, claims=reading.claims)
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     """Words that are spelt nearly as a noun, each with it."""
     names = {name for key, noun in nouns.items() for name in (key, *noun.synonyms)}
     for word in words:
-        near = get_close_matches(word.lower(), names, 1, _NEAR) if len(word) > _SHORT else []
+        is_open = len(word) > _SHORT and word.lower() not in names
+        near = get_close_matches(word.lower(), names, 1, _NEAR) if is_open else []
         yield from (f"{word}: {name}" for name in near)
 
 

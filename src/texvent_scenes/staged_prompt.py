@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.assets.nouns import list_files
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.in_view import Unseen, find_unseen, without_words
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.relation_check import Violation
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.word_check import find_held
 
 
 def stage(
@@ -39,12 +41,18 @@ def stage(
     files = list_files(description, named)
     nouns = tuple(named[one.noun] for one in description.objects)
     contents = tuple(tuple(one.values()) for one in files)
-    scene, unseen = _staged(description, nouns, contents, seed, size, duration_s)
-    shown = without_words(said.shown, unseen.violations)
+    scene, unseen, held, failed = _staged(description, nouns, contents, seed, size, duration_s)
+    faults = (*unseen.violations, *_list_manners(description, unseen.violations))
+    fewer = (re.fullmatch(r".* \(\d+ of (\d+)\)", one) for one in unseen.out_of_view)
+    faults += tuple(Violation("count", float(one[1]), "") for one in fewer if one)
+    shown = without_words([one for one in said.shown if one not in failed], faults)
+    shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
              *filter(None, (one.line for one in unseen.violations)))  # fmt: skip
     told = " ".join((*lines, *unseen.out_of_view, *unseen.too_small)).casefold()
-    lost = (one for one in said.shown if one not in shown
+    told = re.sub(r"\([^)]*\)", "", told)  # "table (cut off)" does not tell of "off"
+    claimed = (one for one in sorted(failed) if one not in said.shown)
+    lost = (one for one in (*said.shown, *claimed) if one not in shown
             and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
     report = replace(
         said,
@@ -57,6 +65,19 @@ def stage(
     return scene, report, files
 
 
+def _list_manners(
+    description: SceneDescription, faults: Sequence[Violation]
+) -> Iterator[Violation]:
+    """Rates, speeds and directions, where all motions that have some are not seen."""
+    lost = {one.value for one in faults if one.kind == "motion"}
+    motions = [one for each in description.objects for one in each.motions]
+    seen = [one for one in motions if one.kind not in lost] if lost else []
+    for names in (("direction",), ("pace", "speed_m_s", "rate_hz")):
+        usual = {getattr(STANDING, name) for name in names}
+        if lost and all({getattr(one, name) for name in names} <= usual for one in seen):
+            yield from (Violation(name, "", "") for name in names)
+
+
 @lru_cache(maxsize=4)
 def _staged(
     description: SceneDescription,
@@ -65,9 +86,10 @@ def _staged(
     seed: int,
     size: SensorSize,
     duration_s: float,
-) -> tuple[ComposedScene, Unseen]:
-    """A scene and what it does not show; kept, since one is often simulated several times.
+) -> tuple[ComposedScene, Unseen, frozenset[str], frozenset[str]]:
+    """A scene, what it does not show, and words whose claims hold or do not.
 
+    They are kept, since one scene is often simulated several times.
     Assets are shown where the prompt names them, not as scenery.
 
     Args:
@@ -83,4 +105,7 @@ def _staged(
     scene = compose_scene(
         description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
     )
-    return scene, find_unseen(scene, description, size, duration_s)
+    unseen = find_unseen(scene, description, size, duration_s)
+    nouns = frozenset(str(value) for kind, value, _ in unseen.violations if kind == "noun")
+    claims = description.claims
+    return scene, unseen, *find_held(claims, scene, description, nouns, duration_s)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.rendered_scene import Colour, Texture
 
@@ -193,3 +195,26 @@ class OverriddenModel:
 def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
     """A model in one of `MATERIALS`; a colour wins over the material's own, None is as usual."""
     return model if name is None else OverriddenModel(model, MATERIALS[name], colour)
+
+
+_NEAR, _LEAST_PART = 0.28, 0.06
+"""Distance of cube roots of linear RGB within which two colours have one name; least share of a
+body's surface that has a colour."""
+
+
+def has_colour(parts: Sequence[ModelPart], colour: Colour) -> bool:
+    """Whether enough of the surface of some parts has about that colour.
+
+    Args:
+        parts: of a body.
+        colour: linear-light RGB.
+    """
+    areas, found = 0.0, 0.0
+    for one in parts:
+        sides = np.sort(np.linalg.norm(one.to_body[:, :3], axis=0))
+        area = float(sides[1] * sides[2])
+        both = (one.colour, *([] if one.texture is Texture.PLAIN else [one.second_colour]))
+        areas += area
+        off = (np.linalg.norm(np.cbrt(each) - np.cbrt(colour)) for each in both)
+        found += area if min(off) <= _NEAR else 0.0
+    return found >= _LEAST_PART * areas > 0.0

@@ -5,7 +5,7 @@ Words become tokens by the phrases that are known (`lexicon`), tokens become cla
 understood changes nothing and is reported.
 """
 
-from texvent_scenes.read.draft import Reading
+from texvent_scenes.read.account import Reading
 from texvent_scenes.read.scenes import read
 
 __all__ = ["Reading", "read"]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from texvent_scenes.read.groups import MODIFIERS, Group, GroupReader, Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
+from texvent_scenes.read.lexicon import NO_TOKEN, Token, owned_parts, word_set
 
 _IS = ("is", "are", "was", "were")
 
@@ -92,6 +92,8 @@ class _Parser(GroupReader):
             return self._end(clause)
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
+        if clause.verb is not None and self._token().is_unknown and self._has_object():
+            return Clause(about="same", verb=self._take())  # "and wugs it"
         starts = self._starts_group() or self._token().has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
 
@@ -106,6 +108,9 @@ class _Parser(GroupReader):
             return Clause(about="same")  # "two balls, one red and one blue, collide"
         if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
             return Clause(about="meanwhile")  # "sits, reading"
+        owners, own = word_set("things", "owners"), {after.text, self._token(2).text}
+        if token.text in owners and own & owned_parts().keys():
+            return Clause()  # "a fan, its blades spinning"
         is_list = clause.subjects and not (clause.verb or clause.after)
         goes_on = self._starts_group() and not token.has("scene", "shot")
         return None if is_list and goes_on else Clause()
@@ -258,6 +263,8 @@ class _Parser(GroupReader):
         is_verb = clause.subjects and not clause.verb and token.is_unknown
         if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
+        if self._token().text in word_set("things", "particles") and self._starts_group(1):
+            self._take()  # "picks up an apple"
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
 

@@ -7,21 +7,20 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
-from texvent.prompt_report import Substitution
+from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.clauses import Clause
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Sense, Token, VerbSense, word_set
-from texvent_scenes.spec.data import PLACING, scene_from_data
-from texvent_scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.read.groups import Group
+from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
+from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.scene import MoveDirection
 
-_UNTURNED, _OPPOSITE = ("handheld", "static"), "opposite"
-_MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+_UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
+MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -66,20 +65,6 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
 
 
-def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
-    """Say by paces at which speed a motion ends: "accelerates from 10 km/h to 50 km/h"."""
-    end_m_s, start_m_s = motion.pop("end_m_s"), motion.get("speed_m_s")
-    pace, end_pace = motion.get("pace", 1.0), motion["end_pace"]
-    if start_m_s is None and end_pace > pace:
-        motion["speed_m_s"] = end_m_s * pace / end_pace
-        return
-    start_m_s = pace * (noun.speed_m_s or 1.0) if start_m_s is None else start_m_s
-    start_m_s = max(start_m_s, 0.001 * end_m_s)  # paces are multiples of a speed, which is not 0
-    most_m_s = max(start_m_s, end_m_s) or 1.0
-    paces = (round(one / most_m_s, 6) for one in (start_m_s, end_m_s))
-    motion |= {"speed_m_s": start_m_s, **dict(zip(("pace", "end_pace"), paces, strict=True))}
-
-
 def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:
     """Add a motion; it takes the place of one of which only the pace is said.
 
@@ -88,11 +73,11 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     motions, pace = thing["motions"], act.pace
     if not act.kind:
         return
-    is_way = bool(motions) and (motions[-1]["kind"] in _MEANS or "speed_m_s" in motions[-1])
+    is_way = bool(motions) and (motions[-1]["kind"] in MEANS or "speed_m_s" in motions[-1])
     if goes_on and act.kind == "move" and is_way:
         motions[-1].update({"direction": act.direction} if act.direction else {})
         return
-    is_posture = act.kind not in (*_MEANS, "move")
+    is_posture = act.kind not in (*MEANS, "move")
     if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
         motions.pop()  # "stands reading"
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
@@ -100,19 +85,6 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
         pace *= motions.pop().get("pace", 1.0)
     motions.append(motion | ({"pace": pace} if pace != 1.0 else {}))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """The scene that a sentence describes, and what became of its words."""
-
-    scene: Scene
-    shown: tuple[str, ...]
-    """Words that the scene shows."""
-    substituted: tuple[Substitution, ...]
-    """Words that are shown as something else."""
-    not_understood: tuple[str, ...]
-    """Words without effect on the scene."""
 
 
 @dataclass
@@ -134,23 +106,33 @@ class SceneDraft:
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
     """Fields of the camera, the light and the place."""
+    claims: dict[int, list[Claim]] = field(default_factory=dict)
+    """Number of a token → what is claimed of it."""
     _left: list[int] = field(default_factory=list)
     """Object from which one was parted last."""
-    _fates: dict[int, str] = field(default_factory=dict)
+    fates: dict[int, str] = field(default_factory=dict)
     """Number of a token → "lost", "shown", or the noun that it is shown as."""
 
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""
         for one in tokens:
-            self._fates.setdefault(one.at, "shown")
+            self.fates.setdefault(one.at, "shown")
 
     def mark(self, token: Token, fate: str) -> None:
         """Count a token as "lost", or as shown by a noun."""
-        self._fates[token.at] = fate
+        self.fates[token.at] = fate
 
     def shows(self, token: Token) -> bool:
         """Whether a token is shown, as itself or as something else."""
-        return self._fates.get(token.at, "lost") != "lost"
+        return self.fates.get(token.at, "lost") != "lost"
+
+    def claim(
+        self, token: Token, kind: str, value: str | float, subjects: Sequence[int | None],
+        targets: Sequence[int] = (),
+    ) -> None:  # fmt: skip
+        """Leave it to the staged scene whether a word is shown of all subjects."""
+        said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
+        self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
@@ -214,7 +196,7 @@ class SceneDraft:
     def goes_like(self, index: int, other: int) -> bool:
         """Whether an object goes, and another may go the same way: "drives behind a truck"."""
         mine, theirs = self.things[index], self.things[other]
-        is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*_MEANS, "move")
+        is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*MEANS, "move")
         same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
         return is_going and same and self.can_go(other) and not theirs["motions"]
 
@@ -236,7 +218,7 @@ class SceneDraft:
     def part_ways(self, parted: Sequence[int]) -> bool:
         """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
         is_one = sum(self.things[index]["count"] for index in parted) < 2
-        sides = ("right", "left") if parted[1:] else (_OPPOSITE,)
+        sides = ("right", "left") if parted[1:] else (OPPOSITE,)
         for number, index in enumerate(() if is_one else parted):
             set_field(self.things[index], "adverb", "direction", sides[number % len(sides)])
         return not is_one
@@ -255,13 +237,13 @@ class SceneDraft:
         self.things += [part] if count else []
         return part
 
-    def _halve(self, own: int) -> None:
+    def halve(self, own: int) -> None:
         """Lead halves of an object's copies to the right and to the left."""
         for thing, side in (
             (self._part(own, self.things[own]["count"] // 2), "left"), (self.things[own], "right")
         ):  # fmt: skip
             for motion in thing["motions"]:
-                motion |= {"direction": side} if motion.get("direction") == _OPPOSITE else {}
+                motion |= {"direction": side} if motion.get("direction") == OPPOSITE else {}
 
     def pick(self, word: str, count: int) -> list[int]:
         """Part some from the last object of more copies; or what was left of them."""
@@ -269,8 +251,8 @@ class SceneDraft:
         if word in ("other", "others") or not many:
             return self._left
         self._left, (own,) = many, many
-        if any(one.get("direction") == _OPPOSITE for one in self.things[own]["motions"]):
-            self._halve(own)
+        if any(one.get("direction") == OPPOSITE for one in self.things[own]["motions"]):
+            self.halve(own)
             own = len(self.things) - 1
         if self.things[own]["count"] > count:
             self._part(own, count)
@@ -345,108 +327,3 @@ class SceneDraft:
             head.is_liquid and place["name"] in word_set("things", "waters")
         ):  # fmt: skip
             self.show(head)
-
-    def find_move(self, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
-        """The move of a clause with its direction and pace; these words are counted as shown.
-
-        None where the verb is no move of a camera.
-        """
-        verb = clause.verb
-        senses = [one.value for one in verb.all("verb")] if verb is not None else []
-        moves = [one.kind for one in senses if one.who == "camera"]
-        if verb is None or not moves:
-            return None
-        self.show(verb)
-        move = split_move("travel forward" if is_ego else moves[0])
-        turned = read_table("words", "read")["turned_moves"]
-        for one in clause.after:
-            if isinstance(one, Phrase):
-                if one.preposition.text == "around" and move["kind"] in ("truck", "travel"):
-                    move = {"kind": "orbit", "pace": move.get("pace", 1.0)}
-                continue
-            name, value = sense.value if (sense := one.first("adverb")) else ("", "")
-            if name == "direction":
-                phrase = f"{move['kind']} {value}"
-                side = split_move(turned.get(phrase, phrase))
-                name, move = ("pace", move | side) if "direction" in side else ("", move)
-            elif name in ("pace", "speed_m_s"):
-                move[name] = move.get("pace", 1.0) * value if name == "pace" else value
-            elif name == "turns_hz" and move["kind"] in ("pan", "tilt", "roll", "orbit"):
-                name, move["rate_deg_s"] = "pace", round(360.0 * float(value), 6)
-            if name in ("pace", "speed_m_s"):
-                self.show(one)
-        means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
-        if move["kind"] == "travel" and means:
-            move["means"] = means[0]
-        return move
-
-    def reading(self, prompt: str) -> Reading:
-        """The scene, and its words; one that is lost at one place of the prompt is not shown."""
-        self._choose_gender()
-        self._limit_counts()
-        fates: dict[str, str] = {}
-        for token, after in zip(self.tokens, (*self.tokens[1:], NO_TOKEN), strict=False):
-            is_open = token.is_sign or is_grammar(token)
-            is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
-            if token.has("small") and after.has("adverb", "negations") and self.shows(after):
-                self.show(token)  # "at 50 km/h", "with no cars"
-            if token.has("style") and " " in token.text:
-                self.show(token)  # "in front of the camera"
-            fate = self._fates.get(token.at, "" if is_open else "lost")
-            if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
-                fates[token.text] = fate
-        others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
-        return Reading(
-            scene=self._build(prompt),
-            shown=tuple(word for word, fate in fates.items() if fate == "shown"),
-            substituted=tuple(Substitution(*one) for one in others),
-            not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
-        )
-
-    def _choose_gender(self) -> None:
-        """Draw the only person as the one that a pronoun means: "a chef chops her carrots"."""
-        persons = [one for one in self.things if one["noun"] in PERSON_NOUNS]
-        words = {
-            one.text for one in self.tokens if [each["noun"] for each in persons] == ["person"]
-        }
-        for noun, pronouns in read_table("words", "read")["people"].items():
-            if words & {*pronouns} and persons[0]["noun"] == "person":
-                persons[0]["noun"] = noun
-                self._fates.update({at: noun for at, one in self._fates.items() if one == "person"})
-
-    def _limit_counts(self) -> None:
-        """Leave out copies of objects that have most until a scene holds all, and say how many."""
-        said = [int(one["count"]) for one in self.things]
-        while sum(one["count"] for one in self.things) > MAX_BODIES:
-            max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
-        fewer = {n: one["count"] for n, one in zip(said, self.things, strict=True)
-                 if one["count"] < n}  # fmt: skip
-        for token in filter(self.shows, self.tokens):
-            number = token.text.replace(",", "")
-            for each in (one.value for one in token.all("field") if one.value[0] == "count"):
-                count = fewer.get(each[1], each[1])
-                if each[1] in fewer or (number.isdecimal() and int(number) > count):
-                    self._fates[token.at] = str(count)  # "30" balls are 24
-
-    def _build(self, prompt: str) -> Scene:
-        """The scene."""
-        for index, one in enumerate([*self.things]):
-            for motion in (each for each in one["motions"] if "end_m_s" in each):
-                _reach_speed(motion, self.nouns[one["noun"]])
-            if any(each.get("direction") == _OPPOSITE for each in one["motions"]):
-                self._halve(index)
-        ids = number_nouns([one["noun"] for one in self.things])
-        for one in self.things:
-            done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
-            if one.pop("is_lost", False) and not done and not one["motions"]:
-                one["motions"].append({"kind": "stand"})
-            for relation in one["relations"]:
-                relation["to"] = [ids[target] for target in relation["to"]]
-        for each in (self.parts["camera"], *self.effects):
-            named = {name: each.get(name) for name in ("target", "source")}
-            each.update({name: ids[one] for name, one in named.items() if one is not None})
-        camera = {"moves": self.moves, **self.parts["camera"]}
-        return scene_from_data(
-            {"prompt": prompt, "objects": self.things, "effects": self.effects, "camera": camera,
-             "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent}
-        )  # fmt: skip

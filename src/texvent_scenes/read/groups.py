@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -112,7 +112,9 @@ class GroupReader:
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
         is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
-        if is_before and after.has("noun", "place", *MODIFIERS) and not after.has("relation"):
+        is_part = after.text in owned_parts()
+        is_noun = is_part or after.has("noun", "place", *MODIFIERS)
+        if is_before and is_noun and not after.has("relation"):
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
@@ -168,14 +170,25 @@ class GroupReader:
 
     def _ends_group(self, first: int) -> bool:
         token = self._token()
+        if token.text == "and" and self._joins_adjectives():
+            return False
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
         if token.has(*_HEADS, *MODIFIERS):
             return token.has("relation") and self._at > first
+        if token.is_unknown and self._at > first and self._has_object():
+            return True  # "a player in white serves the ball"
         before = self._token(-1)
         if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling"
         return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
+
+    def _joins_adjectives(self) -> bool:
+        """Whether "and" stands between two of a kind: "a black and white disc"."""
+        sides, head = (self._token(-1), self._token(1)), self._token(2)
+        before, after = ({one.value[0] for one in each.all("field")} for each in sides)
+        is_noun = head.has("noun", "hollow", "field") or head.is_unknown
+        return bool(before & after - {"count"}) and is_noun and not head.has("relation")
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
@@ -205,6 +218,7 @@ class GroupReader:
         return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
 
     def _has_object(self, ahead: int = 0) -> bool:
-        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
-        token = self._token(ahead)
-        return token.text.endswith("s") and self._token(ahead + 1).has("articles")
+        """Whether a word that may be a noun is a verb: "and watches the ducks", "and wugs it"."""
+        token, after = self._token(ahead), self._token(ahead + 1)
+        is_pronoun = after.has("pronouns") and token.is_unknown
+        return token.text.endswith("s") and (after.has("articles") or is_pronoun)

@@ -35,6 +35,12 @@ def word_set(table: str, key: str) -> frozenset[str]:
     return frozenset(read_table("words", "read")[table][key])
 
 
+def owned_parts() -> Mapping[str, Mapping[str, int]]:
+    """Words of parts that are no things by themselves → nouns that have them, and how many."""
+    parts: Mapping[str, Mapping[str, int]] = read_table("words", "read")["parts"]
+    return parts
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""
@@ -186,6 +192,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for move, verb in moves:  # "a rotating camera"
         yield f"{list_verb_forms(verb)[2][0]} camera", Sense("shot", move)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
+    for count, phrases in words["senses"]["field"]["count"].items():
+        times = Sense("adverb", ("times", float(count)))
+        yield from ((f"{one} times", times) for one in phrases if " " not in one)
     for field, units in words["units"].items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(words["senses"]):

@@ -6,14 +6,17 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.draft import SceneDraft
-from texvent_scenes.read.groups import Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, word_set
-from texvent_scenes.spec.data import SPACED
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.read.draft import MEANS, SceneDraft
+from texvent_scenes.read.groups import Group, Phrase
+from texvent_scenes.read.lexicon import Token, owned_parts, word_set
+from texvent_scenes.spec.data import PLACING, SPACED
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
+_CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
+"""Relations that the staged scene may have though nothing was placed by them."""
+_ARRIVALS = {"into": "in", "onto": "on"}
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -35,29 +38,68 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
-    words = [[one.head or NO_TOKEN, *one.unknown, *one.modifiers] for one in phrase.groups]
-    owned = read_table("words", "read")["parts"]
+    is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
+    if is_so and all(map(draft.shows, _list_words(phrase.groups[0]))):
+        draft.show(phrase.preposition)
+    return is_so
+
+
+def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
+    """Account for parts that things have, if all groups name some: "its second hand moving"."""
+    owned, words = owned_parts(), [*map(_list_words, groups)]
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
-    nouns = {draft.things[index]["noun"] for index in subjects}
-    if phrase.preposition.text != "with" or not subjects or not all(parts):
+    if not subjects or not parts or not all(parts):
         return False
     for part, each in zip(parts, words, strict=True):
+        has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
+        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
-        drawn = {owned[part].get(noun) for noun in nouns}
-        if None not in drawn and counts <= drawn:
-            draft.show(phrase.preposition, *(one for one in each if one is not NO_TOKEN))
+        for word in each if has and counts <= drawn else ():
+            if word.has("verb") and not word.has("noun", "field"):  # do they move?
+                draft.claim(word, "parts", "", has)
+            draft.show(word)
     return True
 
 
-def lose_ways(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
-    """Report what says how and where to something is done that is not shown."""
+def _list_words(group: Group) -> list[Token]:
+    """Words of a group."""
+    return [*([group.head] if group.head else []), *group.unknown, *group.modifiers]
+
+
+def lose_ways(
+    draft: SceneDraft, after: Sequence[Phrase | Token], *, has_subject: bool = True
+) -> None:
+    """Report what says how and where to something is done that is not shown.
+
+    Of what is not known at all, only a place is told: "a wug runs across the floor".
+    """
     for one in after:
         token = one.preposition if isinstance(one, Phrase) else one
         kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
         said = {each if token is not one else each[0] for each in kinds}
-        if said & word_set("things", "ways") and not token.has("scene"):
+        is_way = not (has_subject or said & {"in", "at", "with"} or token.text == "on")
+        is_way &= token is not one
+        if (is_way or said & word_set("things", "ways")) and not token.has("scene"):
             draft.mark(token, "lost")
+
+
+def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
+    """The words "each other" of some groups, or after them."""
+    words = [one for group in groups for one in group.unknown]
+    words += [one for one in after if isinstance(one, Token)]
+    return [one for one in words if one.text == "each other"]
+
+
+def claim_mutual(
+    draft: SceneDraft, tokens: Sequence[Token], kind: str, subjects: Sequence[int]
+) -> None:
+    """Send things to each other, and leave it to the staged scene whether they are so."""
+    does = {each["kind"] for one in subjects for each in draft.things[one]["motions"][-1:]}
+    if kind in ("past", "towards") and does & {*MEANS, "move"}:
+        draft.part_ways(subjects)
+    for token in tokens if subjects and kind else ():
+        draft.claim(token, "mutual", kind, subjects[:1], subjects[1:])
 
 
 def go_to_place(
@@ -78,6 +120,9 @@ def go_to_place(
         draft.show(token)  # "steps onto the road": and goes over it
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
+        does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
+        if token.text == "from" and does & word_set("things", "off_ground"):
+            draft.claim(token, "rise", "", moved)  # "takes off from a runway"
     is_road = token.text == "on" and place is PLACES["road"]
     for thing in (draft.things[index] for index in subjects if is_road):
         if draft.nouns[thing["noun"]].motion != "drive":
@@ -121,6 +166,45 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     for one in small if tops and kind in SPACED and is_still else ():
         draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
+
+
+def claim_relation(
+    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+) -> None:
+    """Leave it to the staged scene whether a preposition that places nothing holds all the same.
+
+    What stops "in front of" something is before it on its way, wherever the camera is.
+    """
+    is_shown = draft.shows(token)
+    motions = [draft.things[one]["motions"] for one in subjects]
+    stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
+        len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
+    if is_shown and kind == "front" and any(stops):
+        draft.claim(token, "stop before", "", subjects, targets)
+    elif not is_shown and token.text in _ARRIVALS:
+        draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
+    elif not is_shown and kind in _CLAIMED:
+        draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
+
+
+def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Give persons clothes of a colour: "a man in red"; whether it says so."""
+    words = [one.unknown[0] for one in phrase.groups if one.head is None and one.unknown]
+    said = [one.first("field") for one in words if len(words) == len(phrase.groups) == 1]
+    colours = [one.value[1] for one in said if one is not None and one.value[0] == "colour"]
+    are_persons = all(draft.things[one]["noun"] in PERSON_NOUNS for one in subjects)
+    if not (colours and subjects and are_persons and phrase.preposition.text == "in"):
+        return False
+    for one in subjects:
+        draft.things[one].setdefault("colour", colours[0])
+    draft.show(phrase.preposition, *words)
+    return True
+
+
+def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
+    """Whether weather comes down on something, as on all: "snow falls on a car"."""
+    is_weather = draft.tokens[token.at - 1].text in word_set("things", "falling")
+    return is_weather and kind in ("on", "above") and "weather" in draft.parts["place"]
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:

@@ -4,69 +4,67 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
-from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.read.account import Reading, finish
+from texvent_scenes.read.camera import find_move, is_ego
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import Reading, SceneDraft, add_motion, is_grammar, names_place
-from texvent_scenes.read.groups import Group, Phrase
+from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
+from texvent_scenes.read.groups import Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
     Token,
-    VerbSense,
     lexicon_of,
     split_prompt,
     word_set,
 )
 from texvent_scenes.read.prepositions import (
     are_own_parts,
+    claim_mutual,
+    claim_relation,
+    dress,
+    find_mutual,
     find_relation,
     go_to_place,
+    is_rained_on,
     lose_ways,
     relate_one,
-    ridden_by,
+    say_parts,
 )
+from texvent_scenes.read.senses import choose_senses
+from texvent_scenes.read.things import ThingReader
 from texvent_scenes.spec.data import PLACING, SPACED
-from texvent_scenes.spec.scene import MAX_BODIES
-
-PLURAL_COUNT = 3
-"""Copies that a bare plural means."""
-BLINK_HZ = 2.0
-"""Frequency of a lamp of which only is said that it blinks."""
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
-    tokens = split_prompt(prompt, lexicon_of(nouns))
+    tokens = choose_senses(split_prompt(prompt, lexicon_of(nouns)), nouns)
     draft = SceneDraft(tokens, nouns)
     reader = _SentenceReader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
-    return draft.reading(prompt)
+    return finish(draft, prompt)
 
 
-class _SentenceReader:
+class _SentenceReader(ThingReader):
     """Applies clauses to a draft."""
 
     def __init__(self, draft: SceneDraft, nouns: Mapping[str, Noun]) -> None:
-        self._draft = draft
-        self._nouns = nouns
+        super().__init__(draft, nouns)
         self._subjects: list[int] = []
         """Objects that the last clause was about."""
         self._earlier: list[int] = []
         """Objects that the clause before that one was about: "behind her"."""
-        self._nearest: list[int] = []
-        """Objects of the last noun group."""
         self._before = self._nearest
         """Those before the rest of the clause: "passes a bench and sits on it"."""
+        self._acted: list[int] = []
+        """Objects of the last verb that had some: "picks up an apple from a bowl, puts it down"."""
         self._was_camera = False
         self._verb: Token | None = None
         """The last verb: "then right", "then a truck" say no other."""
         self._phases = 0  # times that "then" was said of things
-        self._goes_on = False
-        """Whether it happens while all that was said of its subjects before."""
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
@@ -81,12 +79,24 @@ class _SentenceReader:
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_camera = goes_on or clause.about == "camera"
-        is_ego = not is_camera and self._is_ego(clause)
+        is_own = not is_camera and is_ego(self._draft, clause)
         self._was_camera = is_camera
-        if is_camera or is_ego:
-            self._apply_to_camera(clause, is_ego=is_ego)
+        if self._says_of_parts(clause):
+            pass
+        elif is_camera or is_own:
+            self._apply_to_camera(clause, is_own=is_own)
         else:
             self._apply_to_things(clause)
+
+    def _says_of_parts(self, clause: Clause) -> bool:
+        """Whether a clause is about parts that a thing has: "its second hand moving"."""
+        owners = word_set("things", "owners")
+        if not clause.subjects or any(one.article not in owners for one in clause.subjects):
+            return False
+        first, *others = clause.subjects
+        verb = () if clause.verb is None else (clause.verb,)
+        said = (replace(first, unknown=(*first.unknown, *verb)), *others)
+        return say_parts(self._draft, said, range(len(self._draft.things)))
 
     def _apply_to_things(self, clause: Clause) -> None:
         known, where = len(self._draft.things), self._nearest
@@ -101,6 +111,7 @@ class _SentenceReader:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
+        self._acted = objects or self._acted
         subjects, objects, after = self._turn_passive(clause, subjects, objects)
         if clause.about != "company":
             self._earlier = self._subjects if clause.subjects else self._earlier
@@ -110,8 +121,10 @@ class _SentenceReader:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
-        if clause.verb is not None and not self._draft.shows(clause.verb):
-            lose_ways(self._draft, clause.after)
+        is_known = bool(told) or not clause.subjects
+        is_known |= any(one.head and self._draft.shows(one.head) for one in clause.subjects)
+        if not is_known or (clause.verb is not None and not self._draft.shows(clause.verb)):
+            lose_ways(self._draft, clause.after, has_subject=is_known)
         for index in subjects if clause.about == "where" and where else ():
             relate_one(self._draft, self._draft.place_by(where[0]), index, where)
         if clause.about == "then":  # others wait until then
@@ -126,7 +139,12 @@ class _SentenceReader:
         heads = [one.head for one in clause.objects]
         is_known = not (clause.is_back and not objects)
         is_known &= all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
+        mutual = find_mutual(clause.objects, clause.after)
+        is_known |= bool(mutual)
         found = self._act(verb, subjects, objects, has_object=not is_known)
+        kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
+        if mutual and kind is not None and found:  # "pass each other"
+            claim_mutual(self._draft, [verb, *mutual], kind, subjects)
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
@@ -191,7 +209,8 @@ class _SentenceReader:
             both = about if self._draft.is_many(about) else [*about, *nearest]
             return [one for one in dict.fromkeys(both) if one not in subjects]
         persons = {n for n, one in enumerate(self._draft.things) if one["noun"] in PERSON_NOUNS}
-        others = [one for one in dict.fromkeys((*nearest, *about)) if one not in subjects
+        others = [one for one in dict.fromkeys((*self._acted, *nearest, *about))
+                  if one not in subjects
                   and (one in persons) == (word in ("him", "her"))]  # fmt: skip
         return sorted(others, key=self._draft.can_go, reverse=True)[:1]  # no tree is followed
 
@@ -233,170 +252,6 @@ class _SentenceReader:
         fitting = (one for one in acts if self._draft.fits(one, [index], [], has_object))
         return any(is_lamp or one.who != "lamp" for one in fitting)
 
-    # Noun groups
-
-    def _pick(self, group: Group) -> list[int]:
-        """Some of several things, or the others: "two dogs, a brown one and a white one"."""
-        draft = self._draft
-        for whole in group.of.groups if group.of is not None and group.picks else ():
-            self._name(whole)  # "two of the dogs"
-        picked = draft.pick(group.picks, group.count) if group.picks else []
-        for token in group.unknown if picked else ():
-            self._say(token, picked)
-            draft.show(*([token] if token.text == group.picks else []))
-        return picked
-
-    def _leave_places(self, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
-        """Take some of several away from where all were: "two on a desk, one on the floor"."""
-        words = (one.preposition for one in after if isinstance(one, Phrase))
-        kinds = {sense.value for word in words for sense in word.all("relation")}
-        for thing in (self._draft.things[index] for index in picked if kinds & PLACING):
-            thing["relations"] = [one for one in thing["relations"] if one["kind"] not in PLACING]
-
-    def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
-        """Add what a group names; the indices of its objects, at most one."""
-        head = group.head
-        found: list[int] = []
-        if head is not None and names_place(head, relation):
-            self._draft.set_place(group, head, relation)
-        elif head is not None and head.has("noun", "pose"):
-            found = self._name_thing(group, head)
-        else:  # an effect, light, weather, or nothing that is known
-            for token in group.unknown if relation not in ("", "with") else ():
-                if names_place(token, relation):  # "in a city centre"
-                    self._draft.set_place(Group(token), token, relation)
-            for token in (*group.modifiers, *([head] if head else [])):
-                effect = token.first("effect")
-                if not self._draft.set_scene(token) and effect is not None:
-                    self._draft.add_effect(token, effect.value, owners)
-        for content in group.of.groups if group.of is not None else ():
-            self._fill(found, content)
-        return found
-
-    def _fill(self, vessels: Sequence[int], content: Group) -> None:
-        """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
-        head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
-        if head is not None and names_place(head, ""):
-            self._name(content, "in")
-        elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
-            for index in self._name(content):
-                self._draft.relate(index, "in", vessels)
-            self._nearest = list(vessels)
-
-    def _name_thing(self, group: Group, head: Token) -> list[int]:
-        draft, noun = self._draft, group.noun
-        is_owned = group.article in word_set("things", "owners")
-        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
-        is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
-        is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
-        if len(draft.things) == MAX_BODIES or (is_part and not known):
-            return []  # "his hands", "with its propellers": parts of a body
-        draft.show(head)
-        is_plain = not group.modifiers and not group.unknown
-        is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
-        if is_same and is_plain and group.article in ("the", "its", "his", "her", "their"):
-            self._nearest = known[-1:]  # "the car", where there is one
-            return known[-1:]
-        if noun is not None:
-            thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
-            if noun.is_kind:
-                draft.mark(head, noun.noun)
-        else:
-            who, activity = head.all("pose")[0].value
-            thing = {"noun": who, "motions": [{"kind": activity}]}
-        count = PLURAL_COUNT if group.is_plural else 1
-        draft.things.append({**thing, "count": count, "relations": []})
-        index = len(draft.things) - 1
-        for token in group.modifiers:
-            is_side = token.text in ("left", "right")  # "the left ball"
-            draft.show(*([token] if token.has("hollow") or is_side else []))
-            draft.things[index] |= {"placement": token.text} if is_side else {}
-            self._say(token, [] if is_side else [index])
-        for token in group.unknown if not self._draft.can_go(index) else ():
-            if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
-                self._draft.set_place(Group(token), token, "")
-        self._nearest = [index]
-        return [index]
-
-    # What is said of things
-
-    def _say(self, token: Token, subjects: Sequence[int]) -> None:
-        """Apply an adjective, an adverb, a participle, or a word of the scene."""
-        draft, light = self._draft, self._draft.parts["light"]
-        said = token.first("field", "picture", "adverb")
-        field, value = said.value if said is not None else ("", "")
-        things = [draft.things[index] for index in subjects]
-        is_set = field in word_set("things", "once") and any(field in one for one in things)
-        is_idle = not any(one["motions"] or "blink_hz" in one or one["noun"] in LAMPS
-                          for one in things)  # fmt: skip
-        if field == "rate_hz" and "flicker_hz" in light and not things:
-            light["flicker_hz"] = value
-        elif field == "picture" and draft.things:
-            (things or draft.things)[-1]["picture"] = vars(value)
-        elif is_set or (field == "rate_hz" and is_idle):
-            return
-        elif field == "height_m" and not any(
-            motion["kind"] in ("fall", "bounce") for one in things for motion in one["motions"]
-        ):
-            return  # it is no way either: "seen from 3 m"
-        elif value == "opposite":
-            if not draft.part_ways(subjects):
-                return
-        elif said is not None and things:
-            for index in subjects:
-                draft.say_field(token, said, index)
-        else:
-            if not self._draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
-                self._act(token, subjects, [], has_object=False)
-            return
-        draft.show(token)
-
-    # Verbs
-
-    def _act(
-        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
-    ) -> list[int] | None:
-        """Apply the first sense that the subjects can do; who moves, or None: there is none."""
-        draft, has_object = self._draft, has_object or bool(objects)
-        acts = (one.value for one in verb.all("verb") if subjects)
-        act = next(
-            (one for one in acts if self._draft.fits(one, subjects, objects, has_object)), None
-        )
-        if act is None or (has_object and not objects and act.who == "plain"):
-            return None  # what it is done to is not known
-        draft.show(verb)
-        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
-            draft.mark(verb, act.kind)
-        for index in subjects:
-            self._do(act, verb, index)
-        for index in objects:
-            add_motion(draft.things[index], VerbSense(kind=act.object))
-        if act.relation == "collide" and not objects:
-            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
-        for index in subjects if act.relation is not None else ():
-            draft.relate(
-                ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
-            )
-        return list(objects if act.object and objects else subjects)
-
-    def _do(self, act: VerbSense, verb: Token, index: int) -> None:
-        """Let an object do it; a flame burns and flickers by itself."""
-        thing = self._draft.things[index]
-        if act.kind == "move" and self._goes_on and ridden_by(self._draft, index, "past") != index:
-            return  # it is ridden on: "rides a bicycle, passing a car"
-        if act.who not in ("source", "lamp"):
-            before = [one["kind"] for one in thing["motions"]]
-            add_motion(thing, act, goes_on=self._goes_on)
-            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
-            is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
-            if is_later and before and not is_seated:
-                self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
-        elif thing["noun"] not in word_set("things", "flames"):
-            if act.who == "lamp":
-                thing["blink_hz"] = BLINK_HZ
-            else:
-                self._draft.add_effect(verb, act.kind, [index])
-
     # Prepositions
 
     def _relate(self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]) -> list[int]:
@@ -406,8 +261,10 @@ class _SentenceReader:
         """
         draft, token = self._draft, phrase.preposition
         kind = find_relation(draft, phrase, subjects)
-        if not phrase.groups:
-            self._relate_back(kind, token, subjects)
+        if not phrase.groups or find_mutual(phrase.groups):
+            self._relate_back(kind, phrase, subjects)
+            return []
+        if dress(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
@@ -428,14 +285,23 @@ class _SentenceReader:
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind in ("route", "off") else subjects
             placed = [relate_one(self._draft, kind, index, targets) for index in able]
-            draft.mark(token, "shown" if any(placed) else "lost")
+            is_so = any(placed) or is_rained_on(draft, token, kind)
+            draft.mark(token, "shown" if is_so else "lost")
+            claim_relation(draft, token, kind, subjects, targets)
         if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
 
-    def _relate_back(self, kind: str, token: Token, subjects: Sequence[int]) -> None:
+    def _relate_back(self, kind: str, phrase: Phrase, subjects: Sequence[int]) -> None:
         """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
-        draft, nearest = self._draft, self._nearest
+        draft, nearest, token = self._draft, self._nearest, phrase.preposition
+        if phrase.groups:
+            claim_mutual(draft, [token, *find_mutual(phrase.groups)], kind, subjects)
+            return
+        if (before := draft.tokens[token.at - 1]).has("place") and kind == "behind":
+            far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
+            draft.mark(token, "shown" if far and draft.shows(before) else "lost")
+            return  # "with mountains behind it"
         own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
         is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
@@ -446,28 +312,16 @@ class _SentenceReader:
         others = others if about and kind not in ("", "route", "off") else []
         is_so = any([relate_one(self._draft, kind, one, about) for one in others])
         draft.mark(token, "shown" if is_so else "lost")
+        claim_relation(draft, token, kind, others, about)
 
     # The camera
 
-    def _is_ego(self, clause: Clause) -> bool:
-        """Whether a camera goes that is not named: "driving through a city"."""
-        verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
-        travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
-        is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
-        before = self._draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
-        kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
-        is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
-        if is_own and not kinds & {"shot", "style"}:
-            return False  # "rain drops running down a pane"
-        is_new = not self._draft.things and clause.about not in ("nearest", "company")
-        return travels and is_place and is_new
-
-    def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
+    def _apply_to_camera(self, clause: Clause, *, is_own: bool) -> None:
         draft, targets = self._draft, list[int]()
-        move = draft.find_move(clause, is_ego=is_ego)
+        move = find_move(draft, clause, is_ego=is_own)
         for group in clause.subjects:
             self._name(group, "in")
-        for group in clause.objects if not is_ego else ():
+        for group in clause.objects if not is_own else ():
             targets += self._name(group)
         for one in clause.after:
             if not isinstance(one, Phrase):

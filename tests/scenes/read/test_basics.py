@@ -172,3 +172,130 @@ def test_a_height_or_a_start_beyond_those_of_scenes_is_not_understood(text, numb
 
 def test_a_number_beyond_all_is_not_understood():
     assert lost("9" * 400 + " dogs run") == {"9" * 400}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a hand picks up an apple from a bowl and puts it on a plate", ("apple", "on", "plate")),
+        ("a man takes a cup from a shelf and sets it on a table", ("cup", "on", "table")),
+        ("a robot arm lifts a cube off a box and drops it in a crate", ("cube", "in", "box 2")),
+    ],
+)
+def test_a_pronoun_is_what_was_acted_on_last(text, expected):
+    assert expected in relations(text)
+    assert len(relations(text)) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a mouser runs across the kitchen floor", {"runs", "across"}),
+        ("the sun rises over the sea", {"rises", "over"}),
+        ("a zorp walks towards a tree", {"walks", "towards"}),
+    ],
+)
+def test_what_is_said_of_an_unknown_thing_is_lost(text, words):
+    assert words <= lost(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "two cars pass each other on a road",
+        "a red bus and a blue car drive towards each other",
+        "two dogs run towards each other",
+    ],
+)
+def test_things_go_to_each_other_in_opposite_directions(text):
+    ways = [motion.direction for one in scene(text).objects for motion in one.motions]
+    assert sorted(ways) == ["left", "right"]
+    assert {one.kind for one in reader.read(text, NOUNS).claims} == {"mutual"}
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("a clock with a moving second hand", "second hand"),
+        ("a camera zooms in on a clock, its second hand turning", "second hand"),
+        ("a fan with spinning blades", "blades"),
+    ],
+)
+def test_parts_that_move_are_claimed_of_their_owner(text, part):
+    reading = reader.read(text, NOUNS)
+    assert part in reading.shown
+    assert [(one.kind, one.subject) for one in reading.claims] == [("parts", 0)]
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("a runway with mountains behind it and a car", "car"),
+        ("a boat sails past a lighthouse with mountains behind it", "lighthouse"),
+        ("a dog runs over a field with a forest behind it", "dog"),
+    ],
+)
+def test_a_place_far_off_is_behind_all(text, noun):
+    assert "behind" not in lost(text)
+    assert not any(noun == who and kind == "behind" for who, kind, _ in relations(text))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["snow falls on a row of parked cars", "rain falls on a red umbrella", "snow falls on a dog"],
+)
+def test_weather_comes_down_on_all(text):
+    assert "on" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "colours"),
+    [
+        ("a man in red runs past a man in blue", ["red", "blue"]),
+        ("a tennis player in white serves the ball", ["white", None]),
+        ("two girls in yellow dance beside a car", ["yellow", None]),
+    ],
+)
+def test_who_is_in_a_colour_wears_it(text, colours):
+    assert [one.colour for one in scene(text).objects] == colours
+    assert "in" not in lost(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_so"),
+    [
+        ("a dog jumps onto a sofa and lies down", "lies down", True),
+        ("a bus drives and stops", "stops", True),
+        ("a cat sleeps", "sleeps", False),
+    ],
+)
+def test_a_change_is_shown_where_something_is_before_it(text, word, is_so):
+    assert (word in reader.read(text, NOUNS).shown) == is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("a mouse runs across the floor", "mouse"),
+        ("a mouse lies beside a keyboard", "computer mouse"),
+        ("mice run under a table", "mouse"),
+        ("the earth floats in space beside the moon", "earth"),
+        ("a crane turns at a construction site", "crane"),
+        ("a top spins on a table", "spinning top"),
+    ],
+)
+def test_company_decides_what_an_ambiguous_noun_is(text, noun):
+    assert scene(text).objects[0].noun == noun
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("an excavator lifts earth with its bucket", "earth"),
+        ("a crane flies over a lake", "crane"),
+        ("a bat flies past a house", "bat"),
+        ("a man watches a match", "match"),
+    ],
+)
+def test_an_ambiguous_noun_for_which_nothing_speaks_is_not_understood(text, word):
+    assert word in lost(text)

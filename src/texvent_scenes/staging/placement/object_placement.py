@@ -134,7 +134,8 @@ class ObjectPlacer:
         motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng, start_m)
         plan = with_heading(plan, scene_object.heading_deg)
-        offsets = stagger(models, plan, noun, rng)
+        is_row = any(one.kind == "row" and one.subject == index for one in self._description.claims)
+        offsets = stagger(models, plan, noun, rng, is_row=is_row)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
 

@@ -1,0 +1,129 @@
+"""Account of a draft: its scene, and the lists of its words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from texvent.prompt_report import Substitution
+from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
+from texvent_scenes.read.lexicon import NO_TOKEN, word_set
+from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """The scene that a sentence describes, and what became of its words."""
+
+    scene: Scene
+    shown: tuple[str, ...]
+    """Words that the scene shows."""
+    substituted: tuple[Substitution, ...]
+    """Words that are shown as something else."""
+    not_understood: tuple[str, ...]
+    """Words without effect on the scene."""
+    claims: tuple[Claim, ...] = ()
+    """Words, of both lists, of which only the staged scene tells whether it shows them."""
+
+
+def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
+    """Say by paces at which speed a motion ends: "accelerates from 10 km/h to 50 km/h"."""
+    end_m_s, start_m_s = motion.pop("end_m_s"), motion.get("speed_m_s")
+    pace, end_pace = motion.get("pace", 1.0), motion["end_pace"]
+    if start_m_s is None and end_pace > pace:
+        motion["speed_m_s"] = end_m_s * pace / end_pace
+        return
+    start_m_s = pace * (noun.speed_m_s or 1.0) if start_m_s is None else start_m_s
+    start_m_s = max(start_m_s, 0.001 * end_m_s)  # paces are multiples of a speed, which is not 0
+    most_m_s = max(start_m_s, end_m_s) or 1.0
+    paces = (round(one / most_m_s, 6) for one in (start_m_s, end_m_s))
+    motion |= {"speed_m_s": start_m_s, **dict(zip(("pace", "end_pace"), paces, strict=True))}
+
+
+def finish(draft: SceneDraft, prompt: str) -> Reading:
+    """The scene, and its words; one that is lost at one place of the prompt is not shown."""
+    _choose_gender(draft)
+    _limit_counts(draft)
+    fates: dict[str, str] = {}
+    for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
+        is_open = token.is_sign or is_grammar(token)
+        is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
+        if token.has("small") and after.has("adverb", "negations") and draft.shows(after):
+            draft.show(token)  # "at 50 km/h", "with no cars"
+        if token.has("style") and " " in token.text:
+            draft.show(token)  # "in front of the camera"
+        fate = draft.fates.get(token.at, "" if is_open else "lost")
+        if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
+            fates[token.text] = fate
+    others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
+    return Reading(
+        scene=_build(draft, prompt),
+        shown=tuple(word for word, fate in fates.items() if fate == "shown"),
+        substituted=tuple(Substitution(*one) for one in others),
+        not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
+        claims=tuple(_list_claims(draft)),
+    )
+
+
+def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
+    """Claims of words that are not lost at another place, where nothing is claimed of them."""
+    lost = [one for one in draft.tokens if not draft.shows(one) and not is_grammar(one)]
+    closed = {one.text for one in lost if one.at not in draft.claims}
+    for at, claims in draft.claims.items():
+        if draft.fates.get(at, "lost") in ("lost", "shown"):
+            yield from (one for one in claims if one.word not in closed)
+
+
+def _choose_gender(draft: SceneDraft) -> None:
+    """Draw the only person as the one that a pronoun means: "a chef chops her carrots"."""
+    persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
+    words = {one.text for one in draft.tokens if [each["noun"] for each in persons] == ["person"]}
+    for noun, pronouns in read_table("words", "read")["people"].items():
+        if words & {*pronouns} and persons[0]["noun"] == "person":
+            persons[0]["noun"] = noun
+            draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
+
+
+def _limit_counts(draft: SceneDraft) -> None:
+    """Leave out copies of objects that have most until a scene holds all, and say how many."""
+    said = [int(one["count"]) for one in draft.things]
+    while sum(one["count"] for one in draft.things) > MAX_BODIES:
+        max(draft.things, key=lambda one: int(one["count"]))["count"] -= 1
+    fewer = {n: one["count"] for n, one in zip(said, draft.things, strict=True)
+             if one["count"] < n}  # fmt: skip
+    for token in filter(draft.shows, draft.tokens):
+        number = token.text.replace(",", "")
+        for each in (one.value for one in token.all("field") if one.value[0] == "count"):
+            count = fewer.get(each[1], each[1])
+            if each[1] in fewer or (number.isdecimal() and int(number) > count):
+                draft.fates[token.at] = str(count)  # "30" balls are 24
+
+
+def _build(draft: SceneDraft, prompt: str) -> Scene:
+    """The scene."""
+    for index, one in enumerate([*draft.things]):
+        for motion in (each for each in one["motions"] if "end_m_s" in each):
+            _reach_speed(motion, draft.nouns[one["noun"]])
+        if any(each.get("direction") == OPPOSITE for each in one["motions"]):
+            draft.halve(index)
+    ids = number_nouns([one["noun"] for one in draft.things])
+    for one in draft.things:
+        done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+        if one.pop("is_lost", False) and not done and not one["motions"]:
+            one["motions"].append({"kind": "stand"})
+        for relation in one["relations"]:
+            relation["to"] = [ids[target] for target in relation["to"]]
+    for each in (draft.parts["camera"], *draft.effects):
+        named = {name: each.get(name) for name in ("target", "source")}
+        each.update({name: ids[one] for name, one in named.items() if one is not None})
+    camera = {"moves": draft.moves, **draft.parts["camera"]}
+    return scene_from_data(
+        {"prompt": prompt, "objects": draft.things, "effects": draft.effects, "camera": camera,
+         "light": draft.parts["light"], "place": draft.parts["place"], "absent": draft.absent}
+    )  # fmt: skip

@@ -1,0 +1,60 @@
+"""Moves of the camera that clauses say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.clauses import Clause
+from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move
+from texvent_scenes.read.groups import Phrase
+from texvent_scenes.read.lexicon import NO_TOKEN, VerbSense
+
+
+def is_ego(draft: SceneDraft, clause: Clause) -> bool:
+    """Whether a camera goes that is not named: "driving through a city"."""
+    verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
+    travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
+    is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
+    before = draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
+    kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
+    is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
+    if is_own and not kinds & {"shot", "style"}:
+        return False  # "rain drops running down a pane"
+    is_new = not draft.things and clause.about not in ("nearest", "company")
+    return travels and is_place and is_new
+
+
+def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
+    """The move of a clause with its direction and pace; these words are counted as shown.
+
+    None where the verb is no move of a camera.
+    """
+    verb = clause.verb
+    senses = [one.value for one in verb.all("verb")] if verb is not None else []
+    moves = [one.kind for one in senses if one.who == "camera"]
+    if verb is None or not moves:
+        return None
+    draft.show(verb)
+    move = split_move("travel forward" if is_ego else moves[0])
+    turned = read_table("words", "read")["turned_moves"]
+    for one in clause.after:
+        if isinstance(one, Phrase):
+            if one.preposition.text == "around" and move["kind"] in ("truck", "travel"):
+                move = {"kind": "orbit", "pace": move.get("pace", 1.0)}
+            continue
+        name, value = sense.value if (sense := one.first("adverb")) else ("", "")
+        if name == "direction":
+            phrase = f"{move['kind']} {value}"
+            side = split_move(turned.get(phrase, phrase))
+            name, move = ("pace", move | side) if "direction" in side else ("", move)
+        elif name in ("pace", "speed_m_s"):
+            move[name] = move.get("pace", 1.0) * value if name == "pace" else value
+        elif name == "turns_hz" and move["kind"] in ("pan", "tilt", "roll", "orbit"):
+            name, move["rate_deg_s"] = "pace", round(360.0 * float(value), 6)
+        if name in ("pace", "speed_m_s"):
+            draft.show(one)
+    means = [one.kind for one in senses if one.who == "plain" and one.kind in MEANS]
+    if move["kind"] == "travel" and means:
+        move["means"] = means[0]
+    return move

@@ -1,0 +1,228 @@
+"""Things of a sentence: noun groups named, and what is said of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from texvent_scenes.colours import SURFACES
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.protocol import Noun, Pose
+from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
+from texvent_scenes.read.groups import Group, Phrase
+from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.read.prepositions import ridden_by
+from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.scene import MAX_BODIES
+
+PLURAL_COUNT = 3
+"""Copies that a bare plural means."""
+BLINK_HZ = 2.0
+"""Frequency of a lamp of which only is said that it blinks."""
+
+
+class ThingReader:
+    """Adds things to a draft, and says of them what adjectives, adverbs and verbs say."""
+
+    def __init__(self, draft: SceneDraft, nouns: Mapping[str, Noun]) -> None:
+        self._draft = draft
+        self._nouns = nouns
+        self._nearest: list[int] = []
+        """Objects of the last noun group."""
+        self._goes_on = False
+        """Whether it happens while all that was said of its subjects before."""
+
+    # Noun groups
+
+    def _pick(self, group: Group) -> list[int]:
+        """Some of several things, or the others: "two dogs, a brown one and a white one"."""
+        draft = self._draft
+        for whole in group.of.groups if group.of is not None and group.picks else ():
+            self._name(whole)  # "two of the dogs"
+        picked = draft.pick(group.picks, group.count) if group.picks else []
+        for token in group.unknown if picked else ():
+            self._say(token, picked)
+            draft.show(*([token] if token.text == group.picks else []))
+        return picked
+
+    def _leave_places(self, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
+        """Take some of several away from where all were: "two on a desk, one on the floor"."""
+        words = (one.preposition for one in after if isinstance(one, Phrase))
+        kinds = {sense.value for word in words for sense in word.all("relation")}
+        for thing in (self._draft.things[index] for index in picked if kinds & PLACING):
+            thing["relations"] = [one for one in thing["relations"] if one["kind"] not in PLACING]
+
+    def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
+        """Add what a group names; the indices of its objects, at most one."""
+        head = group.head
+        found: list[int] = []
+        if head is not None and names_place(head, relation):
+            self._draft.set_place(group, head, relation)
+        elif head is not None and head.has("noun", "pose"):
+            found = self._name_thing(group, head)
+        else:  # an effect, light, weather, or nothing that is known
+            for token in group.unknown if relation not in ("", "with") else ():
+                if names_place(token, relation):  # "in a city centre"
+                    self._draft.set_place(Group(token), token, relation)
+            for token in (*group.modifiers, *([head] if head else [])):
+                effect = token.first("effect")
+                if not self._draft.set_scene(token) and effect is not None:
+                    self._draft.add_effect(token, effect.value, owners)
+        for content in group.of.groups if group.of is not None else ():
+            self._fill(found, content)
+        return found
+
+    def _fill(self, vessels: Sequence[int], content: Group) -> None:
+        """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
+        head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
+        if head is not None and names_place(head, ""):
+            self._name(content, "in")
+        elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
+            for index in self._name(content):
+                self._draft.relate(index, "in", vessels)
+            self._nearest = list(vessels)
+
+    def _name_thing(self, group: Group, head: Token) -> list[int]:
+        draft, noun = self._draft, group.noun
+        is_owned = group.article in word_set("things", "owners")
+        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
+        is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
+        is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
+        if len(draft.things) == MAX_BODIES or (is_part and not known):
+            return []  # "his hands", "with its propellers": parts of a body
+        draft.show(head)
+        is_plain = not group.modifiers and not group.unknown
+        is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
+        if is_same and is_plain and group.article in ("the", "its", "his", "her", "their"):
+            self._nearest = known[-1:]  # "the car", where there is one
+            return known[-1:]
+        if noun is not None:
+            thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
+            if noun.is_kind:
+                draft.mark(head, noun.noun)
+        else:
+            who, activity = head.all("pose")[0].value
+            thing = {"noun": who, "motions": [{"kind": activity}]}
+        count = PLURAL_COUNT if group.is_plural else 1
+        draft.things.append({**thing, "count": count, "relations": []})
+        index = len(draft.things) - 1
+        self._say_modifiers(group, index)
+        for token in group.unknown if not self._draft.can_go(index) else ():
+            if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
+                self._draft.set_place(Group(token), token, "")
+        self._nearest = [index]
+        return [index]
+
+    def _say_modifiers(self, group: Group, index: int) -> None:
+        """Apply adjectives; "a black and white football" has both colours by itself."""
+        draft, own, noun = self._draft, list[Token](), self._draft.things[index]["noun"]
+        fields = ((one, one.first("field")) for one in group.modifiers)
+        colours = {one: said.value[1] for one, said in fields
+                   if said is not None and said.value[0] == "colour"}  # fmt: skip
+        bodies = (self._nouns[noun].build(colour=None, scale=1.0, seed=seed) for seed in range(3))
+        parts = [one.parts(Pose(0.0, 0.0, 0.0, "stand")) for one in bodies if len(colours) > 1]
+        if parts and all(
+            has_colour(each, SURFACES[one]) for each in parts for one in colours.values()
+        ):
+            own = [*colours]
+        for token in group.modifiers:
+            if token in own:
+                draft.claim(token, "colour", colours[token], [index])
+                continue
+            if token.text in word_set("things", "rows"):
+                draft.claim(token, "row", "along", [index])
+            is_side = token.text in ("left", "right")  # "the left ball"
+            draft.show(*([token] if token.has("hollow") or is_side else []))
+            draft.things[index] |= {"placement": token.text} if is_side else {}
+            self._say(token, [] if is_side else [index])
+
+    # What is said of things
+
+    def _say(self, token: Token, subjects: Sequence[int]) -> None:
+        """Apply an adjective, an adverb, a participle, or a word of the scene."""
+        draft, light = self._draft, self._draft.parts["light"]
+        said = token.first("field", "picture", "adverb")
+        field, value = said.value if said is not None else ("", "")
+        things = [draft.things[index] for index in subjects]
+        if field == "rate_hz" and "flicker_hz" in light and not things:
+            light["flicker_hz"] = value
+        elif field == "picture" and draft.things:
+            (things or draft.things)[-1]["picture"] = vars(value)
+        elif _is_open(field, things):
+            if field in ("colour", *word_set("things", "claimed")):
+                draft.claim(token, field, value, subjects)
+            return
+        elif value == "opposite":
+            if not draft.part_ways(subjects):
+                return
+        elif said is not None and things:
+            for index in subjects:
+                draft.say_field(token, said, index)
+        else:
+            if not self._draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
+                self._act(token, subjects, [], has_object=False)
+            return
+        draft.show(token)
+
+    # Verbs
+
+    def _act(
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
+    ) -> list[int] | None:
+        """Apply the first sense that the subjects can do; who moves, or None: there is none."""
+        draft, has_object = self._draft, has_object or bool(objects)
+        acts = (one.value for one in verb.all("verb") if subjects)
+        act = next(
+            (one for one in acts if self._draft.fits(one, subjects, objects, has_object)), None
+        )
+        if act is None or (has_object and not objects and act.who == "plain"):
+            return None  # what it is done to is not known
+        draft.show(verb)
+        is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
+        if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
+            draft.mark(verb, act.kind)
+        for index in subjects:
+            self._do(act, verb, index)
+            if act.who in ("person", "hand", "animal") or act.kind == "lie":
+                is_body = act.who != "plain" or draft.walks(index)
+                draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
+        for index in objects:
+            add_motion(draft.things[index], VerbSense(kind=act.object))
+        if act.relation == "collide" and not objects:
+            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
+        for index in subjects if act.relation is not None else ():
+            draft.relate(
+                ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
+            )
+        return list(objects if act.object and objects else subjects)
+
+    def _do(self, act: VerbSense, verb: Token, index: int) -> None:
+        """Let an object do it; a flame burns and flickers by itself."""
+        thing = self._draft.things[index]
+        if act.kind == "move" and self._goes_on and ridden_by(self._draft, index, "past") != index:
+            return  # it is ridden on: "rides a bicycle, passing a car"
+        if act.who not in ("source", "lamp"):
+            before = [one["kind"] for one in thing["motions"]]
+            add_motion(thing, act, goes_on=self._goes_on)
+            is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
+            is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
+            if is_later and before and not is_seated:
+                self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
+        elif thing["noun"] not in word_set("things", "flames"):
+            if act.who == "lamp":
+                thing["blink_hz"] = BLINK_HZ
+            else:
+                self._draft.add_effect(verb, act.kind, [index])
+
+
+def _is_open(field: str, things: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether a field of things cannot be set: a second colour, a height of what does not fall."""
+    motions = [one for thing in things for one in thing["motions"]]
+    if field == "rate_hz":
+        return not (motions or any("blink_hz" in one or one["noun"] in LAMPS for one in things))
+    if field == "height_m":  # it is no way either: "seen from 3 m"
+        return not any(one["kind"] in ("fall", "bounce") for one in motions)
+    is_set = field in word_set("things", "once") and any(field in one for one in things)
+    return is_set or field in word_set("things", "claimed")

@@ -1,0 +1,313 @@
+"""Word check: words of which only the staged scene tells whether it shows them.
+
+A reader that places nothing by a word, or that cannot know whether what it says comes about, leaves
+a `Claim`. Boxes, parts and places of the bodies over the clip decide.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from texvent_scenes.colours import SURFACES, find_colour
+from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
+from texvent_scenes.models.materials import MATERIALS, has_colour
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.relation_check import BodyBoxes, body_of, find_violations
+from texvent_scenes.rendered_scene import Float64Array, Texture
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.compose import ComposedScene
+
+_INSTANTS, _PER_S = 9, 24.0
+"""Instants at which bodies are compared; per second, those at which repetitions are counted."""
+_OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
+"""Shares of the greatest departure from the first pose at which a repetition is begun and done;
+departure below which a body does not move, in its sizes."""
+_STRAY, _UNEVEN = 0.12, 2.0
+"""Of a row: most departure from its line, in gaps; most ratio of its gaps."""
+_ROUND, _LEAST_ARC = 0.08, math.pi / 3.0
+"""Most departure of a way from its circle, in radii; least angle of that circle that it covers."""
+_GROUNDED = 0.1
+"""Height, in sizes of a body, up to which it is on the ground."""
+_NEAR_END, _RESTING = 3.0, 0.15
+"""Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
+
+
+def find_held(
+    claims: Sequence[Claim],
+    scene: ComposedScene,
+    description: SceneDescription,
+    unseen: frozenset[str],
+    duration_s: float,
+) -> tuple[frozenset[str], frozenset[str]]:
+    """Words of which all that is claimed holds, and the others.
+
+    Args:
+        claims: what is claimed of words.
+        scene: the staged scene.
+        description: the scene before it was staged.
+        unseen: nouns of objects that are out of view.
+        duration_s: length of the clip, s.
+    """
+    staged, failed = _Staged(scene, description, duration_s), set[str]()
+    for one in claims:
+        about = [*([] if one.subject is None else [one.subject]), *one.targets]
+        is_seen = unseen.isdisjoint(description.objects[index].noun for index in about)
+        if not (is_seen and all(map(staged.list_actors, about)) and CHECKS[one.kind](staged, one)):
+            failed.add(one.word)
+    return frozenset({one.word for one in claims} - failed), frozenset(failed)
+
+
+@dataclass(frozen=True)
+class _Staged:
+    """A staged scene over its clip."""
+
+    scene: ComposedScene
+    description: SceneDescription
+    duration_s: float
+
+    @cached_property
+    def times(self) -> list[float]:
+        """Instants, s."""
+        return [float(one) for one in np.linspace(0.0, self.duration_s, _INSTANTS)]
+
+    @cached_property
+    def boxes(self) -> list[list[BodyBoxes]]:
+        """Boxes of the copies of each object."""
+        cameras = [self.scene.camera(one) for one in self.times]
+        return [[body_of(one, cameras, self.times) for one in self.list_actors(index)]
+                for index in range(len(self.description.objects))]  # fmt: skip
+
+    def list_actors(self, index: int) -> list[Actor]:
+        """Copies of an object."""
+        return [one for one in self.scene.actors if one.object_index == index]
+
+    def own(self, claim: Claim) -> list[Actor]:
+        """Copies of the object of which something is claimed."""
+        return self.list_actors(-1 if claim.subject is None else claim.subject)
+
+    def places(self, actor: Actor) -> Float64Array:
+        """[t, n, 3] Places of its parts, beside its own place on the ground, m."""
+        count = max(int(self.duration_s * _PER_S), 2) + 1
+        at = [actor.place(float(one)) for one in np.linspace(0.0, self.duration_s, count)]
+        places = np.array([[part.to_body[:, 3] for part in one.parts] for one in at])
+        world = [one.to_world for one in at]
+        moved = np.array([each @ one[:, :3].T + one[:, 3]
+                          for each, one in zip(places, world, strict=True)])  # fmt: skip
+        moved -= np.array([[one.to_world[0, 3], one.to_world[1, 3], 0.0] for one in at])[:, None]
+        return moved
+
+    def departure(self, actor: Actor) -> Float64Array:
+        """[t] Departure of its parts from where they are at first, the greatest of all, m."""
+        moved = self.places(actor)
+        return np.asarray(np.linalg.norm(moved - moved[0], axis=2).max(axis=1))
+
+
+def _has_colour(staged: _Staged, claim: Claim) -> bool:
+    rest = Pose(0.0, 0.0, 0.0, "stand")
+    rgb = find_colour(str(claim.value), SURFACES)
+    return all(has_colour(one.own_parts(rest), rgb) for one in staged.own(claim))
+
+
+def _is_of(staged: _Staged, claim: Claim) -> bool:
+    """Whether most of it has the texture of a material."""
+    texture, rest = MATERIALS[str(claim.value)].texture, Pose(0.0, 0.0, 0.0, "stand")
+    parts = [part.texture is texture for one in staged.own(claim) for part in one.own_parts(rest)]
+    return texture is not Texture.PLAIN and sum(parts) > 0.5 * len(parts)
+
+
+def _is_related(staged: _Staged, claim: Claim) -> bool:
+    """Whether a relation that nothing placed holds all the same."""
+    return _relates(staged, claim, str(claim.value))
+
+
+def _relates(staged: _Staged, claim: Claim, kind: str, when: slice = slice(None)) -> bool:
+    about = [] if claim.subject is None else [claim.subject, *claim.targets]
+    return bool(about) and _holds(staged, kind, about, [
+        [BodyBoxes(one.middle[when], one.size[when], one.seen[when], one.displacement, one.parts)
+         for one in staged.boxes[index]]
+        for index in about
+    ])  # fmt: skip
+
+
+def _holds(
+    staged: _Staged, kind: str, about: Sequence[int], copies: Sequence[Sequence[BodyBoxes]]
+) -> bool:
+    """Whether the first bodies are so to the others, which are copies of these objects."""
+    objects = tuple(staged.description.objects[index] for index in about)
+    relation = IndexedRelation(kind, 0, tuple(range(1, len(copies))))
+    apart = replace(staged.description, objects=objects, relations=(relation,))
+    return not any(one.kind == "relation" for one in find_violations(apart, copies))
+
+
+def _are_mutual(staged: _Staged, claim: Claim) -> bool:
+    """Whether two bodies are so to each other."""
+    objects = staged.description.objects
+    nouns = {objects[one].noun for one in (claim.subject, *claim.targets) if one is not None}
+    about = [n for n, one in enumerate(objects) if one.noun in nouns]  # halves of a group too
+    bodies = [(index, one) for index in dict.fromkeys(about) for one in staged.boxes[index]]
+    if claim.value == "towards":  # they may pass each other afterwards
+        gaps = (np.linalg.norm(one.middle - other.middle, axis=1)
+                for (_, one), (_, other) in itertools.combinations(bodies, 2))  # fmt: skip
+        return any(gap.min() <= 0.5 * gap[0] for gap in gaps)
+    return any(
+        _holds(staged, str(claim.value), (first, second), [[one], [other]])
+        and _holds(staged, str(claim.value), (second, first), [[other], [one]])
+        for (first, one), (second, other) in itertools.combinations(bodies, 2)
+    )
+
+
+def _leaves(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is on something at first and no more at the end: "off"."""
+    first, last = (_relates(staged, claim, "on", when) for when in (slice(1), slice(-1, None)))
+    return first and not last
+
+
+def _arrives(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is in or on something at the end and was not at first: "into", "onto"."""
+    kind = str(claim.value)
+    first, last = (_relates(staged, claim, kind, when) for when in (slice(1), slice(-1, None)))
+    return last and not first
+
+
+def _stops_before(staged: _Staged, claim: Claim) -> bool:
+    """Whether it comes to rest on its way, before what it stops for."""
+    index = -1 if claim.subject is None else claim.subject
+    for one in staged.boxes[index]:
+        steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
+        way = one.middle[-1] - one.middle[0]
+        length = float(np.linalg.norm(way))
+        if steps[-1] > _RESTING * steps.mean() or length <= _STILL:
+            return False
+        for other in (body for target in claim.targets for body in staged.boxes[target]):
+            off = other.middle[-1] - one.middle[-1]
+            ahead = float(off @ way) / length
+            aside = float(np.linalg.norm((off - ahead * way / length)[:2]))
+            room = one.size[-1].max()
+            if not (0.0 < ahead <= _NEAR_END * room and aside <= room):
+                return False
+    return True
+
+
+def _is_row(staged: _Staged, claim: Claim) -> bool:
+    """Whether copies stand on a line; "side by side" it is across their way."""
+    own = staged.own(claim)
+    first, last = (np.array([one.middle(share * staged.duration_s)[:2] for one in own])
+                   for share in (0.0, 1.0))  # fmt: skip
+    places, way = 0.5 * (first + last), (last - first).mean(axis=0)
+    along = np.abs((places[-1] - places[0]) @ way)
+    whole = float(np.linalg.norm(way) * np.linalg.norm(places[-1] - places[0]))
+    is_across = along <= math.sqrt(0.5) * whole
+    return is_in_line(places) and (bool(is_across) or claim.value != "across")
+
+
+def is_in_line(places: Float64Array) -> bool:
+    """Whether places on the ground, [n, 2] m, are on a line, at even gaps."""
+    if len(places) < 2:
+        return False
+    off = places - places.mean(axis=0)
+    _, _, axes = np.linalg.svd(off)
+    gaps = np.diff(np.sort(off @ axes[0]))
+    is_straight = np.abs(off @ axes[1]).max() <= _STRAY * gaps.mean()
+    return bool(is_straight and gaps.max() <= _UNEVEN * gaps.min())
+
+
+def _count(staged: _Staged, actor: Actor) -> float:
+    """Times that it leaves its first pose and comes back to it; half a time: it is not back."""
+    departure, count, is_out = staged.departure(actor), 0.0, False
+    most = float(departure.max())
+    if most <= _STILL * actor.size_m:
+        return 0.0
+    for one in departure / most:
+        if not is_out and one >= _OUT:
+            count, is_out = count + 0.5, True
+        elif is_out and one <= _BACK:
+            count, is_out = count + 0.5, False
+    return count
+
+
+def _repeats(staged: _Staged, claim: Claim) -> bool:
+    return all(_count(staged, one) == claim.value for one in staged.own(claim))
+
+
+def _returns(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is again as it was: at the end, or several times."""
+    counts = [_count(staged, one) for one in staged.own(claim)]
+    return all(one >= 1.0 and (one.is_integer() or one > 2.0) for one in counts)
+
+
+def _is_circling(staged: _Staged, claim: Claim) -> bool:
+    """Whether a body or the camera goes along a circle."""
+    if claim.subject is None:
+        ways = [np.array([staged.scene.camera(one).position[:2] for one in staged.times])]
+    else:
+        ways = [one.middle[:, :2] for one in staged.boxes[claim.subject]]
+    return all(map(is_arc, ways))
+
+
+def is_arc(way: Float64Array) -> bool:
+    """Whether a way on the ground, [t, 2] m, lies on a circle, and covers enough of it."""
+    if np.ptp(way, axis=0).max() < _STILL:
+        return False
+    terms = np.column_stack([2.0 * way, np.ones(len(way))])
+    x, y, rest = np.linalg.lstsq(terms, (way**2).sum(axis=1), rcond=None)[0]
+    radius = math.sqrt(max(rest + x * x + y * y, 0.0))
+    off = way - [x, y]
+    angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
+    strays = np.abs(np.linalg.norm(off, axis=1) - radius).max()
+    return bool(strays <= _ROUND * radius and np.ptp(angles) >= _LEAST_ARC)
+
+
+def _is_moving_inside(staged: _Staged, claim: Claim) -> bool:
+    """Whether parts of it move in its body: the hands of a clock."""
+    for one in staged.own(claim):
+        at = [one.own_parts(one.pose(time_s)) for time_s in staged.times]
+        places = np.array([[part.to_body for part in each] for each in at])
+        if np.ptp(places, axis=0).max() <= _STILL * one.size_m:
+            return False
+    return True
+
+
+def _swings(staged: _Staged, claim: Claim) -> bool:
+    """Whether the part that moves most turns back on its way."""
+    for one in staged.own(claim):
+        steps = np.diff(staged.places(one), axis=0)
+        most = steps[:, np.linalg.norm(steps, axis=2).sum(axis=0).argmax()]
+        if not (most[1:] * most[:-1]).sum(axis=1).min() < 0.0:
+            return False
+    return True
+
+
+def _rises_from(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is on the ground of a place at first, and above it at the end."""
+    return all(
+        one.lowest_m(0.0) <= _GROUNDED * one.size_m < one.lowest_m(staged.duration_s)
+        for one in staged.own(claim)
+    )
+
+
+def _is_laid(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is no higher than long at the end: a glass that lies."""
+    sizes = [one.size[-1] for one in staged.boxes[-1 if claim.subject is None else claim.subject]]
+    return all(each[2] < max(each[:2]) for each in sizes)
+
+
+def _is_doing(staged: _Staged, claim: Claim) -> bool:
+    """Whether a person, a hand or an animal does it at some instant; it may "sit on ground"."""
+    done = ({f"{one.track.at(time_s).activity} " for time_s in staged.times}
+            for one in staged.own(claim))  # fmt: skip
+    return all(any(each.startswith(f"{claim.value} ") for each in one) for one in done)
+
+
+CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
+    "colour": _has_colour, "material": _is_of, "relation": _is_related, "off": _leaves,
+    "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
+    "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
+    "activity": _is_doing, "direction": _swings, "rise": _rises_from, "mutual": _are_mutual,
+}  # fmt: skip
+"""Kind of claim → its check."""

@@ -1,0 +1,220 @@
+"""Words that only the staged scene tells: each check in three unrelated sentences or scenes."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from texvent.sensor import SensorSize
+from texvent_scenes.colours import SURFACES
+from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.protocol import ModelPart
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.rendered_scene import Shape
+from texvent_scenes.word_check import is_arc, is_in_line
+
+
+@cache
+def report(text):
+    return ProceduralGenerator(ProceduralConfig(duration=2.0), size=SensorSize(173, 130)).report(
+        text
+    )
+
+
+def told(text):
+    """Words that are not shown, without the reasons."""
+    said = report(text)
+    return " ".join([*said.not_understood, *said.not_shown])
+
+
+def check(text, word, is_shown):
+    """That a word is in one list of the report: of those that are shown, or of the others."""
+    assert (word in report(text).shown) == is_shown
+    assert (word in told(text)) == (not is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a black and white football rolls", "white", True),
+        ("a black and white panda sits", "black", True),
+        ("a black and white cube spins", "white", False),
+    ],
+)
+def test_a_second_colour_is_that_of_the_body(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a vase on a wooden table", "wooden", True),
+        ("a cat sits under a wooden table", "wooden", True),
+        ("a man in a leather suit walks", "leather", True),
+        ("a brick cloud in the sky", "brick", False),
+    ],
+)
+def test_a_material_that_a_thing_has_anyway_is_shown(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize("text", ["a bicycle lies on the grass", "a car lies on a road"])
+def test_what_stands_upright_does_not_lie(text):
+    check(text, "lies", is_shown=False)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a book lies on a table", "a cat lies on a sofa", "a man lies", "a bottle lies on a table",
+     "a chair lies on the grass"],
+)  # fmt: skip
+def test_what_is_flat_or_lies_down_lies(text):
+    check(text, "lies", is_shown=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a drone flies in a circle around a tree", True),
+        ("a cat walks in a circle", False),
+        ("a boat sails in circles", False),
+    ],
+)
+def test_a_circle_is_what_the_way_is(text, is_shown):
+    check(text, next(one for one in ("in a circle", "in circles") if one in text), is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("a person claps seven times", "seven times"),
+        ("a hand opens and closes 9 times", "9 times"),
+        ("a cube falls on a table twice", "twice"),
+    ],
+)
+def test_repetitions_that_a_clip_has_not_are_named(text, word):
+    check(text, word, is_shown=False)
+
+
+def test_a_number_of_repetitions_is_that_of_the_clip():
+    shown = [n for n in range(1, 9) if f"{n} times" in report(f"a woman waves {n} times").shown]
+    assert len(shown) <= 1
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("a red cube slides into a blue cube", "into"),
+        ("a glass falls off a table", "off"),
+    ],
+)
+def test_a_way_that_the_bodies_do_not_take_is_named(text, word):
+    check(text, word, is_shown=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "verb", "rate"),
+    [
+        ("a black disc spins at 3 Hz", "spins", "3 hz"),
+        ("a checkerboard spins at 30 rpm", "spins", "30 rpm"),
+        ("a white disc rotates quickly", "rotates", "quickly"),
+    ],
+)
+def test_a_rate_is_shown_with_its_motion(text, verb, rate):
+    shown = report(text).shown
+    assert (rate in shown) == (verb in shown) == ("disc" not in text)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("two cars pass each other on a road", "each other", True),
+        ("a red dog and a white dog run towards each other", "towards", True),
+        ("two girls throw a ball to each other", "each other", False),
+    ],
+)
+def test_what_is_mutual_is_so_of_both(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a fan with spinning blades", "spinning", True),
+        ("a clock with a moving second hand", "moving", True),
+        ("a parked car, its wheels turning", "turning", False),
+    ],
+)
+def test_parts_that_are_said_to_move_do(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+def test_a_number_of_which_some_are_out_of_view_is_not_shown():
+    text = "a child stands between two trees"
+    assert ("two" in report(text).shown) == ("tree (1 of 2)" not in report(text).out_of_view)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a pendulum swings to and fro", "to and fro", True),
+        ("a metronome ticks back and forth", "back and forth", True),
+        ("a fan rotates to and fro", "to and fro", False),
+    ],
+)
+def test_what_moves_by_itself_may_go_to_and_fro(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a plane takes off from a runway", True),
+        ("a helicopter rises from a field", True),
+        ("a bear walks from a forest", False),
+    ],
+)
+def test_what_rises_from_a_place_was_on_its_ground(text, is_shown):
+    check(text, "from", is_shown)
+
+
+@pytest.mark.parametrize(
+    ("angle", "stray", "expected"),
+    [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
+)
+def test_a_way_is_an_arc_if_it_stays_on_its_circle(angle, stray, expected):
+    at = np.linspace(0.3, 0.3 + angle, 9)
+    radius = 3.0 * (1.0 + stray * (-1.0) ** np.arange(9))
+    way = np.column_stack([radius * np.cos(at) + 5.0, radius * np.sin(at) - 2.0])
+    assert is_arc(way) == expected
+
+
+def test_a_straight_way_is_no_arc():
+    assert not is_arc(np.column_stack([np.linspace(0, 5, 9), np.linspace(1, 3, 9)]))
+    assert not is_arc(np.ones((9, 2)))
+
+
+@pytest.mark.parametrize(
+    ("places", "expected"),
+    [
+        ([(0, 0), (1, 0.1), (2, -0.1), (3, 0)], True),
+        ([(0, 0), (1, 1), (2, 2)], True),
+        ([(0, 0), (1, 0.8), (2, 0), (3, 0.8)], False),
+        ([(0, 0), (0.2, 0), (3, 0)], False),
+        ([(0, 0)], False),
+    ],
+)
+def test_a_row_is_straight_and_even(places, expected):
+    assert is_in_line(np.array(places, dtype=float)) == expected
+
+
+def part(colour, side):
+    return ModelPart(Shape.BOX, np.hstack([side * np.eye(3), np.zeros((3, 1))]), colour)
+
+
+def test_a_colour_is_that_of_enough_of_the_surface():
+    large, small = part((0.8, 0.8, 0.8), 1.0), part((0.01, 0.01, 0.01), 0.2)
+    assert has_colour([large, small], SURFACES["white"])
+    assert not has_colour([large, small], SURFACES["black"])
+    assert has_colour([large, small, small], SURFACES["black"])
+    assert not has_colour([large], SURFACES["red"])
