@@ -69,11 +69,14 @@ def test_who_comes_out_of_a_house_starts_in_it_and_comes_nearer(text):
     assert ways[-1] < ways[0] - 1.0
 
 
-@pytest.mark.parametrize("text", ["a row of parked cars", "two parked cars", "five parked trucks"])
-def test_parked_vehicles_stand_in_one_row(text):
+@pytest.mark.parametrize("text", ["a row of parked cars", "two parked cars", "five parked trucks",
+                                  "a row of trees", "a row of houses", "six ducks in a row",
+                                  "three men stand in a line"])  # fmt: skip
+def test_rows_and_parked_vehicles_stand_on_a_line_at_even_gaps(text):
     actors = staged(text)[1].actors
     places = np.array([one.middle(0.0)[:2] for one in actors])
-    assert np.ptp(places[:, 1]) < 0.5 * actors[0].model.width
+    reach = max(actors[0].model.width, actors[0].model.length)
+    assert np.ptp(places[:, 1]) < 0.3 * reach
     gaps = np.diff(np.sort(places[:, 0]))
-    assert gaps.min() > actors[0].model.length
+    assert gaps.min() > 0.8 * reach
     assert gaps.max() < 1.3 * gaps.min()

@@ -180,9 +180,13 @@ def rests(noun: Noun, kind: str) -> bool:
 
 
 def stagger(
-    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
-) -> list[Vector]:
-    """Places of the copies about the middle of their group, m, staggered so none hides another."""
+    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator, *,
+    is_row: bool = False,
+) -> list[Vector]:  # fmt: skip
+    """Places of the copies about the middle of their group, m, staggered so none hides another.
+
+    Those of whom a row is said, and parked vehicles, stand on a line at even gaps.
+    """
     count, is_driven = len(models), noun.motion == "drive"
     if count == 1:
         return [(0.0, 0.0, 0.0)]
@@ -192,8 +196,8 @@ def stagger(
     is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
     tall = max(model.height for model in models) if is_deep else 0.0
     columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
-    is_parked = is_driven and not (plan.is_path or plan.path)  # in one row
-    columns = count if is_parked else math.ceil(count / 2) if is_driven else columns
+    is_row |= is_driven and not (plan.is_path or plan.path)
+    columns = count if is_row else math.ceil(count / 2) if is_driven else columns
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
     for number in range(count):
@@ -201,11 +205,12 @@ def stagger(
         in_row = min(columns, count - row * columns)
         a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
         b = (row - 0.5 * ((count - 1) // columns)) * across
-        a += float(rng.uniform(-0.12, 0.12)) * along * (not is_parked)
+        a += float(rng.uniform(-0.12, 0.12)) * along * (not is_row)
         stray = float(rng.uniform(-0.08, 0.08)) * across
-        if not is_driven:  # vehicles keep to their lanes
+        if not (is_driven or is_row):  # vehicles keep to their lanes
             b = b + 0.6 * across * (number % 2) + stray
         up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall if is_deep else 0.0
+        up *= not is_row
         offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
     return offsets
 

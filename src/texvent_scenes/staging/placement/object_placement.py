@@ -139,7 +139,8 @@ class ObjectPlacer:
         motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng, start_m)
         plan = with_heading(plan, scene_object.heading_deg)
-        offsets = stagger(models, plan, noun, rng)
+        is_row = any(one.kind == "row" and one.subject == index for one in self._description.claims)
+        offsets = stagger(models, plan, noun, rng, is_row=is_row)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
 
@@ -182,7 +183,7 @@ class ObjectPlacer:
         """Scale of a passage: a foot tunnel for those who are small."""
         goers = [self._size_up(one.subject) for one in self._description.relations
                  if one.kind == "through" and index in one.targets]  # fmt: skip
-        is_tunnel = self._description.objects[index].noun in nouns_with("tunnel")
+        is_tunnel = self._description.objects[index].noun in nouns_with("fits who goes through")
         return fit_passage(goers) if is_tunnel and goers else 1.0
 
     def _size_up(self, index: int) -> Model:
