@@ -121,7 +121,7 @@ def find_violations(
         held = [_holds(kind, body, others, at_end=goes_on) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
-            said = one.kind.replace("front", "in front of")
+            said = {"front": "in front of", "follow": "following"}.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
@@ -299,6 +299,12 @@ def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     return np.asarray(_within(one, other, 2) & is_level)
 
 
+def _goes(one: BodyBoxes) -> _Flags:
+    """Whether it is at another place in the end."""
+    way = np.linalg.norm((one.middle[-1] - one.middle[0])[:2])
+    return np.array([way > _LEAST_DISPLACEMENT * one.size.max()])
+
+
 def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     """Whether it gets higher, or of sign -1 lower, where the other is."""
     risen = sign * (one.middle[-1] - one.middle[0])[2]
@@ -379,6 +385,7 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
+    "follow": lambda one, other: _goes(one),
     "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
     "into": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _within(one, other, 2)[-1:],
     "out of": lambda one, other: _recedes(one, other, 1, 2)[-1:] & _within(one, other, 2)[:1],

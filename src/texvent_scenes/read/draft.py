@@ -16,7 +16,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.groups import Group
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
-from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.data import ACTED, PLACING
 from texvent_scenes.spec.scene import MoveDirection
 
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
@@ -316,10 +316,16 @@ class SceneDraft:
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    def _are_moved(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+        """Whether subjects move objects already: what they do then is not shown."""
+        said = (one for index in subjects for one in self.things[index]["relations"])
+        return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
 
     def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
         """Add an effect, which comes from the first of the owners."""

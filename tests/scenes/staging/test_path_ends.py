@@ -1,5 +1,7 @@
 """Ways to, into, out of, off, up and down things, as the geometry of staged scenes has them."""
 
+import math
+
 import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, stage, thing
@@ -198,3 +200,19 @@ def test_a_lamp_is_switched_once(is_lit, levels):
     scene = stage(lamp)
     bright = [scene.environment(t).lamps["light"].max() for t in (0.6, 0.8)]
     assert [bool(one > 0.1) for one in bright] == [bool(one) for one in levels]
+
+
+@pytest.mark.parametrize(
+    ("kind", "what"), [("into", "house"), ("out of", "garage"), ("up", "tree")]
+)
+def test_several_go_one_after_the_other(kind, what):
+    motion = "climb" if kind == "up" else "walk"
+    scene = stage(
+        thing("man", (motion,), count=2), thing(what, ("stand",)), relations=((kind, 0, 1),)
+    )
+    first, second, _ = scene.actors
+    apart = np.subtract(first.track.at(1.0).position, second.track.at(1.0).position)
+    ahead = [math.cos(first.track.at(1.0).yaw), math.sin(first.track.at(1.0).yaw)]
+    aside = abs(apart[0] * ahead[1] - apart[1] * ahead[0])
+    assert aside < 1e-6
+    assert np.linalg.norm(apart) > 0.5

@@ -183,8 +183,8 @@ class ObjectPlacer:
         """Scale of a passage: a foot tunnel for those who are small."""
         goers = [self._size_up(one.subject) for one in self._description.relations
                  if one.kind == "through" and index in one.targets]  # fmt: skip
-        is_scaled = self._description.objects[index].noun in nouns_with("scaled passage")
-        return fit_passage(goers) if is_scaled and goers else 1.0
+        is_fitted = self._description.objects[index].noun in nouns_with("fits who goes through")
+        return fit_passage(goers) if is_fitted and goers else 1.0
 
     def _size_up(self, index: int) -> Model:
         """A copy of an object at the size that is said."""

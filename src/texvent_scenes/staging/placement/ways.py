@@ -117,6 +117,12 @@ def _put(
     return np.asarray(np.array([*target.centre[:2], 0.0]) + shift + [0.0, 0.0, group.origin_m])
 
 
+def _line_up(group: ObjectGroup, yaw: float, behind_m: float, above_m: float) -> None:
+    """Put each copy so far behind the one before it, or above it: an opening is for one."""
+    x, y = -behind_m * math.cos(yaw), -behind_m * math.sin(yaw)
+    group.offsets = [(n * x, n * y, n * above_m) for n in range(len(group.models))]
+
+
 def _rest_keys(group: ObjectGroup, span_s: float, ramp_s: float) -> list[Key]:
     """Rest at the end of a way, and what is done there."""
     said = [one.kind for one in group.scene_object.motions[1:]] or ["stand"]
@@ -176,7 +182,9 @@ def _pass_opening(
     heading = target.plan.yaw + turn
     along = x * math.cos(turn) + y * math.sin(turn)
     aside = y * math.cos(turn) - x * math.sin(turn)
-    inside = 0.5 * _deep_m(group) + _INSIDE_M
+    step_m = _deep_m(group) + _INSIDE_M
+    inside = 0.5 * _deep_m(group) + _INSIDE_M + step_m * (len(group.models) - 1) * is_in
+    _line_up(group, heading + (0.0 if is_in else math.pi), step_m, 0.0)
     speed, activity = plan.speed_m_s, activity_of(plan.motion.kind)
     keys, way_m = _go_and_stop(group)
     if is_passage:
@@ -265,7 +273,9 @@ def _climb(group: ObjectGroup, target: ObjectGroup, *, is_up: bool) -> Float64Ar
     away = scale * out + (_ARM_M * size_of(own) if is_person else 0.0)
     begin = low if is_up else low + risen
     keys = [replace(key, duration_s=0.0), key, rest]
-    return _put(group, target, target.plan.yaw + math.pi, lean * (begin - low) - away, begin, keys)
+    yaw, tall = target.plan.yaw + math.pi, own.height if is_person else own.length
+    _line_up(group, yaw, -lean * tall, tall)
+    return _put(group, target, yaw, lean * (begin - low) - away, begin, keys)
 
 
 class Opening(NamedTuple):
