@@ -335,12 +335,20 @@ def _bounces(staged: _Staged, claim: Claim) -> bool:
 
 
 def _is_doing(staged: _Staged, claim: Claim) -> bool:
-    """Whether a person, a hand or an animal does it at some instant; who sits down, sits."""
-    first = str(claim.value).split()[0]
-    return all(
-        any(one.track.at(time_s).activity.split()[0] == first for time_s in staged.times)
-        for one in staged.own(claim)
+    """Whether a person, a hand or an animal does it at some instant.
+
+    Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground.
+    """
+    first, own = str(claim.value).split()[0], staged.own(claim)
+    done = [
+        {part.split()[0] for time_s in staged.times
+         for part in one.track.at(time_s).activity.split(" and ")}
+        for one in own
+    ]  # fmt: skip
+    is_up = first == "jump" and all(
+        max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
     )
+    return is_up or all(first in each for each in done)
 
 
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {

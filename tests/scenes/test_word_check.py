@@ -195,6 +195,8 @@ def test_who_walks_is_on_the_ground_and_who_flies_is_not(text, word, is_shown):
         ("a basketball bounces", "bounces", True),
         ("a boy throws a ball and it bounces", "bounces", False),
         ("a woman walks to a chair and sits down", "sits down", True),
+        ("a man sits on a chair reading a book", "reading a book", True),
+        ("a skateboarder jumps over a bench", "jumps", True),
     ],
 )
 def test_what_is_done_is_seen_to_be_done(text, word, is_shown):
