@@ -27,6 +27,8 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _INSTANTS, _PER_S = 9, 24.0
 """Instants at which bodies are compared; per second, those at which repetitions are counted."""
+_LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
+"""Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
@@ -59,6 +61,8 @@ def find_held(
         duration_s: length of the clip, s.
     """
     staged, failed = _Staged(scene, description, size, duration_s), set[str]()
+    if duration_s < _LEAST_CLIP_S:
+        claims = [one for one in claims if one.kind not in _DONE]
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
         is_seen = unseen.isdisjoint(description.objects[index].noun for index in about)

@@ -203,6 +203,13 @@ def test_what_is_done_is_seen_to_be_done(text, word, is_shown):
     check(text, word, is_shown)
 
 
+@pytest.mark.parametrize("text", ["a ball bounces", "a man waves", "a pigeon walks"])
+def test_a_clip_too_short_for_a_motion_judges_none(text):
+    config = ProceduralConfig(duration=0.125)
+    said = ProceduralGenerator(config, size=SensorSize(48, 36)).report(text)
+    assert text.split()[-1] in said.shown
+
+
 @pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
