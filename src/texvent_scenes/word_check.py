@@ -28,6 +28,8 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _INSTANTS, _PER_S = 9, 24.0
 """Instants at which bodies are compared; per second, those at which repetitions are counted."""
+_LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
+"""Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
@@ -60,6 +62,8 @@ def find_held(
         duration_s: length of the clip, s.
     """
     staged, failed = _Staged(scene, description, size, duration_s), set[str]()
+    if duration_s < _LEAST_CLIP_S:
+        claims = [one for one in claims if one.kind not in _DONE]
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
         is_seen = unseen.isdisjoint(description.objects[index].noun for index in about)
@@ -342,12 +346,20 @@ def _bounces(staged: _Staged, claim: Claim) -> bool:
 
 
 def _is_doing(staged: _Staged, claim: Claim) -> bool:
-    """Whether a person, a hand or an animal does it at some instant; who sits down, sits."""
-    first = str(claim.value).split()[0]
-    return all(
-        any(one.track.at(time_s).activity.split()[0] == first for time_s in staged.times)
-        for one in staged.own(claim)
+    """Whether a person, a hand or an animal does it at some instant.
+
+    Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground.
+    """
+    first, own = str(claim.value).split()[0], staged.own(claim)
+    done = [
+        {part.split()[0] for time_s in staged.times
+         for part in one.track.at(time_s).activity.split(" and ")}
+        for one in own
+    ]  # fmt: skip
+    is_up = first == "jump" and all(
+        max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
     )
+    return is_up or all(first in each for each in done)
 
 
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {

@@ -191,6 +191,27 @@ def test_who_walks_is_on_the_ground_and_who_flies_is_not(text, word, is_shown):
 
 
 @pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a basketball bounces", "bounces", True),
+        ("a boy throws a ball and it bounces", "bounces", False),
+        ("a woman walks to a chair and sits down", "sits down", True),
+        ("a man sits on a chair reading a book", "reading a book", True),
+        ("a skateboarder jumps over a bench", "jumps", True),
+    ],
+)
+def test_what_is_done_is_seen_to_be_done(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize("text", ["a ball bounces", "a man waves", "a pigeon walks"])
+def test_a_clip_too_short_for_a_motion_judges_none(text):
+    config = ProceduralConfig(duration=0.125)
+    said = ProceduralGenerator(config, size=SensorSize(48, 36)).report(text)
+    assert text.split()[-1] in said.shown
+
+
+@pytest.mark.parametrize(
     ("angle", "stray", "expected"),
     [(np.pi / 2, 0.0, True), (2 * np.pi, 0.0, True), (0.5, 0.0, False), (np.pi, 0.2, False)],
 )

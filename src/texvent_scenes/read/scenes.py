@@ -243,7 +243,8 @@ class _SentenceReader(ThingReader):
             self._leave_places([index for one in picked for index in one], clause.after[:1])
             return [index for one in (picked if any(picked) else named) for index in one]
         first = clause.after[0] if clause.after and clause.verb is None else None
-        if isinstance(first, Token) and first.is_unknown and not clause.about:
+        is_open = isinstance(first, Token) and (first.is_unknown or first.has("verb"))
+        if is_open and not clause.about:
             return []  # "as wugs dax against it"
         return self._nearest if clause.about == "nearest" else self._find_meant(clause)
 
