@@ -126,7 +126,9 @@ CHILDREN = {
     "benchmark": ["results/fidelity", "results/fidelity-programs", "results/paper"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all", "results/digits-ablation"],
-    "objects": [f"results/objects{part}" for part in ("", "-recorded", "-factors", "-clips", "-programs")],
+    "objects": [
+        f"results/objects{part}" for part in ("", "-recorded", "-factors", "-clips", "-programs")
+    ],
     "teaching": ["results/reconstruction-factors"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
