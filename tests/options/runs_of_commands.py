@@ -10,6 +10,7 @@ import os
 import re
 import shlex
 import shutil
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -166,8 +167,8 @@ def _arrays(events: texvent.EventStream) -> list[NDArray[Any]]:
 
 
 def _settled(text: str) -> str:
-    """Without times of work, places on the disk, the version, and digests that hang on these."""
-    text = TIMES.sub("", text).replace(full_version(), "VERSION")
+    """Without times of work, places on the disk, version, and digests that hang on these."""
+    text = TIMES.sub("", text).replace(full_version(), "VERSION").replace(sys.executable, "PYTHON")
     text = re.sub(r'"(?:\w*seconds|seen)": ?[^,}\n]+', "", text)
     text = re.sub(r"\b[0-9a-f]{24,64}\b", "DIGEST", text)
     return re.sub(r"/\S*/(run|cache)\b", r"\1", text)

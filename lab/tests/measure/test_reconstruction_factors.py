@@ -135,6 +135,7 @@ def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(folde
     assert not np.array_equal(first["voxels"], other["voxels"])
     kept = StreamedExamples(config, "none")
     assert kept.identity != examples.identity
+    assert kept.clip(1) is clip  # rendered once for all trainings
     images = (kept(1, np.random.default_rng(0))["images"][:, 0] * 255).round()
     crops = np.lib.stride_tricks.sliding_window_view(clip.frames, (16, 16), (1, 2))
     found = [(crops == image).all(axis=(-1, -2)).any(axis=(1, 2)) for image in images]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,7 @@ from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.errors import InputError
 from texvent.frames import MICROSECONDS
+from texvent.options.values import plain
 from texvent.runtime.identity import derived_seed, digest
 from texvent.training import Clip, EventStream, PromptClips
 from texvent_lab.train.reconstruction.config import ReconstructionConfig
@@ -59,7 +62,6 @@ class StreamedExamples:
     """Prompt and seed of each clip."""
     options: dict[str, Any] = field(init=False)
     """Options of the videos."""
-    _clips: dict[int, Clip] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         data = self.config.data
@@ -106,12 +108,13 @@ class StreamedExamples:
         return {VOXELS: batch.grids[0].numpy(), IMAGES: images}
 
     def clip(self, number: int) -> Clip:
-        """A clip in memory, made when it is first asked for."""
-        if number not in self._clips:
-            prompt, seed = self.prompts[number]
-            source = PromptClips([prompt], **self.options, seed=seed)
-            self._clips[number] = source.read(0, (), MOST_BYTES)
-        return self._clips[number]
+        """A clip in memory, made once for all trainings of a process."""
+        return _rendered(*self.prompts[number], json.dumps(plain(self.options), sort_keys=True))
+
+
+@cache
+def _rendered(prompt: str, seed: int, options: str) -> Clip:
+    return PromptClips([prompt], **json.loads(options), seed=seed).read(0, (), MOST_BYTES)
 
 
 @dataclass(frozen=True)
