@@ -23,9 +23,7 @@ from texvent.config import check_range
 from texvent.data.pull import find_pulled
 from texvent.dataset.export import LEDGER_FILE, export
 from texvent.dataset.layouts.rvt import WINDOW_US
-from texvent.dataset.specification.items import read_items
 from texvent.dataset.specification.reading import read_specification
-from texvent.dataset.specification.specification import Specification
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.extending import require, suggest
@@ -36,6 +34,7 @@ from texvent.represent.histogram import stacked_histogram
 from texvent.run.ledger import Ledger
 from texvent.runtime.identity import digest
 from texvent.runtime.progress import NO_PROGRESS
+from texvent_lab.bench.clip_counts import with_count
 from texvent_lab.bench.detection.clips import bin_pixels, read_clips, scale
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData
 from texvent_lab.bench.detection.labels import IGNORED, read_street_labels
@@ -159,18 +158,6 @@ def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress:
     for arm in arms:
         done = export(stored, "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES)
         progress(f"{arm}: {done.samples} clips")
-
-
-def with_count(specification: Specification, clips: int | None) -> Specification:
-    """The specification with so many clips in all, in equal shares of its scene files."""
-    if clips is None:
-        return specification
-
-    def shared(count: int) -> Specification:
-        sources = [dataclasses.replace(one, count=count) for one in specification.sources]
-        return dataclasses.replace(specification, sources=tuple(sources))
-
-    return shared(max(1, clips // len(read_items(shared(1)).all)))
 
 
 def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int) -> ArmScore:

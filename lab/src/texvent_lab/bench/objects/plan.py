@@ -22,7 +22,7 @@ from texvent.extending import suggest
 from texvent.frames import MICROSECONDS
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent_lab.bench.detection.run import with_count
+from texvent_lab.bench.clip_counts import with_count
 from texvent_lab.bench.digits.training import Precision
 from texvent_lab.bench.fidelity.event_files import FileEntry
 from texvent_lab.bench.kept_results import digest_of
