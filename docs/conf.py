@@ -127,7 +127,11 @@ CHILDREN = {
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all", "results/digits-ablation"],
     "objects": [
-        f"results/objects{part}" for part in ("", "-recorded", "-factors", "-clips", "-programs")
+        "results/objects",
+        "results/objects-recorded",
+        "results/objects-factors",
+        "results/objects-clips",
+        "results/objects-programs",
     ],
     "teaching": ["results/reconstruction-factors"],
     "metrics": ["results/selftest"],
