@@ -129,7 +129,7 @@ CHILDREN = {
     "objects": [
         f"results/objects{part}" for part in ("", "-recorded", "-factors", "-clips", "-programs")
     ],
-    "teaching": ["results/reconstruction-factors"],
+    "teaching": ["results/reconstruction-factors", "results/reconstruction-stream"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],
