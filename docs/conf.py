@@ -133,7 +133,7 @@ CHILDREN = {
         "results/objects-clips",
         "results/objects-programs",
     ],
-    "teaching": ["results/reconstruction-factors"],
+    "teaching": ["results/reconstruction-factors", "results/reconstruction-stream"],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],

@@ -28,6 +28,7 @@ BENCHMARKS = {
     "objects-recorded": (),
     "objects-programs": (),
     "reconstruction-factors": (),
+    "reconstruction-stream": (),
     "selftest": (),
 }
 """Results that `texvent bench page` turns into a page of the same name, and its options."""
