@@ -87,8 +87,6 @@ def lose_ways(
         is_way &= token is not one
         if (is_way or said & word_set("things", "ways")) and not token.has("scene"):
             draft.mark(token, "lost")
-            if token is one:  # "again" of what is not understood
-                draft.claims.pop(token.at, None)
 
 
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
