@@ -29,6 +29,10 @@ class IndexedRelation:
     distance_m: float | None = None
 
 
+SEEN = "seen"
+"""Kind of claim that holds of what is in view: acts, ways and relations of what is not are lost."""
+
+
 @dataclass(frozen=True)
 class Claim:
     """A word of which only the staged scene tells whether it is shown."""
@@ -43,6 +47,11 @@ class Claim:
     """Index of the object of which it is said; None: the camera."""
     targets: tuple[int, ...] = ()
     """Indices of the other objects of a relation."""
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a word that is not shown otherwise is shown if the claim holds."""
+        return self.kind != SEEN
 
 
 @dataclass(frozen=True)

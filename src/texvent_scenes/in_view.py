@@ -46,6 +46,9 @@ LEAST_SEEN = 0.15
 several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
+_FILLED = (0.1, 0.4)
+"""Shares of the image that tell what something is of which less than `LEAST_INSIDE` is inside, or
+even than `LEAST_SEEN`: a wall of a garage is none."""
 _TOLD = 4
 """Points of the grid from which on a body is no speck."""
 MOST_COUNTED = 6
@@ -80,6 +83,8 @@ class Unseen(NamedTuple):
     """Relations, directions, weather, effects and light."""
     notes: tuple[str, ...] = ()
     """Such as "the ball leaves the view after 1.3 s"."""
+    gone: frozenset[int] = frozenset()
+    """Indices of objects of which so little is seen that nothing is told of them."""
 
 
 def find_unseen(
@@ -107,20 +112,24 @@ def find_unseen(
         lost = sum(views[one.instance].share < LEAST_SEEN or
                    (len(own) > 1 and _is_cut_off(one, cameras, times, size, LEAST_SEEN))
                    for one in own)  # fmt: skip
-        least = math.inf if index not in related else 0.1 * size.width * size.height
+        inside = _rank_inside(own, cameras, times, size)
+        filled = _FILLED[inside == 0] * size.width * size.height
+        least = math.inf if index not in related else filled
         if most == 0:
             outside.append(thing.noun)
         elif max(views[one.instance].share for one in own) < LEAST_SEEN:
             outside.append(f"{thing.noun} (hidden)")
         elif most < least_pixels:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
+        elif _is_brief([views[one.instance] for one in own]) and not description.camera.is_moving:
+            outside.append(f"{thing.noun} (most of the clip)")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")
             if 2 * lost <= len(counts):
                 continue
-        elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
+        elif most < least and inside < 2:
             outside.append(f"{thing.noun} (cut off)")
-            partly.add(index)
+            partly |= {index} if inside else set()
         else:
             continue
         unseen.add(index)
@@ -140,7 +149,14 @@ def find_unseen(
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
+        frozenset(unseen - partly - scene.missing),
     )  # fmt: skip
+
+
+def _is_brief(views: Sequence[View]) -> bool:
+    """Whether so few instants show any copy of an object that the clip is not about it."""
+    shown = [any(counts) for counts in zip(*(one.at for one in views), strict=True)]
+    return sum(shown) < LEAST_SEEN * len(shown)
 
 
 def _list_words_of(
@@ -295,6 +311,15 @@ def _list_without(
         if len(rest) < len(staged.effects):
             name = "weather" if kind == said.weather else "effect"
             yield name, kind, replace(scene, particles=replace(staged, effects=rest))
+
+
+def _rank_inside(
+    own: Sequence[Actor], cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> int:
+    """Rank of how much of any copy is inside: 0, less than `LEAST_SEEN`; 1, `LEAST_INSIDE`; 2."""
+    shares = (LEAST_SEEN, LEAST_INSIDE)
+    return sum(not all(_is_cut_off(one, cameras, times, size, share) for one in own)
+               for share in shares)  # fmt: skip
 
 
 def _is_cut_off(

@@ -34,9 +34,11 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 """Direction → axis of the camera (right, down, forward) and sign."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with", "contained", "hung")
+_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
+_SAID = {"front": "in front of", "follow": "following"}
+"""Kinds of relation that a line of the report says in other words."""
 _LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
 least share of the way by which what goes "towards" something comes nearer; gap in sizes at which
@@ -121,7 +123,7 @@ def find_violations(
         held = [_holds(kind, body, others, at_end=goes_on) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
-            said = {"front": "in front of", "follow": "following"}.get(one.kind, one.kind)
+            said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
@@ -198,6 +200,22 @@ def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> 
     """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
     room = 0.55 * other.size + share * one.size + 0.02
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
+
+
+def _is_amid(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its middle is between the outermost parts of the other, seen from above."""
+    low, high = other.parts[:, 0, :2].min(axis=0), other.parts[:, 1, :2].max(axis=0)
+    at = (one.middle - other.middle + other.middle[0])[:, :2]
+    return np.asarray(((at >= low) & (at <= high)).all(axis=1))
+
+
+def _changes_sides(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it ends in the other, or of sign 1 begins there, and comes from, or goes, outside.
+
+    What is inside by the wall is farther out at the other end of its way.
+    """
+    is_amid = _is_amid(one, other)[::-sign]
+    return np.asarray(is_amid[-1:] & (_recedes(one, other, sign, 2)[-1:] | ~is_amid[:1]))
 
 
 def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
@@ -299,12 +317,6 @@ def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     return np.asarray(_within(one, other, 2) & is_level)
 
 
-def _goes(one: BodyBoxes) -> _Flags:
-    """Whether it is at another place in the end."""
-    way = np.linalg.norm((one.middle[-1] - one.middle[0])[:2])
-    return np.array([way > _LEAST_DISPLACEMENT * one.size.max()])
-
-
 def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     """Whether it gets higher, or of sign -1 lower, where the other is."""
     risen = sign * (one.middle[-1] - one.middle[0])[2]
@@ -365,7 +377,14 @@ def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
     return np.asarray((along > 0.0) & (along < 1.0) & (aside <= _ON_THE_WAY * length))
 
 
+def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it heads for another one, which moves."""
+    off = (other.middle - one.middle)[:, :2]
+    return np.asarray(((off * one.ahead).sum(axis=1) > 0.0) & ~np.asarray(_stay(other)))
+
+
 _RULES: Mapping[str, _Rule] = {
+    "follow": _is_following,
     "on": _is_on, "under": _is_under, "around": _is_around,
     "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
     "in": lambda one, other: _within(one, other, 3),
@@ -385,10 +404,9 @@ _RULES: Mapping[str, _Rule] = {
     "with": lambda one, other: _is_near(one, other, 1.0),
     "towards": lambda one, other: _recedes(one, other, -1),
     "away from": lambda one, other: _recedes(one, other, 1),
-    "follow": lambda one, other: _goes(one),
     "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
-    "into": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _within(one, other, 2)[-1:],
-    "out of": lambda one, other: _recedes(one, other, 1, 2)[-1:] & _within(one, other, 2)[:1],
+    "into": lambda one, other: _changes_sides(one, other, -1),
+    "out of": lambda one, other: _changes_sides(one, other, 1),
     "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
     "up": lambda one, other: _climbs(one, other, 1),
     "down": lambda one, other: _climbs(one, other, -1),

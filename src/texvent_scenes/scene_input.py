@@ -128,8 +128,8 @@ def _claim_anyway(idle: Idle, word: str, scene: Scene) -> Iterator[Claim]:
         return
     one, last = scene.objects[int(way[0])], str(way[-1])
     value = getattr(one.motions[int(way[2])] if way[1] == "motions" else one, last, None)
-    if last == "material" or value == "to and fro":
-        yield Claim(word, last, str(value), int(way[0]))
+    if last == "material" or value in ("to and fro", "fall"):
+        yield Claim(word, str(value) if last == "kind" else last, str(value), int(way[0]))
 
 
 def _list_fields(scene: Scene) -> Iterator[tuple[str, str, object]]:
@@ -240,7 +240,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         return describe_scene(subject, nouns)
     reading, lost = _read(str(subject), nouns)
     description = describe_scene(reading.scene, nouns)
-    open_words = {one.word for one in reading.claims}
+    open_words = {one.word for one in reading.claims if one.is_open}
     unread = tuple(one for one in reading.not_understood if one not in open_words)
     words = PromptReport(
         shown=reading.shown,

@@ -106,6 +106,5 @@ def _staged(
         description, seed=seed, size=size, duration_s=duration_s, nouns={**NOUNS, **shown}
     )
     unseen = find_unseen(scene, description, size, duration_s)
-    nouns = frozenset(str(value) for kind, value, _ in unseen.violations if kind == "noun")
-    claims = description.claims
-    return scene, unseen, *find_held(claims, scene, description, nouns, size, duration_s)
+    held = find_held(description.claims, scene, description, unseen.gone, size, duration_s)
+    return scene, unseen, *held

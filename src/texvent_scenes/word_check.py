@@ -17,7 +17,7 @@ import numpy as np
 from texvent.camera import project
 from texvent.sensor import SensorSize
 from texvent_scenes.colours import SURFACES, find_colour
-from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
+from texvent_scenes.description import SEEN, Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.materials import MATERIALS, has_colour
 from texvent_scenes.models.protocol import Pose
@@ -47,7 +47,7 @@ def find_held(
     claims: Sequence[Claim],
     scene: ComposedScene,
     description: SceneDescription,
-    unseen: frozenset[str],
+    gone: frozenset[int],
     size: SensorSize,
     duration_s: float,
 ) -> tuple[frozenset[str], frozenset[str]]:
@@ -57,7 +57,7 @@ def find_held(
         claims: what is claimed of words.
         scene: the staged scene.
         description: the scene before it was staged.
-        unseen: nouns of objects that are out of view.
+        gone: indices of objects that are out of view.
         size: of the image, pixels.
         duration_s: length of the clip, s.
     """
@@ -66,10 +66,11 @@ def find_held(
         claims = [one for one in claims if one.kind not in _DONE]
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
-        is_seen = unseen.isdisjoint(description.objects[index].noun for index in about)
-        if not (is_seen and all(map(staged.list_actors, about)) and CHECKS[one.kind](staged, one)):
+        is_seen = gone.isdisjoint(about)
+        is_seen &= one.kind == SEEN or all(map(staged.list_actors, about))  # a coat has no body
+        if not (is_seen and CHECKS[one.kind](staged, one)):
             failed.add(one.word)
-    return frozenset({one.word for one in claims} - failed), frozenset(failed)
+    return frozenset({one.word for one in claims if one.is_open} - failed), frozenset(failed)
 
 
 @dataclass(frozen=True)
@@ -325,6 +326,18 @@ def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
     return True
 
 
+def _goes_back(staged: _Staged, claim: Claim) -> bool:
+    """Whether it goes against its heading; of one motion, all the time that it goes."""
+    index = -1 if claim.subject is None else claim.subject
+    is_all = len(staged.description.objects[index].motions) < 2
+    for one in staged.boxes[index]:
+        ahead = (np.diff(one.middle[:, :2], axis=0) * one.ahead[:-1]).sum(axis=1)
+        least = _STILL * one.size.max()
+        if ahead.min() >= -least or (is_all and ahead.max() > least):
+            return False
+    return True
+
+
 def _is_laid(staged: _Staged, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
     sizes = [one.size[-1] for one in staged.boxes[-1 if claim.subject is None else claim.subject]]
@@ -341,6 +354,16 @@ def _bounces(staged: _Staged, claim: Claim) -> bool:
             return False
         low = int(np.argmin(height))
         if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
+            return False
+    return True
+
+
+def _falls(staged: _Staged, claim: Claim) -> bool:
+    """Whether it comes down by its size from where it is at first, its highest place."""
+    count = max(int(staged.duration_s * _PER_S), 2) + 1
+    for one in staged.own(claim):
+        height = [one.lowest_m(float(at)) for at in np.linspace(0.0, staged.duration_s, count)]
+        if height[0] < max(height) - 1e-6 or height[0] - min(height) < one.size_m:
             return False
     return True
 
@@ -367,6 +390,7 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
-    "mutual": _are_mutual, "bounce": _bounces,
+    "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
+    "reverse": _goes_back, "fall": _falls,
 }  # fmt: skip
 """Kind of claim → its check."""

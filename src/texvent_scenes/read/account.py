@@ -74,10 +74,12 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     """Claims of words that are not lost at another place, where nothing is claimed of them."""
     lost = [one for one in draft.tokens if not draft.shows(one) and not is_grammar(one)]
-    closed = {one.text for one in lost if one.at not in draft.claims}
+    claimed = {at for at, claims in draft.claims.items() if any(one.is_open for one in claims)}
+    closed = {one.text for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
-        if draft.fates.get(at, "lost") in ("lost", "shown"):
-            yield from (one for one in claims if one.word not in closed)
+        fate = draft.fates.get(at, "lost")
+        yield from (one for one in claims if one.word not in closed
+                    and (fate == "shown" or (fate == "lost" and one.is_open)))  # fmt: skip
 
 
 def _choose_gender(draft: SceneDraft) -> None:

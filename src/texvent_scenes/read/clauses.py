@@ -75,6 +75,8 @@ class _Parser(GroupReader):
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
+            if word == "," and clause.verb is not None and self._token().text == "and":
+                return self._end(clause) or Clause()  # "lands, pecks, and flies away"
             return self._go_on(clause) if word == "," else Clause()
         if token.has("conjunctions"):
             is_near = word == "where" and self._token(-1).has("noun") and self._starts_group(1)

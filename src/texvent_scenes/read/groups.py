@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
@@ -198,12 +199,17 @@ class GroupReader:
 
     def _is_compound(self, article: str, first: int) -> bool:
         """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
-        after = self._token()
-        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        after, before = self._token(), [one.value.noun for one in self._token(-1).all("noun")]
+        is_base = {one.form for one in after.all("verb")} == {"base"} and not after.has("relation")
+        is_named = is_base and article in ("a", "an")  # no verb of one: "across a car park"
+        is_head = after.has("noun", "place") and not after.has("relation", "adverb")
+        is_head &= is_named or not after.has("verb")
         is_head = is_head and self._agrees(article, first) and not self._has_object()
         is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
         is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
-        is_word = after.is_unknown and after.text.isalpha() and not is_verb and not self._tail()
+        is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
+        is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
+        is_word &= after.text.isalpha() and not is_verb and not self._tail()
         is_word = is_word and not self._token(1).has("articles")  # "a table outside a cafe"
         return (is_head or is_word) and not is_many
 

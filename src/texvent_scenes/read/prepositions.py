@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
@@ -19,6 +20,8 @@ _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 _ARRIVALS = {"into": "in", "onto": "on"}
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
+SENT = ("kick", "throw", "roll")
+"""Acts after which the object goes a way, not who does it."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _SMALL = nouns_with("in hand or on something")
@@ -179,6 +182,7 @@ def claim_relation(
     What stops "in front of" something is before it on its way, wherever the camera is.
     """
     is_shown = draft.shows(token)
+    draft.claim(token, SEEN, "", subjects, targets)
     motions = [draft.things[one]["motions"] for one in subjects]
     stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
         len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
@@ -205,9 +209,10 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
 
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
-    """Whether weather comes down on something, as on all: "snow falls on a car"."""
+    """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
     is_weather = draft.tokens[token.at - 1].text in word_set("things", "falling")
-    return is_weather and kind in ("on", "above") and "weather" in draft.parts["place"]
+    is_there = "weather" in draft.parts["place"] or bool(draft.effects)
+    return is_weather and is_there and kind in ("on", "above", "around")
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
@@ -224,6 +229,7 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
     if kind in ("into", "out of"):
         is_open = noun in trait_values("opening") or noun in nouns_with("closed")
+        is_open &= not any(one["kind"] in SENT for one in thing["relations"])
         is_met = bool(does & _RUNNING) and draft.nouns[noun].habitat == "fixed"
         is_met &= trait_value("container", noun) is None
         other_kind = "from" if kind == "out of" else "collide" if is_met else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
@@ -149,6 +150,8 @@ class _SentenceReader(ThingReader):
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
             return [], []
+        if found is not None:
+            self._draft.claim(verb, SEEN, "", subjects, objects)
         for index in subjects if found is None else ():  # what it does is not made up
             self._draft.things[index]["is_lost"] = True
         return ([], []) if found is None else (subjects, found or subjects)
@@ -325,6 +328,7 @@ class _SentenceReader(ThingReader):
             others, about = nearest, subjects
         others = others if about and kind not in ("", "route") else []
         is_so = any([relate_one(self._draft, kind, one, about) for one in others])
+        is_so |= is_rained_on(draft, token, kind)
         draft.mark(token, "shown" if is_so else "lost")
         claim_relation(draft, token, kind, others, about)
 

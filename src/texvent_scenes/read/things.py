@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.colours import SURFACES
+from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
@@ -163,6 +164,7 @@ class ThingReader:
         elif said is not None and things:
             for index in subjects:
                 draft.say_field(token, said, index)
+            draft.claim(token, SEEN, "", subjects)
         else:
             if not self._draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
                 self._act(token, subjects, [], has_object=False)
@@ -190,12 +192,7 @@ class ThingReader:
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
-            if act.who in ("person", "hand", "animal") or act.kind == "lie":
-                is_body = act.who != "plain" or draft.walks(index)
-                draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
-            elif act.kind in ("walk", "run", "fly", "hover", "bounce"):
-                kind = "bounce" if act.kind == "bounce" else "ground"
-                draft.claim(verb, kind, act.kind in ("walk", "run"), [index])
+            self._claim_act(act, verb, index)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
@@ -205,6 +202,17 @@ class ThingReader:
                 ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
             )
         return list(objects if act.object and objects else subjects)
+
+    def _claim_act(self, act: VerbSense, verb: Token, index: int) -> None:
+        """Leave it to the staged scene whether an object does it."""
+        draft = self._draft
+        if act.who in ("person", "hand", "animal") or act.kind == "lie":
+            is_body = act.who != "plain" or draft.walks(index)
+            draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
+        elif act.kind in ("bounce", "reverse"):
+            draft.claim(verb, act.kind, "", [index])
+        elif act.kind in ("walk", "run", "fly", "hover"):
+            draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
 
     def _can_arrive(self, subjects: Sequence[int]) -> bool:
         """Whether what stops goes by itself, and nothing is said of how it moves before."""
