@@ -26,8 +26,8 @@ from texvent_scenes.rendered_scene import Float64Array, Texture
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
-_INSTANTS, _PER_S = 9, 24.0
-"""Instants at which bodies are compared; per second, those at which repetitions are counted."""
+_INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
+"""Instants at which bodies are compared; per second and at most, those at which repetitions count."""
 _LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
@@ -109,7 +109,7 @@ class _Staged:
 
     def places(self, actor: Actor) -> Float64Array:
         """[t, n, 3] Places of its parts, beside its own place on the ground, m."""
-        count = max(int(self.duration_s * _PER_S), 2) + 1
+        count = min(max(int(self.duration_s * _PER_S), 2), _MOST) + 1
         at = [actor.place(float(one)) for one in np.linspace(0.0, self.duration_s, count)]
         places = np.array([[part.to_body[:, 3] for part in one.parts] for one in at])
         world = [one.to_world for one in at]
@@ -346,7 +346,7 @@ def _is_laid(staged: _Staged, claim: Claim) -> bool:
 
 def _bounces(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes down in the image, and then up again."""
-    count = max(int(staged.duration_s * _PER_S), 2) + 1
+    count = min(max(int(staged.duration_s * _PER_S), 2), _MOST) + 1
     times = [float(at) for at in np.linspace(0.0, staged.duration_s, count)]
     for one in staged.own(claim):
         height = [one.lowest_m(at) for at in times if staged.has_in_image(one, at)]
@@ -360,7 +360,7 @@ def _bounces(staged: _Staged, claim: Claim) -> bool:
 
 def _falls(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes down by its size from where it is at first, its highest place."""
-    count = max(int(staged.duration_s * _PER_S), 2) + 1
+    count = min(max(int(staged.duration_s * _PER_S), 2), _MOST) + 1
     for one in staged.own(claim):
         height = [one.lowest_m(float(at)) for at in np.linspace(0.0, staged.duration_s, count)]
         if height[0] < max(height) - 1e-6 or height[0] - min(height) < one.size_m:
