@@ -27,7 +27,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
-"""Instants at which bodies are compared; per second and at most, those at which repetitions count."""
+"""Instants at which bodies are compared; per second and at most, those that count repetitions."""
 _LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
