@@ -19,11 +19,8 @@ from tests.options.tries import COMMANDS_TRIED, ELSEWHERE, Try, read_tries
 
 OUTCOMES = Path(__file__).with_name("outcomes.json")
 TRIES = read_tries()
-SETTLED = [
-    one for one in COMMANDS_TRIED if one not in ("doctor", "dataset plan", "compare", "calibrate")
-]
-"""Commands that do not tell of this machine or of the time that work takes on it; the last digits
-of a fit hang on the width of its processor's registers."""
+SETTLED = [one for one in COMMANDS_TRIED if one not in ("doctor", "dataset plan")]
+"""Commands that do not tell of this machine or of the time that work takes on it."""
 
 
 def own_options(command: str) -> Iterator[Listed]:

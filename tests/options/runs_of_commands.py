@@ -10,7 +10,6 @@ import os
 import re
 import shlex
 import shutil
-import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -168,9 +167,12 @@ def _arrays(events: texvent.EventStream) -> list[NDArray[Any]]:
 
 def _settled(text: str) -> str:
     """Without times of work, places on the disk, version, and digests that hang on these."""
-    text = TIMES.sub("", text).replace(full_version(), "VERSION").replace(sys.executable, "PYTHON")
+    text = TIMES.sub("", text).replace(full_version(), "VERSION")
     text = re.sub(r'"(?:\w*seconds|seen)": ?[^,}\n]+', "", text)
     text = re.sub(r"\b[0-9a-f]{24,64}\b", "DIGEST", text)
+    text = re.sub(r"install it with: .*", "", text)  # another line in another environment
+    # The last digits of a fit hang on the width of the processor's registers.
+    text = re.sub(r"\d+\.\d{6,}(e-?\d+)?", lambda number: f"{float(number[0]):.5g}", text)
     return re.sub(r"/\S*/(run|cache)\b", r"\1", text)
 
 

@@ -10,8 +10,11 @@ from pathlib import Path
 
 import pytest
 from tests.options.outcomes import (
+    SETTLED,
+    outcomes_of,
     own_options,
     runs_of,
+    stored_outcomes,
     tries_of,
 )
 from tests.options.runs_of_commands import run_once
@@ -53,6 +56,16 @@ def test_every_option_changes_something_and_figures_in_the_direction_of_its_help
             if fault := fault_of(outcome, command, one):
                 wrong[listed.flag] = fault
     assert not wrong, "\n".join(f"{one}: {why}" for one, why in wrong.items())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("command", SETTLED)
+def test_runs_with_each_option_leave_what_they_left(command, outcome):
+    """`python -m tests.options.outcomes` writes them anew."""
+    found = outcomes_of(command, outcome)
+    stored = stored_outcomes()[command]
+    assert list(found) == list(stored)
+    assert {words: mark for words, mark in found.items() if mark != stored[words]} == {}
 
 
 def test_every_command_and_step_is_tried():
