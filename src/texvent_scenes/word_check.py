@@ -30,6 +30,8 @@ _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
 _LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
+_OF_CAMERA = (SEEN, "circle")
+"""Claims that may be made of the camera."""
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
@@ -68,6 +70,7 @@ def find_held(
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
         is_seen = gone.isdisjoint(about)
         is_seen &= one.kind == SEEN or all(map(staged.list_actors, about))  # a coat has no body
+        is_seen &= bool(about) or one.kind in _OF_CAMERA
         if not (is_seen and CHECKS[one.kind](staged, one)):
             failed.add(one.word)
     return frozenset({one.word for one in claims if one.is_open} - failed), frozenset(failed)
@@ -98,9 +101,19 @@ class _Staged:
         """Copies of an object."""
         return [one for one in self.scene.actors if one.object_index == index]
 
+    @cached_property
+    def fine_times(self) -> list[float]:
+        """Instants at which repetitions are counted, s."""
+        count = min(max(int(self.duration_s * _PER_S), 2), _MOST) + 1
+        return [float(one) for one in np.linspace(0.0, self.duration_s, count)]
+
     def own(self, claim: Claim) -> list[Actor]:
         """Copies of the object of which something is claimed."""
-        return self.list_actors(-1 if claim.subject is None else claim.subject)
+        return [] if claim.subject is None else self.list_actors(claim.subject)
+
+    def own_boxes(self, claim: Claim) -> list[BodyBoxes]:
+        """Boxes of those copies."""
+        return [] if claim.subject is None else self.boxes[claim.subject]
 
     def has_in_image(self, actor: Actor, time_s: float) -> bool:
         """Whether a part of a body is neither left nor right of the image."""
@@ -109,8 +122,7 @@ class _Staged:
 
     def places(self, actor: Actor) -> Float64Array:
         """[t, n, 3] Places of its parts, beside its own place on the ground, m."""
-        count = min(max(int(self.duration_s * _PER_S), 2), _MOST) + 1
-        at = [actor.place(float(one)) for one in np.linspace(0.0, self.duration_s, count)]
+        at = [actor.place(one) for one in self.fine_times]
         places = np.array([[part.to_body[:, 3] for part in one.parts] for one in at])
         world = [one.to_world for one in at]
         moved = np.array([each @ one[:, :3].T + one[:, 3]
@@ -193,8 +205,7 @@ def _arrives(staged: _Staged, claim: Claim) -> bool:
 
 def _stops_before(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes to rest on its way, before what it stops for."""
-    index = -1 if claim.subject is None else claim.subject
-    for one in staged.boxes[index]:
+    for one in staged.own_boxes(claim):
         steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
         way = one.middle[-1] - one.middle[0]
         length = float(np.linalg.norm(way))
@@ -268,7 +279,7 @@ def _is_circling(staged: _Staged, claim: Claim) -> bool:
     if claim.subject is None:
         ways = [np.array([staged.scene.camera(one).position[:2] for one in staged.times])]
     else:
-        ways = [one.middle[:, :2] for one in staged.boxes[claim.subject]]
+        ways = [one.middle[:, :2] for one in staged.own_boxes(claim)]
     return all(map(is_arc, ways))
 
 
@@ -328,28 +339,25 @@ def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
 
 def _goes_back(staged: _Staged, claim: Claim) -> bool:
     """Whether it goes against its heading; of one motion, all the time that it goes."""
-    index = -1 if claim.subject is None else claim.subject
-    is_all = len(staged.description.objects[index].motions) < 2
-    for one in staged.boxes[index]:
+    said = () if claim.subject is None else staged.description.objects[claim.subject].motions
+    for one in staged.own_boxes(claim):
         ahead = (np.diff(one.middle[:, :2], axis=0) * one.ahead[:-1]).sum(axis=1)
         least = _STILL * one.size.max()
-        if ahead.min() >= -least or (is_all and ahead.max() > least):
+        if ahead.min() >= -least or (len(said) < 2 and ahead.max() > least):
             return False
     return True
 
 
 def _is_laid(staged: _Staged, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
-    sizes = [one.size[-1] for one in staged.boxes[-1 if claim.subject is None else claim.subject]]
+    sizes = [one.size[-1] for one in staged.own_boxes(claim)]
     return all(each[2] < max(each[:2]) for each in sizes)
 
 
 def _bounces(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes down in the image, and then up again."""
-    count = min(max(int(staged.duration_s * _PER_S), 2), _MOST) + 1
-    times = [float(at) for at in np.linspace(0.0, staged.duration_s, count)]
     for one in staged.own(claim):
-        height = [one.lowest_m(at) for at in times if staged.has_in_image(one, at)]
+        height = [one.lowest_m(at) for at in staged.fine_times if staged.has_in_image(one, at)]
         if not height:
             return False
         low = int(np.argmin(height))
@@ -360,9 +368,8 @@ def _bounces(staged: _Staged, claim: Claim) -> bool:
 
 def _falls(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes down by its size from where it is at first, its highest place."""
-    count = min(max(int(staged.duration_s * _PER_S), 2), _MOST) + 1
     for one in staged.own(claim):
-        height = [one.lowest_m(float(at)) for at in np.linspace(0.0, staged.duration_s, count)]
+        height = [one.lowest_m(at) for at in staged.fine_times]
         if height[0] < max(height) - 1e-6 or height[0] - min(height) < one.size_m:
             return False
     return True
