@@ -35,7 +35,7 @@ SEEN = "seen"
 
 @dataclass(frozen=True)
 class Claim:
-    """A word of which only the staged scene tells whether it is shown."""
+    """A word that is shown only if a check of the staged scene holds."""
 
     word: str
     """As the report has it, such as "row of"."""

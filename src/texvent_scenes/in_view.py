@@ -134,16 +134,7 @@ def find_unseen(
             continue
         unseen.add(index)
     violations = [*_list_words_of(description, unseen, partly)]
-    bodied = {one.object_index for one in scene.actors} | scene.missing
-    apart = replace(description, relations=tuple(
-        one for one in description.relations if bodied.issuperset((one.subject, *one.targets))
-    ))  # fmt: skip
-    violations += [one for one in find_violations(apart, bodies)
-               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
-    violations += find_misplaced(
-        description, scene.place, scene.environment(0.0), scene.actors, times
-    )
-    violations += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+    violations += _find_unrealised(scene, description, bodies, times)
     notes = [*_list_hidden(scene, views, cameras, times, size)]
     notes += () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
     return Unseen(
@@ -151,6 +142,22 @@ def find_unseen(
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
         frozenset(unseen - partly - scene.missing),
     )  # fmt: skip
+
+
+def _find_unrealised(
+    scene: ComposedScene, description: SceneDescription, bodies: Sequence[list[BodyBoxes]],
+    times: Sequence[float],
+) -> Iterator[Violation]:  # fmt: skip
+    """Words that bodies in view do not realise, and what changes no picture."""
+    duration_s, bodied = times[-1], {one.object_index for one in scene.actors} | scene.missing
+    apart = replace(description, relations=tuple(
+        one for one in description.relations if bodied.issuperset((one.subject, *one.targets))
+    ))  # fmt: skip
+    for one in find_violations(apart, bodies):
+        if duration_s >= _LEAST_CLIP_S or one.value in PLACING:
+            yield one
+    yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
+    yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 
 
 def _is_brief(views: Sequence[View]) -> bool:

@@ -1,4 +1,4 @@
-"""Word check: words of which only the staged scene tells whether it shows them.
+"""Word check: words that are shown only if the staged scene holds what they claim.
 
 A reader that places nothing by a word, or that cannot know whether what it says comes about, leaves
 a `Claim`. Boxes, parts and places of the bodies over the clip decide.

@@ -37,7 +37,7 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
     sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
-    sent_to = "" if "throw" in does else "towards"  # nobody throws it
+    sent_to = "" if "throw" in does else "towards"  # it is not thrown
     return sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
 
 

@@ -74,6 +74,8 @@ _FLUNG_M_S, _RESTITUTION = 6.0, 0.55
 """Speed at which things fly off that have no usual one; what each bounce keeps of it."""
 _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
+_DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
+"""Way of what is sent to a receiver, m; its time, s; upward share of its speed along the ground."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _THIN, _ASLANT = 0.6, 0.55
@@ -220,8 +222,6 @@ def deliver(
     return replace(thing, track=sent), moving(receiver, rest)
 
 
-_DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
-"""Way of what is sent to somebody, m; its time, s; upward share of its speed along the ground."""
 _STEP_S, _KEPT = 1e-3, 0.6
 """Half of the time over which a speed is measured; share of a speed after a wall."""
 _RAISED_M, _LEAST_ROOM_M = 0.02, 0.02
