@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -23,6 +23,8 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.phase_check import find_undone, list_departures, list_hidden
+from texvent_scenes.place_check import find_unseen_place
 from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
@@ -49,8 +51,6 @@ LEAST_INSIDE = 0.33
 _FILLED = (0.1, 0.4)
 """Shares of the image that tell what something is of which less than `LEAST_INSIDE` is inside, or
 even than `LEAST_SEEN`: a wall of a garage is none."""
-_TOLD = 4
-"""Points of the grid from which on a body is no speck."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
@@ -135,8 +135,10 @@ def find_unseen(
         unseen.add(index)
     violations = [*_list_words_of(description, unseen, partly)]
     violations += _find_unrealised(scene, description, bodies, times)
-    notes = [*_list_hidden(scene, views, cameras, times, size)]
-    notes += () if description.camera.is_moving else _list_departures(scene, cameras, times, size)
+    seen = {number: view.at for number, view in views.items()}
+    violations += find_undone(description, scene.actors, seen, times)
+    notes = [*list_hidden(scene, seen, cameras, times, size)]
+    notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
@@ -182,41 +184,6 @@ def _list_words_of(
         yield from (Violation(*pair, "") for pair in said if pair not in seen)
 
 
-def _list_departures(
-    scene: ComposedScene, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
-) -> Iterator[str]:
-    """Notes on what a static camera shows for a part of the clip only."""
-    told = {one.noun.name for one in scene.actors for note in scene.camera_path.notes
-            if note.startswith(f"the {one.noun.name} is fast")}  # fmt: skip
-    for one in scene.actors:
-        inside = [_is_inside(one, *each, size) for each in zip(times, cameras, strict=True)]
-        if inside[0] and not inside[-1] and one.noun.name not in told:
-            last_s = times[len(inside) - 1 - inside[::-1].index(True)]
-            yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
-        elif 0 < sum(inside) < 0.5 * len(inside) and one.noun.name not in told:
-            yield f"the {one.noun.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
-
-
-def _list_hidden(
-    scene: ComposedScene, views: Mapping[int, View], cameras: Sequence[PosedCamera],
-    times: Sequence[float], size: SensorSize,
-) -> Iterator[str]:  # fmt: skip
-    """Notes on what something else hides for a part of the clip, such as a tunnel."""
-    for one in scene.actors:
-        counts = views[one.instance].at
-        gone = [not count and _is_inside(one, time_s, camera, size)
-                for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
-        if max(counts) >= _TOLD and sum(gone) > 1:
-            yield f"the {one.noun.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
-
-
-def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:
-    """Whether a corner of its box is in the image."""
-    x, y, depth = project(camera, size, actor.corners(time_s)).T
-    is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height) & (depth > 0.0)
-    return bool(is_in.any())
-
-
 def without_words(words: Sequence[str], faults: Sequence[Violation]) -> tuple[str, ...]:
     """Words of a report, but for those that mean what a picture does not show."""
     lost = {(kind, value) for kind, value, _ in faults}
@@ -256,16 +223,12 @@ def _find_unshown(
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
-    if (
-        is_said
-        and is_shared
-        and place.scenery
-        and not said.is_empty
-        and not _differs(scene, other, times, 0.0, 0.02)
-    ):
+    is_bare = is_said and not _differs(scene, other, times, 0.0, 0.02)
+    if is_bare and is_shared and place.scenery and not said.is_empty:
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
+    yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
 
 
 def _find_rest(

@@ -66,7 +66,8 @@ def find_misplaced(
     """
     bodies = _Bodies(description, actors, times)
     x, y = map(float, surroundings.road_offset)
-    line = RoadLine(surroundings.road_angle, (x, y))
+    crossings = tuple(map(tuple, surroundings.road_crossings))
+    line = RoadLine(surroundings.road_angle, (x, y), crossings)
     half_m = float(surroundings.road_half_width) if place.ground is not Ground.LAKE else 0.0
     for number, one in enumerate(actors):
         lost = [*bodies.list_unborne(number, place)]
@@ -115,6 +116,9 @@ def _list_strays(
             yield Violation("direction", "across", "crossing the road")
         elif not one.goes_across and (np.abs(feet) < half_m - _SHALLOW_M).all():
             yield Violation("zone", "", "on the road")
+    is_driving = zone_of(one.noun) == "road" and not one.track.is_resting and not line.crossings
+    if place.has_road and is_driving and (np.abs(feet) > half_m + _SHALLOW_M).mean() > 0.5:
+        yield Violation("zone", "", "driving on the road: it is beside it")
     if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
         far_m = half_m or math.inf
         if ((feet > _SHALLOW_M - half_m) & (feet < far_m - _SHALLOW_M)).all():

@@ -37,6 +37,8 @@ _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow")
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
+_TOGETHER, _PASSED_ALL = ("behind", "front", "beside"), ("past", "overtake")
+"""Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
 _LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
@@ -177,11 +179,14 @@ def _holds(
     else:
         flags = [(_RULES[kind](body, other), _stay(body, other)) for other in others]
     is_lasting = kind in _LASTING
-    return any(
+    are_both_going = kind in _TOGETHER and not _stay(body) and not any(map(_stay, others))
+    found = [
         (at_end and is_lasting and held[-2:].all())
-        or np.mean(held) >= (0.5 if is_lasting or (stay and kind in PLACING) else 1e-9)
+        or np.mean(held) >= (0.5 if is_lasting or are_both_going
+                             or (stay and kind in PLACING) else 1e-9)
         for held, stay in flags
-    )
+    ]  # fmt: skip
+    return all(found) if kind in _PASSED_ALL else any(found)
 
 
 def _stay(*bodies: BodyBoxes) -> bool:
@@ -386,7 +391,8 @@ def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 _RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
     "on": _is_on, "under": _is_under, "around": _is_around,
-    "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
+    "overtake": _is_passing,
+    "past": lambda one, other: _is_passing(one, other, 0.5 * _stay(other)),
     "in": lambda one, other: _within(one, other, 3),
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
     "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,

@@ -22,7 +22,7 @@ from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.materials import MATERIALS, has_colour
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.relation_check import BodyBoxes, body_of, find_violations
-from texvent_scenes.rendered_scene import Float64Array, Texture
+from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
@@ -317,11 +317,18 @@ def _swings(staged: _Staged, claim: Claim) -> bool:
 
 
 def _rises_from(staged: _Staged, claim: Claim) -> bool:
-    """Whether it is on the ground of a place at first, and above it at the end."""
+    """Whether it is on the ground of a place at first, and above it later."""
     return all(
-        one.lowest_m(0.0) <= _GROUNDED * one.size_m < one.lowest_m(staged.duration_s)
+        one.lowest_m(0.0) <= _GROUNDED * one.size_m < max(map(one.lowest_m, staged.times))
         for one in staged.own(claim)
     )
+
+
+def _is_in_water(staged: _Staged, claim: Claim) -> bool:
+    """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
+    place, said = staged.scene.place, staged.description.relations
+    is_inside = any(one.kind == "in" and one.subject == claim.subject for one in said)
+    return is_inside or place.has_shore or place.ground in (Ground.SEA, Ground.UNDERWATER)
 
 
 def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
@@ -398,6 +405,6 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
-    "reverse": _goes_back, "fall": _falls,
+    "reverse": _goes_back, "fall": _falls, "water": _is_in_water,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -54,6 +54,8 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or is_grammar(token)
         is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
+        is_begun = token.text in word_set("things", "aspects")
+        is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
         if token.has("small") and after.has("adverb", "negations") and draft.shows(after):
             draft.show(token)  # "at 50 km/h", "with no cars"
         if token.has("style") and " " in token.text:

@@ -94,7 +94,8 @@ class _Parser(GroupReader):
             return self._end(clause)
         is_pronoun = self._token().has("pronouns") and self._token(1).has("verb")
         if clause.verb is not None and (is_pronoun or self._is_verb(Clause(about="same"))):
-            return Clause(about="same")  # "and stops", "and it stops"
+            is_both = bool(clause.verb.verbs("ing") and self._token().verbs("ing"))
+            return Clause(about="meanwhile" if is_both else "same")  # "talking and walking"
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         starts = self._starts_group() or self._token().has("camera") or self._token().is_time
@@ -239,7 +240,8 @@ class _Parser(GroupReader):
 
     def _read_adverb(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if token.has("pronouns"):
+        is_owner = token.has("articles") and not clause.has_subject and clause.verb is None
+        if token.has("pronouns") and not (is_owner and self._starts_group()):  # no "her family"
             is_back = clause.is_back or self._token(-1) is clause.verb
             self._take()
             is_subject = not clause.has_subject and clause.verb is None

@@ -212,7 +212,8 @@ class SceneDraft:
         mine, theirs = self.things[index], self.things[other]
         is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*MEANS, "move")
         same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
-        return is_going and same and self.can_go(other) and not theirs["motions"]
+        is_led = all(one["kind"] in (*MEANS, "move") for one in theirs["motions"])
+        return is_going and same and self.can_go(other) and is_led
 
     def keeps_to_ground(self, index: int) -> bool:
         """Whether an object goes on the ground, and does nothing in the air or in water now."""

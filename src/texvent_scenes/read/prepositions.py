@@ -124,6 +124,7 @@ def go_to_place(
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
     if is_entered or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
+        draft.claim(token, "rise", "", moved if rises else ())
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
         does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
@@ -154,12 +155,16 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
         is_table = thing["noun"] in word_set("things", "tables")
         if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
             return all([draft.relate(one, "on", [index]) for one in targets])
+        is_vessel = thing["noun"] in word_set("things", "vessels")
+        if is_vessel and not draft.can_go(targets[0]):  # "a tray with two glasses"
+            return all([draft.relate(one, "in", [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
         if not any(map(draft.can_go, (index, *targets))):
             return False  # "a vase with roses", "a disc with a dot"
     if kind == "on" and noun in word_set("things", "peaks"):
         return False  # its slopes bear nothing
+    targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
     kind = _choose_relation(draft, kind, index, targets[0])
     sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
     if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
@@ -186,7 +191,9 @@ def claim_relation(
     motions = [draft.things[one]["motions"] for one in subjects]
     stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
         len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
-    if is_shown and kind == "front" and any(stops):
+    if is_shown and kind in ("up", "down"):
+        draft.claim(token, "relation", kind, subjects, targets)
+    elif is_shown and kind == "front" and any(stops):
         draft.claim(token, "stop before", "", subjects, targets)
     elif not is_shown and token.text in _ARRIVALS:
         draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
@@ -219,7 +226,13 @@ def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
     """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
     relations = draft.things[index]["relations"]
     ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
-    is_way = kind in word_set("things", "passed") | {"through", "follow", "overtake", *WAYS}
+    is_way = kind in word_set("things", "passed") | {
+        "through",
+        "follow",
+        "overtake",
+        "behind",
+        *WAYS,
+    }
     return ridden[0] if ridden and is_way else index
 
 

@@ -142,7 +142,11 @@ class _SentenceReader(ThingReader):
         is_known &= all(one and not one.is_liquid and self._draft.shows(one) for one in heads)
         mutual = find_mutual(clause.objects, clause.after)
         is_known |= bool(mutual)
-        found = self._act(verb, subjects, objects, has_object=not is_known)
+        ways = {one.value.relation for one in verb.all("verb")} & {*WAYS}
+        is_open = bool(ways) and " " in verb.text and not (clause.objects or clause.is_back)
+        is_known &= not is_open  # "passengers get on"
+        is_lost = clause.is_back and not objects  # "throws a wug and catches it"
+        found = None if is_lost else self._act(verb, subjects, objects, has_object=not is_known)
         kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
         if mutual and kind is not None and found:  # "pass each other"
             claim_mutual(self._draft, [verb, *mutual], kind, subjects)
@@ -192,8 +196,8 @@ class _SentenceReader(ThingReader):
                         (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
         if kind == "with" and draft.tokens[phrase.preposition.at - 1].has("noun"):
             others = {draft.things[index]["noun"] for index in {*self._nearest} - {*subjects}}
-            if others and others <= PERSON_NOUNS:
-                return self._nearest  # "passes a man with a suitcase"
+            if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
+                return self._nearest  # "passes a man with a suitcase", "carries a tray with cups"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told

@@ -12,6 +12,7 @@ from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOU
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, VerbSense, word_set
@@ -206,6 +207,8 @@ class ThingReader:
     def _claim_act(self, act: VerbSense, verb: Token, index: int) -> None:
         """Leave it to the staged scene whether an object does it."""
         draft = self._draft
+        if act.kind in ("swim", "surf"):
+            draft.claim(verb, "water", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
@@ -224,6 +227,8 @@ class ThingReader:
         thing = self._draft.things[index]
         if act.kind == "move" and self._goes_on and ridden_by(self._draft, index, "past") != index:
             return  # it is ridden on: "rides a bicycle, passing a car"
+        if thing["noun"] in nouns_with("flows") and act.kind in word_set("effects", "motions"):
+            return  # its water does so
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)

@@ -1,0 +1,113 @@
+"""Phase check: what a clip shows for a part of its time only, and acts that it does not show.
+
+Each of several motions of an object has a phase of the clip. In it the body must be seen, and get
+on, come to rest, rise, come down or turn, as the motion says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.relation_check import Violation
+from texvent_scenes.spec.scene import SceneObject
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.tracks.phases import GOING, Phase, schedule
+
+_INSTANTS = 9
+_LEAST_GONE, _LEAST_TURN, _MOST_SEEN = 0.1, 0.25, 0.5
+"""Departure, in sizes of a body, that is a way, and above which it does not rest; least turn, rad;
+share of its phase in which what goes nowhere is seen."""
+_LEAST_CLIP_S = 1.0
+"""Length of a clip, s, in which motions get so far that they are judged."""
+_TOLD = 4
+"""Points of the image from which on a body is no speck."""
+
+
+def find_undone(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    seen: Mapping[int, Sequence[int]],
+    times: Sequence[float],
+) -> Iterator[Violation]:
+    """Motions, of objects with several, whose phase shows nothing of them.
+
+    Args:
+        description: the scene.
+        actors: bodies of its objects.
+        seen: instance id → points of the image that show it at each instant.
+        times: these instants, s.
+    """
+    for index, said in enumerate(description.objects):
+        own = [one for one in actors if one.object_index == index]
+        is_judged = own and said.motions[1:] and times[-1] >= _LEAST_CLIP_S
+        for phase in schedule(said.motions, times[-1]) if is_judged else ():
+            within = [n for n, at in enumerate(times) if phase.start_s <= at <= phase.end_s]
+            kind, line = phase.motion.kind, f"the {said.noun}'s {phase.motion.kind}"
+            shown = [any(seen[one.instance][n] for one in own) for n in within] or [True]
+            if not any(shown) or (kind not in GOING and np.mean(shown) < _MOST_SEEN):
+                yield Violation("motion", kind, f"{line}: it is not in view then")
+            elif not any(_is_done(one, said, phase) for one in own):
+                yield Violation("motion", kind, f"{line}: it does not come to that")
+
+
+def _is_done(one: Actor, said: SceneObject, phase: Phase) -> bool:
+    """Whether a body does what a motion says, in its phase; of most motions nothing is judged."""
+    kind, size_m = phase.motion.kind, one.size_m
+    times = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
+    places = np.array([one.middle(float(at)) for at in times])
+    if one.track.anchor is not None or said.noun in nouns_with("flows"):
+        return True
+    if kind in GOING and kind != "jump":
+        return bool(np.linalg.norm(places - places[0], axis=1).max() > _LEAST_GONE * size_m)
+    if kind == "rise":
+        return bool(places[-1, 2] - places[0, 2] > _LEAST_GONE * size_m)
+    if kind in ("sink", "fall"):
+        return bool(places[0, 2] - places[:, 2].min() > _LEAST_GONE * size_m)
+    if kind == "turn":
+        yaws = np.unwrap([one.track.at(float(at)).yaw for at in times])
+        return bool(np.ptp(yaws) > _LEAST_TURN)
+    if kind == "stand":
+        return bool(np.linalg.norm(places[-1] - places[-3]) < _LEAST_GONE * size_m)
+    return True
+
+
+def list_departures(
+    scene: ComposedScene, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> Iterator[str]:
+    """Notes on what a static camera shows for a part of the clip only."""
+    told = {one.noun.name for one in scene.actors for note in scene.camera_path.notes
+            if note.startswith(f"the {one.noun.name} is fast")}  # fmt: skip
+    for one in scene.actors:
+        inside = [_is_inside(one, *each, size) for each in zip(times, cameras, strict=True)]
+        if inside[0] and not inside[-1] and one.noun.name not in told:
+            last_s = times[len(inside) - 1 - inside[::-1].index(True)]
+            yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
+        elif 0 < sum(inside) < 0.5 * len(inside) and one.noun.name not in told:
+            yield f"the {one.noun.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
+
+
+def list_hidden(
+    scene: ComposedScene, seen: Mapping[int, Sequence[int]], cameras: Sequence[PosedCamera],
+    times: Sequence[float], size: SensorSize,
+) -> Iterator[str]:  # fmt: skip
+    """Notes on what something else hides for a part of the clip, such as a tunnel."""
+    for one in scene.actors:
+        counts = seen[one.instance]
+        gone = [not count and _is_inside(one, time_s, camera, size)
+                for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
+        if max(counts) >= _TOLD and sum(gone) > 1:
+            yield f"the {one.noun.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
+
+
+def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:
+    """Whether a corner of its box is in the image."""
+    x, y, depth = project(camera, size, actor.corners(time_s)).T
+    is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height) & (depth > 0.0)
+    return bool(is_in.any())

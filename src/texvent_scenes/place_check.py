@@ -1,0 +1,64 @@
+"""Place check: ground and far scenery that are said, and that the image has no room for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.raycast.ground_truth import visible_instances
+from texvent_scenes.relation_check import Violation
+from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.compose import ComposedScene
+
+_SIZE, _FAR_M = SensorSize(40, 30), 1e4
+"""Size of a coarse image; distance of a point of the horizon, m."""
+_LEVEL_M, _ROUNDING, _LEAST_SHARE = 0.05, 1e-3, 0.005
+"""Height up to which a point is of the ground, m, and more of it per metre of distance; least share
+of an image that the ground takes."""
+
+
+def find_unseen_place(
+    scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Scenery at the horizon while that is above the image, and a place of which nothing is seen.
+
+    Args:
+        scene: the staged scene.
+        said: what is said of its place.
+        is_bare: whether the place is said, and its scenery takes no room in the image.
+        times: instants, s.
+    """
+    cameras = [scene.camera(time_s) for time_s in times]
+    for one in said.backdrops if not any(map(has_horizon, cameras)) else ():
+        yield Violation("backdrops", "", f"the {one} in the distance")
+        yield Violation("place", one, "")
+    has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
+    has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
+    instants = zip(times, cameras, strict=True) if has_ground else ()
+    if has_ground and not any(_has_ground(scene, *each) for each in instants):
+        yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+
+
+def has_horizon(camera: PosedCamera) -> bool:
+    """Whether the horizon is not above the image."""
+    ahead = camera.rotation[2] * [1.0, 1.0, 0.0]
+    far = camera.position + _FAR_M * ahead / max(float(np.linalg.norm(ahead)), 1e-6)
+    return bool(project(camera, _SIZE, far[None])[0, 1] > 0.0)
+
+
+def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:
+    """Whether enough points of an image are of the ground."""
+    x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
+    points = np.stack([x, y], axis=-1).reshape(-1, 2)
+    depth, instance = visible_instances(scene, time_s, _SIZE, points)
+    middle = 0.5 * np.array([_SIZE.width, _SIZE.height])
+    tangents = (points - middle) / (camera.focal * _SIZE.width)
+    rays = np.column_stack([tangents, np.ones(len(points))]) @ camera.rotation
+    with np.errstate(invalid="ignore"):
+        height_m = camera.position[2] + np.where(np.isfinite(depth), depth, np.nan) * rays[:, 2]
+    room_m = _LEVEL_M + _ROUNDING * np.nan_to_num(depth, posinf=0.0)
+    return bool(((np.abs(height_m) <= room_m) & (instance == 0)).mean() >= _LEAST_SHARE)
