@@ -133,6 +133,9 @@ def find_unseen(
         else:
             continue
         unseen.add(index)
+    hidden = unseen - partly
+    unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
+               and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
     violations = [*_list_words_of(description, unseen, partly)]
     violations += _find_unrealised(scene, description, bodies, times)
     seen = {number: view.at for number, view in views.items()}

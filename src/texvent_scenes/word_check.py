@@ -68,7 +68,7 @@ def find_held(
         claims = [one for one in claims if one.kind not in _DONE]
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
-        is_seen = gone.isdisjoint(about)
+        is_seen = (gone | scene.missing).isdisjoint(about)
         is_seen &= one.kind == SEEN or all(map(staged.list_actors, about))  # a coat has no body
         is_seen &= bool(about) or one.kind in _OF_CAMERA
         if not (is_seen and CHECKS[one.kind](staged, one)):
@@ -324,6 +324,18 @@ def _rises_from(staged: _Staged, claim: Claim) -> bool:
     )
 
 
+def _lands(staged: _Staged, claim: Claim) -> bool:
+    """Whether it comes to the ground of a place, or onto another body."""
+    heights = [[one.lowest_m(time_s) for time_s in staged.times] for one in staged.own(claim)]
+    if all(min(each) <= _GROUNDED * one.size_m
+           for one, each in zip(staged.own(claim), heights, strict=True)):  # fmt: skip
+        return True
+    low = int(np.argmin(heights[0]))
+    others = [n for n, own in enumerate(staged.boxes) if own and n != claim.subject]
+    return any(_relates(staged, replace(claim, targets=(one,)), "on", slice(low, low + 1))
+               for one in others)  # fmt: skip
+
+
 def _is_in_water(staged: _Staged, claim: Claim) -> bool:
     """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
     place, said = staged.scene.place, staged.description.relations
@@ -405,6 +417,6 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
-    "reverse": _goes_back, "fall": _falls, "water": _is_in_water,
+    "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "land": _lands,
 }  # fmt: skip
 """Kind of claim → its check."""

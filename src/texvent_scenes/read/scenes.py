@@ -60,6 +60,8 @@ class _SentenceReader(ThingReader):
         """Objects that the clause before that one was about: "behind her"."""
         self._before = self._nearest
         """Those before the rest of the clause: "passes a bench and sits on it"."""
+        self._where: list[int] = []
+        """Objects of the last group before the clause: "under a bridge as a train crosses it"."""
         self._acted: list[int] = []
         """Objects of the last verb that had some: "picks up an apple from a bowl, puts it down"."""
         self._was_camera = False
@@ -101,6 +103,7 @@ class _SentenceReader(ThingReader):
 
     def _apply_to_things(self, clause: Clause) -> None:
         known, where = len(self._draft.things), self._nearest
+        self._where = where
         told = subjects = self._find_subjects(clause)
         self._before = self._nearest
         first = clause.verb.at if clause.verb is not None else 0
@@ -328,6 +331,9 @@ class _SentenceReader(ThingReader):
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
         others: Sequence[int] = subjects
         about: Sequence[int] = self._earlier if is_own else nearest
+        is_fixed = self._where and not any(map(draft.can_go, self._where))
+        if is_own and is_fixed and kind in word_set("things", "bearing"):
+            about = self._where
         if not is_own and nearest is not self._before:  # "passes a tree, a dog behind it"
             others, about = nearest, subjects
         others = others if about and kind not in ("", "route") else []

@@ -209,6 +209,8 @@ class ThingReader:
         draft = self._draft
         if act.kind in ("swim", "surf"):
             draft.claim(verb, "water", "", [index])
+        elif verb.text in word_set("things", "landing"):
+            draft.claim(verb, "land", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])

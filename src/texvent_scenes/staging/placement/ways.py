@@ -30,7 +30,7 @@ from texvent_scenes.rendered_scene import Float64Array, Shape
 from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.along_surface import go_down
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
-from texvent_scenes.staging.tracks.keys import Key, flight_s
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.phase_keys import DULL, QUARTER
 from texvent_scenes.staging.tracks.phases import GOING, YAWS, activity_of, speeds_of, usual_speed
 from texvent_scenes.staging.tracks.track import Track, centred
@@ -41,8 +41,11 @@ _INSIDE_M = 0.3
 """From the opening to the rear of who has gone in."""
 _ASLANT, _INTO_PICTURE = 0.45, 0.7
 """Angles to the picture of the side from which one climbs and of the way through a passage, rad."""
-_ARM_M, _CLIMB_M_S, _LEAST_M = 0.2, 0.4, 0.3
-"""From what a person climbs to the person; usual speed of climbing; least height climbed, m."""
+_ARM_M, _LEAST_M = 0.2, 0.3
+"""From what a person climbs to the person; least height climbed, m."""
+_CLIMB_M_S = 4.0 / GRAVITY_M_S2
+"""Usual speed of climbing: of 4 W per kg, which a person keeps up for some minutes (D. R. Wilkie
+1960, Ergonomics 3), all lifts the body."""
 _STEP_OFF_M_S, _HOP_M = 0.8, 0.15
 """Speed over an edge; height of a leap off it, m."""
 _DARK, _LEAF = Material((0.01, 0.01, 0.012)), Material((0.3, 0.15, 0.06))
