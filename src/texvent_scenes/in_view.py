@@ -53,8 +53,9 @@ _FILLED = (0.1, 0.4)
 even than `LEAST_SEEN`: a wall of a garage is none."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
-_SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
-"""Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are."""
+_SMALL, _LEAST_LEVELS, _LEAST_SHARE, _COVER = SensorSize(120, 90), 6.0, 0.002, 25.0
+"""Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are, and
+how many times that is needed of what covers the ground."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
@@ -203,7 +204,8 @@ def _find_unshown(
     """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
     place, said = scene.place, description.place
     for name, value, other in _list_without(scene, description):
-        if not _differs(scene, other, times):
+        least = _LEAST_SHARE * (_COVER if name == "has_snow" else 1.0)  # a cover, not a trace of it
+        if not _differs(scene, other, times, least=least):
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"

@@ -24,6 +24,8 @@ _INSTANTS = 9
 _LEAST_GONE, _LEAST_TURN, _MOST_SEEN = 0.1, 0.25, 0.5
 """Departure, in sizes of a body, that is a way, and above which it does not rest; least turn, rad;
 share of its phase in which what goes nowhere is seen."""
+_ON_GROUND = frozenset({"walk", "run", "drive", "roll", "slide", "crawl"})
+"""Motions of which some instant is on the ground."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _TOLD = 4
@@ -44,8 +46,10 @@ def find_undone(
         seen: instance id → points of the image that show it at each instant.
         times: these instants, s.
     """
+    borne = {one.subject for one in description.relations}
     for index, said in enumerate(description.objects):
         own = [one for one in actors if one.object_index == index]
+        is_loose = index not in borne and said.position_m is None and said.height_m is None
         is_judged = own and said.motions[1:] and times[-1] >= _LEAST_CLIP_S
         for phase in schedule(said.motions, times[-1]) if is_judged else ():
             within = [n for n, at in enumerate(times) if phase.start_s <= at <= phase.end_s]
@@ -53,19 +57,28 @@ def find_undone(
             shown = [any(seen[one.instance][n] for one in own) for n in within] or [True]
             if not any(shown) or (kind not in GOING and np.mean(shown) < _MOST_SEEN):
                 yield Violation("motion", kind, f"{line}: it is not in view then")
-            elif not any(_is_done(one, said, phase) for one in own):
+            elif not any(_is_done(one, said, phase, is_loose=is_loose) for one in own):
                 yield Violation("motion", kind, f"{line}: it does not come to that")
 
 
-def _is_done(one: Actor, said: SceneObject, phase: Phase) -> bool:
-    """Whether a body does what a motion says, in its phase; of most motions nothing is judged."""
+def _is_done(one: Actor, said: SceneObject, phase: Phase, *, is_loose: bool) -> bool:
+    """Whether a body does what a motion says, in its phase; of most motions nothing is judged.
+
+    What is loose, on nothing that the scene names, walks and rolls on the ground.
+    """
     kind, size_m = phase.motion.kind, one.size_m
     times = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
     places = np.array([one.middle(float(at)) for at in times])
     if one.track.anchor is not None or said.noun in nouns_with("flows"):
         return True
-    if kind in GOING and kind != "jump":
+    if kind in _ON_GROUND and is_loose and one.noun.habitat == "ground":
+        low = [one.lowest_m(float(at)) for at in times]
+        if min(low) > _LEAST_GONE * size_m:
+            return False
+    if kind in GOING:
         return bool(np.linalg.norm(places - places[0], axis=1).max() > _LEAST_GONE * size_m)
+    if kind == "climb":
+        return bool(np.ptp(places[:, 2]) > _LEAST_GONE * size_m)
     if kind == "rise":
         return bool(places[-1, 2] - places[0, 2] > _LEAST_GONE * size_m)
     if kind in ("sink", "fall"):

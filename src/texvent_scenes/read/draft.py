@@ -213,6 +213,7 @@ class SceneDraft:
         is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*MEANS, "move")
         same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
         is_led = all(one["kind"] in (*MEANS, "move") for one in theirs["motions"])
+        is_led &= not theirs.get("is_lost")
         return is_going and same and self.can_go(other) and is_led
 
     def keeps_to_ground(self, index: int) -> bool:

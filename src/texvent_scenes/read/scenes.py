@@ -62,6 +62,8 @@ class _SentenceReader(ThingReader):
         """Those before the rest of the clause: "passes a bench and sits on it"."""
         self._where: list[int] = []
         """Objects of the last group before the clause: "under a bridge as a train crosses it"."""
+        self._acts = False
+        """Whether the clause has a verb: "is repairing it with a wrench"."""
         self._acted: list[int] = []
         """Objects of the last verb that had some: "picks up an apple from a bowl, puts it down"."""
         self._was_camera = False
@@ -121,6 +123,7 @@ class _SentenceReader(ThingReader):
             self._earlier = self._subjects if clause.subjects else self._earlier
             self._subjects = list(subjects)
         moved = subjects
+        self._acts = clause.verb is not None
         if clause.verb is not None:
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
@@ -312,7 +315,8 @@ class _SentenceReader(ThingReader):
             is_so = any(placed) or is_rained_on(draft, token, kind)
             draft.mark(token, "shown" if is_so else "lost")
             claim_relation(draft, token, kind, subjects, targets)
-        if (not targets or kind == "with") and any(map(draft.shows, (*heads, *words))):
+        is_lone = not targets or (kind == "with" and bool(subjects or moved or not self._acts))
+        if is_lone and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
 
