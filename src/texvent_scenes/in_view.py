@@ -53,9 +53,9 @@ _FILLED = (0.1, 0.4)
 even than `LEAST_SEEN`: a wall of a garage is none."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
-_SMALL, _LEAST_LEVELS, _LEAST_SHARE, _COVER = SensorSize(120, 90), 6.0, 0.002, 25.0
-"""Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are, and
-how many times that is needed of what covers the ground."""
+_SMALL, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
+"""Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
+share of those that are."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
@@ -204,8 +204,8 @@ def _find_unshown(
     """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
     place, said = scene.place, description.place
     for name, value, other in _list_without(scene, description):
-        least = _LEAST_SHARE * (_COVER if name == "has_snow" else 1.0)  # a cover, not a trace of it
-        if not _differs(scene, other, times, least=least):
+        levels = _WHITE if name == "has_snow" else _LEAST_LEVELS
+        if not _differs(scene, other, times, levels=levels):
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
@@ -314,14 +314,14 @@ def _is_cut_off(
 
 def _differs(
     scene: RenderedScene, other: RenderedScene, times: Sequence[float], later_s: float = 0.0,
-    least: float = _LEAST_SHARE,
+    least: float = _LEAST_SHARE, levels: float = _LEAST_LEVELS,
 ) -> bool:  # fmt: skip
     """Whether enough pixels of small pictures are others at one of the instants."""
     for time_s in times:
         first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
                          for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
         change = np.abs(first - second).max(axis=-1)
-        if np.mean(change >= _LEAST_LEVELS) >= least:
+        if np.mean(change >= levels) >= least:
             return True
     return False
 

@@ -68,7 +68,7 @@ def find_held(
         claims = [one for one in claims if one.kind not in _DONE]
     for one in claims:
         about = [*([] if one.subject is None else [one.subject]), *one.targets]
-        is_seen = (gone | scene.missing).isdisjoint(about)
+        is_seen = gone.isdisjoint(about) and scene.missing.isdisjoint(one.targets)
         is_seen &= one.kind == SEEN or all(map(staged.list_actors, about))  # a coat has no body
         is_seen &= bool(about) or one.kind in _OF_CAMERA
         if not (is_seen and CHECKS[one.kind](staged, one)):

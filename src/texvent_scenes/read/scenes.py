@@ -307,7 +307,8 @@ class _SentenceReader(ThingReader):
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
-            draft.effects[-1]["source"] = targets[0]
+            is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
+            draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if kind == "route" else subjects
