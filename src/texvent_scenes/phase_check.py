@@ -15,6 +15,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
@@ -59,6 +60,9 @@ def find_undone(
                 yield Violation("motion", kind, f"{line}: it is not in view then")
             elif not any(_is_done(one, said, phase, is_loose=is_loose) for one in own):
                 yield Violation("motion", kind, f"{line}: it does not come to that")
+            elif not any(_keeps_direction(one, phase) for one in own):
+                direction = str(phase.motion.direction)
+                yield Violation("direction", direction, f"{line} {direction}")
 
 
 def _is_done(one: Actor, said: SceneObject, phase: Phase, *, is_loose: bool) -> bool:
@@ -66,29 +70,40 @@ def _is_done(one: Actor, said: SceneObject, phase: Phase, *, is_loose: bool) -> 
 
     What is loose, on nothing that the scene names, walks and rolls on the ground.
     """
-    kind, size_m = phase.motion.kind, one.size_m
-    times = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
-    places = np.array([one.middle(float(at)) for at in times])
+    kind, least_m = phase.motion.kind, _LEAST_GONE * one.size_m
+    times = [float(at) for at in np.linspace(phase.start_s, phase.end_s, _INSTANTS)]
+    places = np.array([one.middle(at) for at in times])
     if one.track.anchor is not None or said.noun in nouns_with("flows"):
         return True
-    if kind in _ON_GROUND and is_loose and one.noun.habitat == "ground":
-        low = [one.lowest_m(float(at)) for at in times]
-        if min(low) > _LEAST_GONE * size_m:
-            return False
+    is_based = kind in _ON_GROUND and is_loose and one.noun.habitat == "ground"
+    if is_based and min(map(one.lowest_m, times)) > least_m:
+        return False
     if kind in GOING:
-        return bool(np.linalg.norm(places - places[0], axis=1).max() > _LEAST_GONE * size_m)
-    if kind == "climb":
-        return bool(np.ptp(places[:, 2]) > _LEAST_GONE * size_m)
-    if kind == "rise":
-        return bool(places[-1, 2] - places[0, 2] > _LEAST_GONE * size_m)
-    if kind in ("sink", "fall"):
-        return bool(places[0, 2] - places[:, 2].min() > _LEAST_GONE * size_m)
+        return bool(np.linalg.norm(places - places[0], axis=1).max() > least_m)
     if kind == "turn":
-        yaws = np.unwrap([one.track.at(float(at)).yaw for at in times])
+        yaws = np.unwrap([one.track.at(at).yaw for at in times])
         return bool(np.ptp(yaws) > _LEAST_TURN)
     if kind == "stand":
-        return bool(np.linalg.norm(places[-1] - places[-3]) < _LEAST_GONE * size_m)
-    return True
+        return bool(np.linalg.norm(places[-1] - places[-3]) < least_m)
+    return _comes_to_height(kind, places[:, 2], least_m)
+
+
+def _comes_to_height(kind: str, height_m: Float64Array, least_m: float) -> bool:
+    """Whether a motion up or down leads so far."""
+    if kind == "climb":
+        return bool(np.ptp(height_m) > least_m)
+    if kind == "rise":
+        return bool(height_m[-1] - height_m[0] > least_m)
+    return kind not in ("sink", "fall") or bool(height_m[0] - height_m.min() > least_m)
+
+
+def _keeps_direction(one: Actor, phase: Phase) -> bool:
+    """Whether what flies or swims up or down does so."""
+    sign = {"up": 1.0, "down": -1.0}.get(phase.motion.direction or "", 0.0)
+    if not sign or phase.motion.kind not in ("fly", "swim"):
+        return True
+    risen_m = (one.middle(phase.end_s) - one.middle(phase.start_s))[2]
+    return bool(sign * risen_m > _LEAST_GONE * one.size_m)
 
 
 def list_departures(

@@ -10,7 +10,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.relation_check import Violation
-from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import ComposedScene
 
@@ -36,6 +36,9 @@ def find_unseen_place(
     for one in said.backdrops if not any(map(has_horizon, cameras)) else ():
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
+    crossings = scene.animated_environment.base.road_crossings
+    if said.road and not any(_has_crossing(one, crossings) for one in cameras):
+        yield Violation("road", "", f"the {said.road}: it is out of view")
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     instants = zip(times, cameras, strict=True) if has_ground else ()
@@ -48,6 +51,14 @@ def has_horizon(camera: PosedCamera) -> bool:
     ahead = camera.rotation[2] * [1.0, 1.0, 0.0]
     far = camera.position + _FAR_M * ahead / max(float(np.linalg.norm(ahead)), 1e-6)
     return bool(project(camera, _SIZE, far[None])[0, 1] > 0.0)
+
+
+def _has_crossing(camera: PosedCamera, crossings: Float64Array) -> bool:
+    """Whether a point where roads cross is in the image."""
+    points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
+    x, y, depth = project(camera, _SIZE, points).T
+    is_in = (x > 0.0) & (x < _SIZE.width) & (y > 0.0) & (y < _SIZE.height) & (depth > 0.0)
+    return bool(is_in.any())
 
 
 def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
@@ -75,6 +76,8 @@ def find_misplaced(
         is_free |= any(one.object_index in (each.subject, *each.targets) if each.kind in WAYS
                        else each.subject == one.object_index and each.kind == "between"
                        for each in description.relations)  # fmt: skip
+        if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
+            lost.append(Violation("zone", "", "on land"))
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         for kind, value, text in lost:
@@ -101,6 +104,14 @@ def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
     is_flat = (high - low)[2] <= _FLAT * (high - low)[:2].max()
     is_round = one.noun.motion == "roll" and one.model.height <= 1.1 * one.model.width
     return bool(is_tilted or is_round or (is_flat and not is_vehicle))
+
+
+def is_stranded(one: Actor, place: PlaceModel) -> bool:
+    """Whether what floats or swims is where no water is."""
+    has_water = place.has_shore or place.ground in (Ground.SEA, Ground.UNDERWATER, Ground.NONE)
+    is_open = not (place.is_room or place.is_backdrop)
+    is_wet = one.noun.habitat == "water" or one.noun.name in AFLOAT
+    return is_wet and is_open and not has_water and one.noun.motion not in ("walk", "crawl")
 
 
 def _list_strays(
@@ -187,6 +198,12 @@ class _Bodies:
             for other in range(len(self._actors))
             if other != number
         )
+
+    def is_bound(self, number: int) -> bool:
+        """Whether a relation says where it is."""
+        index = self._actors[number].object_index
+        is_put = self._description.objects[index].position_m is not None
+        return is_put or self._bound[index] != {index}
 
     def is_alone(self, number: int) -> bool:
         """Whether nothing else bears it."""

@@ -28,7 +28,7 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
-_LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before")
+_LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before", "stop", "land")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
@@ -324,6 +324,15 @@ def _rises_from(staged: _Staged, claim: Claim) -> bool:
     )
 
 
+def _stops(staged: _Staged, claim: Claim) -> bool:
+    """Whether it goes at first, and rests at the end."""
+    for one in staged.own_boxes(claim):
+        steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
+        if steps[-1] > _RESTING * steps.mean() or steps.max() <= _STILL * one.size.max():
+            return False
+    return True
+
+
 def _lands(staged: _Staged, claim: Claim) -> bool:
     """Whether it comes to the ground of a place, or onto another body."""
     heights = [[one.lowest_m(time_s) for time_s in staged.times] for one in staged.own(claim)]
@@ -417,6 +426,6 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
-    "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "land": _lands,
+    "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "land": _lands, "stop": _stops,
 }  # fmt: skip
 """Kind of claim → its check."""

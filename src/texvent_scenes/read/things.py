@@ -211,6 +211,8 @@ class ThingReader:
             draft.claim(verb, "water", "", [index])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
+        elif act.end_pace == 0.0 and act.kind == "move":
+            draft.claim(verb, "stop", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
