@@ -48,6 +48,8 @@ LEAST_SEEN = 0.15
 several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
+_PART = 0.03
+"""Share of the image from which on acts on what is cut off are seen: at the trunk of a tree."""
 _FILLED = (0.1, 0.4)
 """Shares of the image that tell what something is of which less than `LEAST_INSIDE` is inside, or
 even than `LEAST_SEEN`: a wall of a garage is none."""
@@ -130,7 +132,8 @@ def find_unseen(
                 continue
         elif most < least and inside < 2:
             outside.append(f"{thing.noun} (cut off)")
-            partly |= {index} if inside else set()
+            is_large = most >= _PART * size.width * size.height
+            partly |= {index} if inside or is_large else set()
         else:
             continue
         unseen.add(index)

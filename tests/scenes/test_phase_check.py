@@ -1,0 +1,86 @@
+"""What a clip shows of several acts and of a place: each check in unrelated sentences."""
+
+import pytest
+from tests.scenes.test_word_check import check, report, told
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a ball flies and rolls", "rolls", False),  # it is in the air all the time
+        ("a dog runs and jumps", "jumps", True),
+        ("a panda climbs a tree, slips and falls down", "climbs", False),
+        ("a squirrel climbs a tree", "climbs", True),
+        ("a person dives and swims", "dives", False),
+        ("a car drives left and stops", "stops", True),
+        ("a plane takes off, turns and flies away", "turns", True),
+    ],
+)
+def test_an_act_of_a_sequence_is_shown_if_its_phase_shows_it(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a drone lands on a table", "lands", True),
+        ("a plane lands on the runway", "lands", True),
+        ("a helicopter flies over the city, then it lands on a building", "lands", False),
+    ],
+)
+def test_what_lands_comes_to_the_ground_or_onto_something(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "aerial view of a sailing boat, with mountains in the distance",
+            "mountain in the distance",
+        ),
+        ("a ship sails past the mountains", "ship on land"),
+        ("a street covered with snow at night", "snow"),
+    ],
+)
+def test_a_place_of_which_the_image_shows_nothing_is_told(text, words):
+    assert words in told(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a sailing boat crosses the sea, with mountains in the distance",
+        "a car drives on a snowy road",
+        "a dog runs through the snow",
+        "a fish swims in an aquarium",
+        "a car drives through a crossing",
+    ],
+)
+def test_a_place_that_is_in_view_is_not_denied(text):
+    assert not report(text).not_shown
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("a girl sits as her wug claps their hands", "claps their hands"),  # not the girl
+        ("a man throws the wug and catches it", "catches"),
+        ("a tram stops and passengers get on", "get on"),
+        ("a skier falls, gets up and continues down the slope", "continues"),
+    ],
+)
+def test_a_verb_without_its_subject_or_its_object_is_not_understood(text, word):
+    assert word in report(text).not_understood
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a horse is ridden by a girl, a dog running behind them",
+        "a man walks, a dog walking behind him",
+    ],
+)
+def test_what_goes_behind_what_goes_follows_it(text):
+    assert any('"follow"' in line for line in report(text).scene)
+    assert "behind" in report(text).shown
