@@ -174,10 +174,12 @@ def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTr
     traffic = [one for one in shooting.actors if one.is_mover and zone_of(one.noun) == "road"]
     is_about = main.object_index in {one.object_index for one in traffic}
     moves = [one for one in path.moves if one.move.kind != "static"]
-    if len(traffic) < 2 or not is_about or path.tie is not None or moves:
+    shot = shooting.description.camera
+    is_near = shot.framing in ("close", "medium")
+    if len(traffic) < 2 or not is_about or is_near or path.tie is not None or moves:
         return path
     framing, times = path.framing, np.linspace(*path.framed_s, INSTANTS)
-    is_free = shooting.description.camera.view is None and not shooting.description.relations
+    is_free = shot.view is None and not shooting.description.relations
     if is_free and not goes_in_depth(main):
         azimuth = min(abs(framing.azimuth) + _STREET_AZIMUTH, ALONG_IT)
         framing = replace(framing, azimuth=math.copysign(azimuth, framing.azimuth),
