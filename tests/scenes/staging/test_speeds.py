@@ -105,6 +105,46 @@ def test_a_camera_that_may_not_go_along_shows_a_passage_and_says_when(reason):
     assert seen[-1] - seen[0] == pytest.approx(lasts, abs=0.2)
 
 
+def traffic(*nouns, duration_s=1.0, **fields):
+    """Vehicles that drive right and left by turns on an empty plain."""
+    things = (thing(noun, ("drive", ("right", "left")[n % 2])) for n, noun in enumerate(nouns))
+    return stage(*things, duration_s=duration_s, **fields)
+
+
+def spans_in_image(scene, times):
+    """[vehicles, times, 2] left and right end of each, widths of the picture."""
+    boxes = [[image_of(scene.camera(float(time)), one.corners(float(time)))[:, 0] for time in times]
+             for one in scene.actors]  # fmt: skip
+    return np.stack([np.min(boxes, axis=2), np.max(boxes, axis=2)], axis=2)
+
+
+@pytest.mark.parametrize("nouns", [("car", "car"), ("van", "car"), ("bus", "car", "taxi")])
+def test_traffic_is_as_slow_and_as_long_in_the_picture_as_in_a_street(nouns):
+    times = np.linspace(0.0, 0.5, 11)
+    scenes = [traffic(*nouns, duration_s=length_s) for length_s in (0.5, 1.0, 2.0)]
+    distances = [one.camera_path.framing.distance_m for one in scenes]
+    assert distances == pytest.approx([distances[0]] * 3)
+    for scene in scenes[:2]:
+        spans = spans_in_image(scene, times)
+        speeds = np.abs(np.diff(spans.mean(axis=2), axis=1)) / 0.05
+        assert 0.2 < speeds.max() < 0.32
+        assert np.diff(spans, axis=2).min() > 0.055
+
+
+def test_one_vehicle_and_a_camera_that_moves_stay_near():
+    assert np.diff(spans_in_image(traffic("car"), [0.5]), axis=2).min() > 0.25
+    truck = Camera((CameraMove("truck"),))
+    moved = traffic("car", "car", camera=truck).camera_path.framing
+    assert moved.distance_m < 0.8 * traffic("car", "car").camera_path.framing.distance_m
+
+
+def test_a_said_view_of_traffic_keeps_its_angles():
+    aerial = traffic("car", "car", camera=Camera(view="aerial")).camera_path.framing
+    street = traffic("car", "car").camera_path.framing
+    assert aerial.elevation > 0.7 > street.elevation > 0.2
+    assert abs(aerial.azimuth) < 0.2 < abs(street.azimuth)
+
+
 def test_a_close_shot_that_follows_late_shows_what_goes_before():
     follow = Camera((CameraMove("follow", start_s=1.0),), framing="close")
     scene = goes("man", "walk", "right", camera=follow)

@@ -18,7 +18,7 @@ ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP = 0.24, 0.6, 0.16
 """Elevation in rooms, from which one sees into an open container, and a runway as a strip, rad."""
-_ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
+_ELONGATED, _LEAST_M, ALONG_IT = 4.5, 3.0, 0.75
 """Length over height, and length in m, from which on a subject is seen at an angle to its side."""
 
 
@@ -55,7 +55,7 @@ def choose_angles(
     elif is_in_depth:
         azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
     elif is_long and main.noun.motion in ("drive", "sail"):
-        azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
+        azimuth = math.copysign(ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
     elevation = ELEVATIONS.get(description.camera.view or "")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -12,7 +13,7 @@ from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor, corners_over
-from texvent_scenes.staging.camera.angles import ELEVATIONS, choose_angles, goes_in_depth
+from texvent_scenes.staging.camera.angles import ALONG_IT, ELEVATIONS, choose_angles, goes_in_depth
 from texvent_scenes.staging.camera.camera_track import (
     CameraTrack,
     Tie,
@@ -30,6 +31,7 @@ from texvent_scenes.staging.camera.framing import (
 )
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.camera.subject import INSTANTS, choose_main, list_framing_choices
+from texvent_scenes.staging.placement.zones import zone_of
 
 _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""
@@ -41,6 +43,12 @@ camera goes along, and at least; and by how much a passage must raise it."""
 _WIDTHS_PER_S, _FILLED = 1.0, 0.75
 """Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
 in which the subject moves."""
+_TRAFFIC_WIDTHS_PER_S, _LEAST_LENGTH = 0.25, 0.06
+"""Greatest speed of traffic in the picture of a camera that stays, widths per second, as the cars
+of a recorded street have; and length in widths that each of it has in spite of that."""
+_STREET_AZIMUTH, _STREET_ELEVATION = 0.35, 0.24
+"""Angles from which a street is seen as from a mast or a window: how much more along it, and from
+above, rad."""
 _TOGETHER, _STRAIGHT = 0.6, 0.5
 """Share of its way by which another one may get away from a subject that the camera goes along
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
@@ -100,7 +108,7 @@ def place_camera(
     )  # fmt: skip
     shooting = _Shooting(description, actors, place, seed, aspect, path)
     if watched is not None:
-        path = _give_way(shooting, watched)
+        path = _stand_back(shooting, _give_way(shooting, watched), watched)
     framing = seen_through(path.framing, shot.field_of_view_deg, is_fixed=watched is None)
     path = replace(path, framing=framing)
     if watched is not None:
@@ -156,6 +164,33 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     passage_s = middle_s - half_s, middle_s + half_s
     near, enough = _watch(shooting.along(replace(path, passage_s=passage_s)), main)
     return near if enough >= _LEAST_GAIN * reached else path
+
+
+def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTrack:
+    """The path of a camera that stays, from where several on a road pass as in a street scene.
+
+    How far away that is hangs on their speed, and not on the length of the clip.
+    """
+    traffic = [one for one in shooting.actors if one.is_mover and zone_of(one.noun) == "road"]
+    is_about = main.object_index in {one.object_index for one in traffic}
+    moves = [one for one in path.moves if one.move.kind != "static"]
+    shot = shooting.description.camera
+    is_near = shot.framing in ("close", "medium")
+    if len(traffic) < 2 or not is_about or is_near or path.tie is not None or moves:
+        return path
+    framing, times = path.framing, np.linspace(*path.framed_s, INSTANTS)
+    is_free = shot.view is None and not shooting.description.relations
+    if is_free and not goes_in_depth(main):
+        azimuth = min(abs(framing.azimuth) + _STREET_AZIMUTH, ALONG_IT)
+        framing = replace(framing, azimuth=math.copysign(azimuth, framing.azimuth),
+                          elevation=max(framing.elevation, _STREET_ELEVATION))  # fmt: skip
+    right = np.array([math.cos(framing.azimuth), math.sin(framing.azimuth), 0.0])
+    across = np.array([[one.corners(float(time)) @ right for time in times] for one in traffic])
+    speed_m_s = np.abs(np.diff(across.mean(axis=2), axis=1)).max() / (times[1] - times[0])
+    length_m = np.ptp(across, axis=2).min()
+    width_m = float(min(speed_m_s / _TRAFFIC_WIDTHS_PER_S, length_m / _LEAST_LENGTH))
+    distance_m = max(framing.distance_m, framing.focal * width_m)
+    return replace(path, framing=replace(framing, distance_m=distance_m))
 
 
 def _may_go_along(shooting: _Shooting, main: Actor) -> bool:

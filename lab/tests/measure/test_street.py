@@ -1,0 +1,48 @@
+"""Statistics of bursts, on events counted by hand."""
+
+import numpy as np
+import pytest
+
+from texvent import EventStream, SensorSize
+from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.measure.street import as_markdown, inside, measure, two_cars
+from texvent_scenes.scene_input import describe_scene, list_nouns
+from texvent_scenes.staging.compose import compose_scene
+
+SIZE = SensorSize(8, 4)
+ROWS = [  # x, y, ms, polarity
+    (1, 1, 0, 1), (1, 1, 4, 1), (1, 1, 10, 1),  # an edge: gaps of 4 and 6 ms
+    (1, 1, 12, 0),  # the next has the other polarity
+    (1, 1, 60, 0),  # and one after a pause
+    (2, 1, 1, 1), (7, 3, 30, 0),
+]  # fmt: skip
+
+
+def stream(rows=ROWS):
+    x, y, t, p = np.array(sorted(rows, key=lambda row: row[2])).T
+    return EventStream.from_columns(x, y, 1000 * t, p, size=SIZE)
+
+
+def test_soon_runs_and_gaps_are_those_counted_by_hand():
+    row = measure("street", stream(), 80.0, 30.0)
+    assert (row.events, row.speed_px_s, row.length_px) == (7, 80.0, 30.0)
+    assert row.soon == pytest.approx(2 / 7)  # after 4 ms and, of either polarity, after 2 ms
+    assert row.run == pytest.approx((3 * 3 + 4 * 1) / 7)
+    assert row.gap_ms == 5.0
+    assert "| street | 80 | 30 | 7 | 29 | 1.9 | 5.0 |" in as_markdown([vars(row)])
+
+
+def test_events_of_a_car_are_those_in_its_box_as_it_moves():
+    boxes = np.zeros(2, BOX_RECORD)
+    boxes["t"], boxes["x"], boxes["y"], boxes["w"], boxes["h"] = (0, 60_000), (1, 21), 1, 1, 1
+    # The margin is 4 px: after 12 ms the box begins at x = 5, and 1 is outside.
+    assert inside(stream(), boxes).t.tolist() == [0, 1000, 4000, 10_000]
+
+
+def test_two_cars_pass_each_other_before_the_camera():
+    description = describe_scene(two_cars(44.0), list_nouns())
+    scene = compose_scene(description, seed=0, size=SensorSize(346, 260), duration_s=1.0)
+    first, second = (one.track.at(0.75).position[0] - one.track.at(0.25).position[0]
+                     for one in scene.actors)  # fmt: skip
+    assert (first, second) == pytest.approx((5.0, -5.0), abs=0.01)
+    assert np.linalg.norm(scene.camera(0.5).position) == pytest.approx(44.0, abs=0.1)
