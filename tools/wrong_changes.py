@@ -20,16 +20,10 @@ SOURCES = Path("src", "texvent")
 SCENES, LAB = "texvent_scenes", "texvent_lab"
 PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
 """The packages beside it: the folder that holds each, and its tests."""
-ALWAYS = (
-    *("tests/contract/test_golden.py", "tests/contract/test_doctests.py"),
-    *("tests/options/test_printed.py", "tests/options/test_every_option.py"),
-    "tests/resume/test_resume.py",
-)
-"""Tests of every file, after those that are near it: they reach it through the commands."""
 FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
 """Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
-MOST_TESTS = 60
-"""Files of tests that a change is held to, the nearest first."""
+MOST_TESTS = 14
+"""Files of tests that are near a change: the whole suite judges what these let pass."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
 
 
@@ -363,11 +357,12 @@ def near_tests(file: str, root: Path) -> list[str]:
                 modules.append(source)
     own = [one.relative_to(root) for one in _mirrors(inner, root)]
     chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
-    chosen += [one for one in importing if one.name.startswith("test_")] + own
+    chosen += [one for one in own if one in importing]
+    chosen += [one for one in importing if one.name.startswith("test_") and one.parts[0] != "lab"]
+    chosen += own + [one for one in importing if one.name.startswith("test_")]
     for one in importing:
         if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
     if inner.parts[0] == SCENES and (root / FIRST_OF_SCENES).exists():
         chosen.insert(0, Path(FIRST_OF_SCENES))
-    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
-    return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]
+    return [*dict.fromkeys(map(Path.as_posix, chosen))][:MOST_TESTS]
