@@ -108,7 +108,8 @@ def _relevant(node: ast.AST) -> Iterator[ast.AST]:
     named = node.targets[0] if isinstance(node, ast.Assign) else named
     name = getattr(named, "id", getattr(named, "attr", ""))
     is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-    if isinstance(node, UNTOUCHED) or is_text or WORDS_ALONE.fullmatch(name):
+    is_strict = isinstance(node, ast.keyword) and node.arg == "strict"  # sizes of the code itself
+    if isinstance(node, UNTOUCHED) or is_text or is_strict or WORDS_ALONE.fullmatch(name):
         return
     yield node
     for field, value in ast.iter_fields(node):
@@ -167,7 +168,7 @@ def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
             yield "arguments", source.start(left), source.end(right), new
     before: ast.expr | ast.keyword | None = node.args[-1] if node.args else None
     for one in node.keywords:
-        if one.arg not in (None, "strict"):  # of zip: sizes are those of the code itself
+        if one.arg not in (None, "strict"):
             start = source.end(before) if before else source.start(one)
             end = source.end(one) + (not before and source.data[source.end(one)] == ord(","))
             yield "keyword", start, end, ""

@@ -50,6 +50,7 @@ def test_changes_are_those_by_hand_and_every_one_that_is_drawn_compiles(text: st
         "def a(b: Literal[1]) -> Literal[2]: ...",
         "@b(c=1)\ndef a(): ...",
         "def a(): return np.hypot(b, c)",
+        "a = zip(b, b, strict=True)",
         "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    a = 1",
     ],
 )
