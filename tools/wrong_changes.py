@@ -334,7 +334,8 @@ def _mirrors(file: Path, root: Path) -> list[Path]:
     folder = root.joinpath(PACKAGES[first][1] if first in PACKAGES else f"tests/{first}", *inner)
     while not folder.is_dir():
         folder = folder.parent
-    tests = sorted(folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*"))
+    found = folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*")
+    tests = sorted(found, key=lambda one: (len(one.parts), one))
     return [one for one in tests if one.name.startswith(f"test_{file.stem}")] + tests
 
 
