@@ -12,6 +12,7 @@ import pytest
 from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
 
 from ..train.written_samples import as_weights
+from .detection.test_training import CARS
 from .digits.synthetic_data import write_mnist, write_recordings
 from .objects.stand_in import write_frames, write_specifications, write_turntables
 
@@ -29,16 +30,6 @@ DETECTION = (
     *("bench", "detection", "cars.toml", "--work", "out/work", "--epochs", 1, "--batch-size", 2),
     *("--device", "cpu", *RESULT),
 )
-CARS = """
-name = "cars"
-truth = ["boxes"]
-previews = false
-splits = { train = 0.34, val = 0.33, test = 0.33 }
-filters = { min_events = 0 }
-options = { duration = 0.1, sensor = "64x48", samples = 1, interpolate = "none" }
-sources = [{ prompts = ["a red car drives left", "a bus drives right", "a truck drives left"] }]
-variants = { esim = { simulator = "esim" } }
-"""
 
 
 def write_digits() -> None:
@@ -111,11 +102,11 @@ BENCHMARKS = {
         prepare=write_cars,
         words=DETECTION,
         changes={
-            "clips": other_text("cars.toml", "red car", "blue car"),
+            "clips": other_text("cars.toml", "a red", "a blue"),
             "option": lambda: (*DETECTION, "--passes", 2),
             "seed": lambda: (*DETECTION, "--seeds", 2),
         },
-        index=("result.json", "checkpoint.pt", "scores.json", "items.jsonl", "*/*/*.json"),
+        index=("result.json", "checkpoint.pt", "scores.json", "*.json", "*.jsonl"),
         rewritten=("result.json", "weights.pt", "history.json", "curves.png"),
         readers={".npz": as_arrays, ".pt": as_weights},
     ),
