@@ -7,7 +7,7 @@ Example:
     .venv-torch/bin/python -m tools.mutate
     .venv-torch/bin/python -m tools.mutate calibrate "the sign of"
     .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --rooms pairs io --since v0.5.0
-    .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --only 7,31 --whole
+    .venv-torch/bin/python -m tools.mutate --draw 60 --seed 1 --whole --json draw.json
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
@@ -41,6 +40,9 @@ LEFT_OUT = shutil.ignore_patterns(".*", "dist", "_build", "demo-output")
 PATIENCE_S, TEST_PATIENCE_S = 4 * 3600, 1200
 """Tests, or one test, that run for longer hang, which is noticed."""
 NOTICED, SURVIVED = "noticed", "SURVIVED"
+BRIEF = ("--brief", "--hypothesis-profile", "brief")
+NEAR, WHOLE = "near tests in brief", "the whole suite"
+"""Tests that judged a drawn change."""
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
 NO_TEST = "a hang, a crash or a module that cannot be imported"
@@ -148,15 +150,17 @@ def judge(tree: Path, mutation: Mutation) -> str:
 
 
 def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str]:
-    """Whether the tests near a change notice it, and which one does.
+    """Whether the tests near a change notice it in a brief run, and which one does.
 
     A test that fails without the change too is added to `failing` and judges nothing.
     """
-    path = tree / source_path(change.file)
+    path, near = tree / source_path(change.file), near_tests(change.file, tree)
+    # Tests of the laboratory alone do not read the file that defines the option.
+    brief = () if all(one.startswith(LAB.name) for one in near) else BRIEF
     while True:
-        tests = [*near_tests(change.file, tree), *(f"--deselect={one}" for one in failing)]
+        tests = [*near, *(f"--deselect={one}" for one in failing)]
         with changed(path, change.applied(path.read_text("utf-8"))):
-            verdict, noticing = run_tests(tree, tests)
+            verdict, noticing = run_tests(tree, tests, until=("-x", *brief))
         if verdict == SURVIVED or not noticing or run_tests(tree, noticing)[0] == SURVIVED:
             return verdict, noticing[0] if noticing else NO_TEST
         failing.update(noticing)
@@ -164,13 +168,12 @@ def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str
 
 def judge_together(
     tree: Path, changes: Sequence[Change], failing: set[str]
-) -> dict[Change, tuple[str, str]]:
+) -> Iterator[tuple[Change, str, str]]:
     """Whether any test of the whole suite notices each of several changes, and which one does.
 
     The suite runs once with all of them, one of each file at a time; then the tests that failed
     run with each alone. A test that fails without any is added to `failing` and judges nothing.
     """
-    found: dict[Change, tuple[str, str]] = {}
     rest = list(changes)
     while group := {one.file: one for one in reversed(rest)}:
         rest = [one for one in rest if group[one.file] is not one]
@@ -189,8 +192,7 @@ def judge_together(
             if tests:
                 with changed(path, one.applied(path.read_text("utf-8"))):
                     verdict, noticing = run_tests(tree, tests)
-            found[one] = verdict, noticing[0] if noticing else NO_TEST
-    return found
+            yield one, verdict, noticing[0] if noticing else NO_TEST
 
 
 def wilson_interval(count: int, total: int) -> tuple[float, float]:
@@ -219,34 +221,45 @@ def lines_changed_since(commit: str) -> dict[str, set[int]]:
 
 
 def judge_draw(tree: Path, options: argparse.Namespace) -> int:
-    """Draw changes, judge and print each; returns 0 if all are noticed."""
+    """Draw changes, judge and print each; returns 0 if all are noticed.
+
+    With a file of verdicts, those in it stand: a draw that was stopped goes on.
+    """
     lines = lines_changed_since(options.since) if options.since else None
-    failing: set[str] = set()
-    rows: list[dict[str, Any]] = []
     drawn = dict(enumerate(draw(options.draw, options.seed, tree, options.rooms, lines), 1))
     drawn = {key: one for key, one in drawn.items() if not options.only or key in options.only}
-    together = judge_together(tree, [*drawn.values()], failing) if options.whole else {}
-    for number, one in drawn.items():
+    failing: set[str] = set()
+    rows: dict[int, dict[str, Any]] = {}
+    if options.json and options.json.exists():
+        rows = {row["number"]: row for row in json.loads(options.json.read_text())}
+
+    def note(number: int, verdict: str, test: str, by: str) -> None:
+        one = drawn[number]
         text = (tree / source_path(one.file)).read_text("utf-8")
         old, new = (each.splitlines()[one.line - 1].strip() for each in (text, one.applied(text)))
-        began = time.monotonic()
-        verdict, test = together.get(one) or judge_drawn(tree, one, failing)
         row = {"number": number, "file": one.file, "line": one.line, "kind": one.kind, "old": old}
-        row |= {"new": new, "verdict": verdict, "test": test, "s": round(time.monotonic() - began)}
-        rows.append(row)
-        by = f" by {test}" if verdict == NOTICED else ""
+        rows[number] = row | {"new": new, "verdict": verdict, "test": test, "by": by}
+        noticing = f" by {test}" if verdict == NOTICED else ""
         sys.stdout.write(
-            f"{number}  {one.file}:{one.line}  {verdict}{by}, {row['s']} s\n- {old}\n+ {new}\n"
+            f"{number}  {one.file}:{one.line}  {verdict}{noticing}\n- {old}\n+ {new}\n"
         )
         sys.stdout.flush()
         if options.json:
-            options.json.write_text(json.dumps({"failing": sorted(failing), "changes": rows}))
-    survivors = [row for row in rows if row["verdict"] == SURVIVED]
+            options.json.write_text(json.dumps([*rows.values()], indent=1))
+
+    for number in sorted(drawn.keys() - rows.keys()):
+        note(number, *judge_drawn(tree, drawn[number], failing), NEAR)
+    if options.whole:
+        left = {key for key, row in rows.items() if row["verdict"] == SURVIVED}
+        numbers = {drawn[key]: key for key in sorted(left) if rows[key]["by"] == NEAR}
+        for one, verdict, test in judge_together(tree, [*numbers], failing):
+            note(numbers[one], verdict, test, WHOLE)
+    survivors = {key: row for key, row in rows.items() if row["verdict"] == SURVIVED}
     count = len(rows) - len(survivors)
     low, high = wilson_interval(count, len(rows))
     sys.stdout.write(f"{count} of {len(rows)} noticed, 95 % interval {low:.0%} to {high:.0%}\n")
-    for row in survivors:
-        sys.stdout.write(f"{row['number']}  {row['file']}:{row['line']}  {row['new']}\n")
+    for number, row in survivors.items():
+        sys.stdout.write(f"{number}  {row['file']}:{row['line']}  {row['new']}\n")
     return int(bool(survivors))
 
 
@@ -281,9 +294,11 @@ def _read_options(words: Sequence[str]) -> argparse.Namespace:
     )  # fmt: skip
     parser.add_argument(
         "--whole", action="store_true",
-        help="judge by the whole suite, all at once: for those that no test near them notices",
+        help="hold those that no near test notices to the whole suite, all at once",
     )  # fmt: skip
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts here")
+    parser.add_argument(
+        "--json", type=Path, metavar="FILE", help="keep the verdicts here, and go on"
+    )
     return parser.parse_args(words)
 
 
@@ -292,7 +307,6 @@ def main(words: Sequence[str]) -> int:
     options = _read_options(words)
     if find_spec("torch") is None:
         sys.exit("some of the tests need torch: make .venv-torch/.torch, and use its Python")
-    os.nice(10)
     with tempfile.TemporaryDirectory(prefix="texvent-mutate-") as folder:
         tree = Path(shutil.copytree(ROOT, Path(folder, "tree"), ignore=LEFT_OUT, symlinks=True))
         if options.draw:

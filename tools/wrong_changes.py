@@ -20,16 +20,10 @@ SOURCES = Path("src", "texvent")
 SCENES, LAB = "texvent_scenes", "texvent_lab"
 PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
 """The packages beside it: the folder that holds each, and its tests."""
-ALWAYS = (
-    *("tests/contract/test_golden.py", "tests/contract/test_doctests.py"),
-    *("tests/options/test_printed.py", "tests/options/test_every_option.py"),
-    "tests/resume/test_resume.py",
-)
-"""Tests of every file, after those that are near it: they reach it through the commands."""
 FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
 """Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
-MOST_TESTS = 60
-"""Files of tests that a change is held to, the nearest first."""
+MOST_TESTS = 14
+"""Files of tests that are near a change: the whole suite judges what these let pass."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
 
 
@@ -114,7 +108,8 @@ def _relevant(node: ast.AST) -> Iterator[ast.AST]:
     named = node.targets[0] if isinstance(node, ast.Assign) else named
     name = getattr(named, "id", getattr(named, "attr", ""))
     is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-    if isinstance(node, UNTOUCHED) or is_text or WORDS_ALONE.fullmatch(name):
+    is_strict = isinstance(node, ast.keyword) and node.arg == "strict"  # sizes of the code itself
+    if isinstance(node, UNTOUCHED) or is_text or is_strict or WORDS_ALONE.fullmatch(name):
         return
     yield node
     for field, value in ast.iter_fields(node):
@@ -173,7 +168,7 @@ def _calls(source: _Source, node: ast.AST) -> Iterator[Found]:
             yield "arguments", source.start(left), source.end(right), new
     before: ast.expr | ast.keyword | None = node.args[-1] if node.args else None
     for one in node.keywords:
-        if one.arg not in (None, "strict"):  # of zip: sizes are those of the code itself
+        if one.arg not in (None, "strict"):
             start = source.end(before) if before else source.start(one)
             end = source.end(one) + (not before and source.data[source.end(one)] == ord(","))
             yield "keyword", start, end, ""
@@ -339,7 +334,8 @@ def _mirrors(file: Path, root: Path) -> list[Path]:
     folder = root.joinpath(PACKAGES[first][1] if first in PACKAGES else f"tests/{first}", *inner)
     while not folder.is_dir():
         folder = folder.parent
-    tests = sorted(folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*"))
+    found = folder.rglob("test_*.py") if folder.name != "tests" else folder.glob("test_*")
+    tests = sorted(found, key=lambda one: (len(one.parts), one))
     return [one for one in tests if one.name.startswith(f"test_{file.stem}")] + tests
 
 
@@ -363,11 +359,12 @@ def near_tests(file: str, root: Path) -> list[str]:
                 modules.append(source)
     own = [one.relative_to(root) for one in _mirrors(inner, root)]
     chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
-    chosen += [one for one in importing if one.name.startswith("test_")] + own
+    chosen += [one for one in own if one in importing]
+    chosen += [one for one in importing if one.name.startswith("test_") and one.parts[0] != "lab"]
+    chosen += own + [one for one in importing if one.name.startswith("test_")]
     for one in importing:
         if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
     if inner.parts[0] == SCENES and (root / FIRST_OF_SCENES).exists():
         chosen.insert(0, Path(FIRST_OF_SCENES))
-    near = [one for one in dict.fromkeys(map(Path.as_posix, chosen)) if one not in ALWAYS]
-    return near[:MOST_TESTS] + [one for one in ALWAYS if (root / one).exists()]
+    return [*dict.fromkeys(map(Path.as_posix, chosen))][:MOST_TESTS]

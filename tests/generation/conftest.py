@@ -10,14 +10,14 @@ os.environ["HF_HUB_OFFLINE"] = "1"
 @pytest.fixture(scope="session")
 def models(tmp_path_factory):
     """Folder of a tiny pipeline by its name, saved once."""
-    from . import tiny_pipelines
+    from .tiny_families import save
 
     folder = tmp_path_factory.mktemp("models")
     saved = {}
 
     def find(name):
         if name not in saved:
-            saved[name] = tiny_pipelines.save(name, folder)
+            saved[name] = save(name, folder)
         return saved[name]
 
     return find

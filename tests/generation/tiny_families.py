@@ -1,13 +1,13 @@
-"""A tiny pipeline of every family that the table of models names, beside those of `tiny_pipelines`.
+"""A tiny pipeline of every family that the table of models names, in the layout of published ones.
 
-Each builder makes a real diffusers pipeline with random weights; `tiny_pipelines.py` saves
-it in the layout of the published ones.
+Each builder makes a real diffusers pipeline with random weights.
 """
 
 import json
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import diffusers
@@ -15,7 +15,18 @@ import transformers
 from diffusers.pipelines.ltx2 import LTX2LatentUpsamplerModel, LTX2TextConnectors, LTX2Vocoder
 from safetensors.torch import save_file
 
-from .tiny_pipelines import SMALL, cosmos_transformer, qwen, t5, wan_vae
+from . import tiny_pipelines
+from .tiny_pipelines import (
+    SMALL,
+    cogvideox,
+    cosmos_transformer,
+    flow_unipc,
+    qwen,
+    random_weights,
+    t5,
+    wan_transformer,
+    wan_vae,
+)
 
 CONNECTOR = {
     "num_attention_heads": 2,
@@ -47,12 +58,6 @@ class Family:
 
 def flow_match(**facts):
     return diffusers.FlowMatchEulerDiscreteScheduler(**facts)
-
-
-def flow_unipc():
-    return diffusers.UniPCMultistepScheduler(
-        prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
-    )
 
 
 def ltx2(kind=diffusers.LTX2Pipeline, patch_size=1, **of_transformer):
@@ -188,7 +193,7 @@ def cosmos3():
     return diffusers.Cosmos3OmniPipeline(
         text_tokenizer=tokenizer,
         vae=wan_vae(),
-        scheduler=flow_unipc(),
+        scheduler=flow_unipc(flow_shift=3.0),
         transformer=diffusers.Cosmos3OmniTransformer(
             head_dim=6,
             hidden_act="silu",
@@ -209,19 +214,11 @@ def cosmos3():
 
 def wan_vace():
     return diffusers.WanVACEPipeline(
-        **t5(None, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        **t5(transformers.UMT5EncoderModel, transformers.UMT5Config),
         vae=wan_vae(),
         scheduler=flow_match(shift=7.0),
-        transformer=diffusers.WanVACETransformer3DModel(
-            num_attention_heads=2,
-            attention_head_dim=12,
-            num_layers=2,
-            text_dim=32,
-            freq_dim=16,
-            ffn_dim=32,
-            patch_size=(1, 2, 2),
-            vace_layers=[0],
-            vace_in_channels=96,
+        transformer=wan_transformer(
+            diffusers.WanVACETransformer3DModel, vace_layers=[0], vace_in_channels=96
         ),
     )
 
@@ -245,7 +242,7 @@ def cosmos_transfer():
     return diffusers.Cosmos2_5_TransferPipeline(
         **qwen(),
         vae=wan_vae(),
-        scheduler=flow_unipc(),
+        scheduler=flow_unipc(flow_shift=3.0),
         transformer=transformer,
         controlnet=diffusers.CosmosControlNetModel(
             n_controlnet_blocks=2,
@@ -271,32 +268,8 @@ def cosmos_transfer():
 
 
 def cogvideox_fun():
-    return diffusers.CogVideoXFunControlPipeline(
-        **t5(None),
-        vae=diffusers.AutoencoderKLCogVideoX(
-            block_out_channels=(8, 8, 8, 8),
-            latent_channels=4,
-            layers_per_block=1,
-            norm_num_groups=2,
-            temporal_compression_ratio=4,
-        ),
-        scheduler=diffusers.CogVideoXDDIMScheduler(),
-        transformer=diffusers.CogVideoXTransformer3DModel(
-            num_attention_heads=8,
-            attention_head_dim=4,
-            in_channels=8,
-            out_channels=4,
-            time_embed_dim=2,
-            text_embed_dim=32,
-            num_layers=1,
-            sample_width=4,
-            sample_height=4,
-            sample_frames=5,
-            patch_size=2,
-            temporal_compression_ratio=4,
-            max_text_seq_length=226,
-        ),
-    )
+    small = {"sample_width": 4, "sample_height": 4, "sample_frames": 5}
+    return cogvideox(diffusers.CogVideoXFunControlPipeline, in_channels=8, **small)
 
 
 class ModularParts:
@@ -441,7 +414,7 @@ FAMILIES = {
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }
-"""Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""
+"""Name of the test → its pipeline."""
 STEERED = {
     "wan-vace": Family(wan_vace, "WanVACEPipeline"),
     "cosmos-transfer": Family(cosmos_transfer, "Cosmos2_5_TransferPipeline"),
@@ -449,3 +422,13 @@ STEERED = {
     "ltx2-control": Family(ltx2_in_context, "LTX2InContextPipeline", {"frames": 9}, frames=9),
 }
 """As `FAMILIES`, of models that follow a scene."""
+
+
+def save(name: str, folder: Path) -> Path:
+    """Save the tiny pipeline of that name, of a builder or a family, and return its path."""
+    family = {**FAMILIES, **STEERED}.get(name)
+    path = folder / name / (family.named if family and family.named else f"tiny-{name}")
+    with random_weights():
+        pipe = family.build() if family else getattr(tiny_pipelines, name)()
+    pipe.save_pretrained(path, safe_serialization=True)
+    return path

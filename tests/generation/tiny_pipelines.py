@@ -57,7 +57,7 @@ def replace_torchvision():
         pipeline_cosmos2_5_predict.torchvision = SimpleNamespace(transforms=transforms)
 
 
-def t5(folder, encoder=transformers.T5EncoderModel, config=transformers.T5Config):
+def t5(encoder=transformers.T5EncoderModel, config=transformers.T5Config):
     letters = [("<pad>", 0.0), ("</s>", 0.0), ("<unk>", 0.0), ("▁", -2.0)]
     vocabulary = letters + [(chr(code), -3.0) for code in range(33, 127)]
     tokenizer = transformers.T5TokenizerFast(vocab=vocabulary, extra_ids=0)
@@ -69,8 +69,8 @@ def wan_vae():
     return diffusers.AutoencoderKLWan(base_dim=3, z_dim=16, dim_mult=[1, 1, 1, 1], num_res_blocks=1)
 
 
-def wan_transformer():
-    return diffusers.WanTransformer3DModel(
+def wan_transformer(kind=diffusers.WanTransformer3DModel, **facts):
+    return kind(
         num_attention_heads=2,
         attention_head_dim=12,
         num_layers=2,
@@ -78,35 +78,43 @@ def wan_transformer():
         freq_dim=16,
         ffn_dim=32,
         patch_size=(1, 2, 2),
+        **facts,
     )
 
 
-def wan(folder):
+def flow_unipc(**facts):
+    return diffusers.UniPCMultistepScheduler(
+        prediction_type="flow_prediction", use_flow_sigmas=True, **facts
+    )
+
+
+def wan():
     return diffusers.WanPipeline(
-        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        **t5(transformers.UMT5EncoderModel, transformers.UMT5Config),
         vae=wan_vae(),
         scheduler=diffusers.FlowMatchEulerDiscreteScheduler(shift=7.0),
         transformer=wan_transformer(),
     )
 
 
-def wan22(folder):
+def wan22():
     """A second network takes over below a share of the noise, as in Wan 2.2's 14B."""
     return diffusers.WanPipeline(
-        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        **t5(transformers.UMT5EncoderModel, transformers.UMT5Config),
         vae=wan_vae(),
-        scheduler=diffusers.UniPCMultistepScheduler(
-            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
-        ),
+        scheduler=flow_unipc(flow_shift=3.0),
         transformer=wan_transformer(),
         transformer_2=wan_transformer(),
         boundary_ratio=0.875,
     )
 
 
-def cogvideox(folder):
-    return diffusers.CogVideoXPipeline(
-        **t5(folder),
+COGVIDEOX = {"in_channels": 4, "sample_width": 8, "sample_height": 8, "sample_frames": 9}
+
+
+def cogvideox(kind=diffusers.CogVideoXPipeline, **of_transformer):
+    return kind(
+        **t5(),
         vae=diffusers.AutoencoderKLCogVideoX(
             block_out_channels=(8, 8, 8, 8),
             latent_channels=4,
@@ -118,17 +126,14 @@ def cogvideox(folder):
         transformer=diffusers.CogVideoXTransformer3DModel(
             num_attention_heads=8,
             attention_head_dim=4,
-            in_channels=4,
             out_channels=4,
             time_embed_dim=2,
             text_embed_dim=32,
             num_layers=1,
-            sample_width=8,
-            sample_height=8,
-            sample_frames=9,
             patch_size=2,
             temporal_compression_ratio=4,
             max_text_seq_length=226,
+            **(of_transformer or COGVIDEOX),
         ),
     )
 
@@ -148,11 +153,11 @@ def cosmos_transformer(**facts):
     )
 
 
-def cosmos(folder):
+def cosmos():
     import cosmos_guardrail
 
     return diffusers.CosmosTextToWorldPipeline(
-        **t5(folder),
+        **t5(),
         vae=diffusers.AutoencoderKLCosmos(
             encoder_block_out_channels=(8, 8, 8, 8),
             decode_block_out_channels=(8, 8, 8, 8),
@@ -215,15 +220,13 @@ def qwen():
     return {"tokenizer": tokenizer, "text_encoder": encoder}
 
 
-def cosmos25(folder):
+def cosmos25():
     import cosmos_guardrail
 
     return diffusers.Cosmos2_5_PredictBasePipeline(
         **qwen(),
         vae=wan_vae(),
-        scheduler=diffusers.UniPCMultistepScheduler(
-            prediction_type="flow_prediction", use_flow_sigmas=True, use_karras_sigmas=True
-        ),
+        scheduler=flow_unipc(use_karras_sigmas=True),
         transformer=cosmos_transformer(
             in_channels=17,
             out_channels=16,
@@ -237,9 +240,9 @@ def cosmos25(folder):
     )
 
 
-def ltx(folder):
+def ltx():
     return diffusers.LTXPipeline(
-        **t5(folder),
+        **t5(),
         vae=diffusers.AutoencoderKLLTXVideo(
             latent_channels=8,
             block_out_channels=(8, 8, 8, 8),
@@ -265,28 +268,9 @@ def ltx(folder):
     )
 
 
-BUILDERS = {
-    "wan": wan,
-    "wan22": wan22,
-    "cosmos": cosmos,
-    "cosmos25": cosmos25,
-    "cogvideox": cogvideox,
-    "ltx": ltx,
-}
-
-
-def save(name: str, folder: Path) -> Path:
-    """Save the tiny pipeline of that name as `folder/tiny-NAME` and return the path."""
-    path = folder / f"tiny-{name}"
-    with random_weights():
-        pipe = BUILDERS[name](folder)
-    pipe.save_pretrained(path, safe_serialization=True)
-    return path
-
-
 def save_clip(folder: Path) -> Path:
     """Save a tiny random CLIP model with its tokenizer and return the folder."""
-    tokenizer = t5(folder)["tokenizer"]
+    tokenizer = t5()["tokenizer"]
     config = transformers.CLIPConfig(
         text_config={
             **SMALL,
@@ -314,7 +298,7 @@ CHAT = (
 
 def save_llava(folder: Path) -> Path:
     """Save a tiny random LLaVA model with its processor and return the folder."""
-    tokenizer = t5(folder)["tokenizer"]
+    tokenizer = t5()["tokenizer"]
     tokenizer.add_special_tokens({"additional_special_tokens": ["<image>"]})
     small = {**SMALL, "initializer_range": 0.5}  # large enough for the image to change the words
     words = {"vocab_size": len(tokenizer), "pad_token_id": 0, "eos_token_id": 1}

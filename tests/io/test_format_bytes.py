@@ -96,7 +96,14 @@ def test_event_stream_bytes_count_rows_from_below(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("change", "message"),
-    [((12, 1), "version 1"), ((15, 2), r"type 2 \(atis\)"), ((15, 9), r"type 9 \(unknown\)")],
+    [
+        ((12, 1), "version 1"),
+        *(
+            ((15, number), rf"type {number} \({name}\)")
+            for number, name in ((0, "generic"), (2, "atis"), (3, "asynchronous"), (4, "color"))
+        ),
+        ((15, 9), r"type 9 \(unknown\)"),
+    ],
 )
 def test_other_event_streams_are_named(
     tmp_path: Path, change: tuple[int, int], message: str

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.event_packets import EventPackets
@@ -29,13 +31,23 @@ def packets(*cuts: int) -> EventPackets:
     return EventPackets([events()[a:b] for a, b in itertools.pairwise(ends)], SIZE)
 
 
-@pytest.mark.parametrize("cuts", [(), (1, 2, 3, 4, 5, 6, 7), (3, 3)])
-def test_intervals_are_half_open_and_may_overlap_or_be_empty(cuts: tuple[int, ...]) -> None:
-    ends = [(10, 25), (25, 40), (0, 100), (90, 95), (11, 12)]
-    intervals = [Interval(*pair) for pair in ends]
-    found = dict(split(packets(*cuts), intervals))
-    times = {n: [t for part in parts for t in part.t.tolist()] for n, parts in found.items()}
-    assert times == {0: [10, 11, 11], 1: [25, 39], 2: TIMES, 3: [], 4: [11, 11]}
+PLACES = st.integers(0, 50)
+
+
+@given(
+    st.lists(st.tuples(PLACES, PLACES).map(sorted), max_size=5),
+    st.lists(st.integers(0, len(TIMES)), max_size=7).map(sorted),
+)
+@example([(10, 25), (25, 40), (0, 100), (90, 95), (11, 12)], [3, 3])
+def test_intervals_are_half_open_and_packets_may_be_cut_anywhere(
+    ends: list[tuple[int, int]], cuts: list[int]
+) -> None:
+    found = list(split(packets(*cuts), [Interval(*pair) for pair in ends]))
+    assert sorted(number for number, _ in found) == [*range(len(ends))]
+    for number, parts in found:
+        start, stop = ends[number]
+        times = [t for part in parts for t in part.t.tolist()]
+        assert times == [t for t in TIMES if start <= t < stop]
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,7 @@ class Resumable:
 
 
 def _as_json(path: Path) -> Any:
-    return _timeless(json.loads(path.read_text()))
+    return _timeless(json.loads(path.read_text(), parse_constant=str))  # NaN is NaN
 
 
 def _as_rows(path: Path) -> Any:
@@ -212,6 +212,7 @@ def damage_its_outputs(
     for name in runs.whole:
         path = Path(name)
         is_state = len(path.parts) == 2 and any(map(path.match, command.index))
+        is_state |= path.name in command.index
         kinds.setdefault(name if is_state else f"{len(path.parts)} {path.suffixes[-2:]}", name)
     for number, name in enumerate(kinds.values()):
         some = [OF_OUTPUTS[(number + n) % len(OF_OUTPUTS)] for n in range(how_often)]

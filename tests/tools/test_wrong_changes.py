@@ -50,11 +50,19 @@ def test_changes_are_those_by_hand_and_every_one_that_is_drawn_compiles(text: st
         "def a(b: Literal[1]) -> Literal[2]: ...",
         "@b(c=1)\ndef a(): ...",
         "def a(): return np.hypot(b, c)",
+        "a = zip(b, b, strict=True)",
         "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    a = 1",
     ],
 )
 def test_words_and_annotations_are_left_alone(text: str) -> None:
     assert changes_of("a.py", text) == []
+
+
+BRIEF = """
+from hypothesis import settings
+settings.register_profile("brief")
+def pytest_addoption(parser): parser.addoption("--brief", action="store_true")
+"""
 
 
 @pytest.fixture
@@ -66,6 +74,7 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent/user.py": "from texvent.big import seen\n",
         "src/texvent/small/part.py": "A = 1\n",
         "src/texvent_scenes/read/part.py": "B = 1\n",
+        "tests/conftest.py": BRIEF,
         "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
         "tests/big/test_part.py": "",
         "tests/test_direct.py": "import texvent.big.part\n",
@@ -115,8 +124,9 @@ def test_changes_that_are_made_together_are_noticed_one_by_one(tree: Path) -> No
     changes = changes_of("big/part.py", (tree / "src/texvent/big/part.py").read_text())
     first, survivor = (next(one for one in changes if one.line == line) for line in (1, 9))
     other, *_ = changes_of("small/part.py", "A = 1\n")
-    found = judge_together(tree, [survivor, other, first], failing := set())
-    assert found[first] == (NOTICED, "tests/test_user.py::test_it")
+    judged = judge_together(tree, [survivor, other, first], failing := set())
+    found = {one: verdict for one, *verdict in judged}
+    assert found[first] == [NOTICED, "tests/test_user.py::test_it"]
     assert {found[one][0] for one in (survivor, other)} == {SURVIVED}
     assert failing == {"tests/big/test_other.py::test_that_fails_always"}
 

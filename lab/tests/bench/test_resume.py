@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
 
+from ..train.written_samples import as_weights
+from .detection.test_training import CARS
 from .digits.synthetic_data import write_mnist, write_recordings
 from .objects.stand_in import write_frames, write_specifications, write_turntables
 
@@ -22,6 +25,10 @@ DIGITS = (
 OBJECTS = (
     *("bench", "objects", "configs", "--frames", "frames", "--turntables", "turntables"),
     *("--work", "out/work", "--arms", "difference", "--steps", 1, *RESULT),
+)
+DETECTION = (
+    *("bench", "detection", "cars.toml", "--work", "out/work", "--epochs", 1, "--batch-size", 2),
+    *("--device", "cpu", *RESULT),
 )
 
 
@@ -42,6 +49,19 @@ def write_objects() -> None:
     write_specifications(Path("configs"))
     write_frames(Path("frames"))
     write_turntables(Path("turntables"))
+
+
+def write_cars() -> None:
+    Path("out").mkdir()
+    Path("cars.toml").write_text(CARS)
+
+
+def make_detectors_narrow(patch: pytest.MonkeyPatch) -> None:
+    """A quarter of the channels of evlib's smallest network."""
+    from evlib.models.rvt_backbone import RVTConfig
+
+    narrow = RVTConfig(embed_dim=8, dim_head=8)
+    patch.setattr(RVTConfig, "tiny", lambda: replace(narrow))
 
 
 def other_text(path: str, old: str, new: str) -> Callable[[], None]:
@@ -78,20 +98,40 @@ BENCHMARKS = {
         },
         **KEPT,
     ),
+    "detection": Resumable(
+        prepare=write_cars,
+        words=DETECTION,
+        changes={
+            "clips": other_text("cars.toml", "a red", "a blue"),
+            "option": lambda: (*DETECTION, "--passes", 2),
+            "seed": lambda: (*DETECTION, "--seeds", 2),
+        },
+        index=("result.json", "checkpoint.pt", "scores.json", "*.json", "*.jsonl"),
+        rewritten=("result.json", "weights.pt", "history.json", "curves.png"),
+        readers={".npz": as_arrays, ".pt": as_weights},
+    ),
 }
 
 
 @pytest.fixture(
     scope="module",
-    params=[pytest.param(one, marks=pytest.mark.torch) for one in BENCHMARKS],
+    params=[
+        pytest.param(one, marks=pytest.mark.detect if one == "detection" else pytest.mark.torch)
+        for one in BENCHMARKS
+    ],
 )
 def runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Runs]:
     torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
     torch.set_num_threads(1)
-    with undisturbed(BENCHMARKS[request.param], tmp_path_factory.mktemp("runs")) as runs:
-        yield runs
+    places = tmp_path_factory.mktemp("runs")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TEXVENT_DATA", str(places / "no recordings"))
+        if request.param == "detection":
+            make_detectors_narrow(patch)
+        with undisturbed(BENCHMARKS[request.param], places) as runs:
+            yield runs
 
 
 @pytest.mark.long

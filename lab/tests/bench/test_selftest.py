@@ -120,7 +120,9 @@ def recordings():
 @pytest.mark.long
 def test_a_run_gives_rows_that_survive_their_document(tmp_path, recordings, monkeypatch):
     monkeypatch.setattr(selftest, "record_scene", lambda: recordings)
-    rows = run_selftest(["stpp", "active_iou"])
+    told: list[str] = []
+    rows = run_selftest(["stpp", "active_iou"], progress=told.append)
+    assert told == ["recording mixed with 4 seeds", "stpp", "active_iou"]
     assert rows[0].missed == ()
     assert all(rows[0].monotone.values())
     # A marginal finds little, and the test says so rather than passing everything.

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
@@ -13,7 +11,7 @@ from tests.resume.disturbed import DISTURBANCES, Resumable, Runs, undisturbed
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from .windowed_specification import TEXT, write_specification  # noqa: E402
-from .written_samples import write_bars_training  # noqa: E402
+from .written_samples import as_weights, write_bars_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 
@@ -34,14 +32,6 @@ def write_clips() -> None:
 def other_option() -> None:
     path = Path("bars.toml")
     path.write_text(f"{path.read_text()}weight_decay = 0.5\n")
-
-
-def as_weights(path: Path) -> Any:
-    """Texts of tensors, which are equal where all bits are."""
-    content = torch.load(path, weights_only=True)
-    for row in content.get("rows", ()):
-        row.pop("seconds")
-    return json.dumps(content, default=torch.Tensor.tolist)
 
 
 TRAIN = {

@@ -27,23 +27,6 @@ from ..tiny_models import PROMPT, build, pixels  # noqa: E402
 from ..watcher import Watcher  # noqa: E402
 
 
-@pytest.fixture(scope="module")
-def saved(tmp_path_factory):
-    """Folder of a family's tiny pipeline, saved once."""
-    folders = {}
-
-    def find(name):
-        family = FAMILIES[name]
-        if name not in folders:
-            folder = tmp_path_factory.mktemp(name) / (family.named or "tiny")
-            with tiny_pipelines.random_weights():
-                family.build().save_pretrained(folder, safe_serialization=True)
-            folders[name] = folder
-        return folders[name]
-
-    return find
-
-
 @pytest.fixture
 def start_image(tmp_path):
     from PIL import Image
@@ -54,14 +37,14 @@ def start_image(tmp_path):
 
 
 @pytest.fixture
-def make(saved, start_image):
+def make(models, start_image):
     """Make a family's video with some seed and options; the steps it reported."""
 
     def run(name, seed=3, **options):
         family = FAMILIES[name]
         image = {"image": start_image} if family.takes_image else {}
         watcher = Watcher()
-        generator = build(saved(name), seed=seed, **{**family.options, **image, **options})
+        generator = build(models(name), seed=seed, **{**family.options, **image, **options})
         return generator.generate(PROMPT, progress=watcher), watcher.steps
 
     return run
@@ -92,12 +75,12 @@ def test_the_frame_rate_is_an_input_of_cosmos_3_and_ltx(make, name):
     assert not np.array_equal(slow, fast)
 
 
-def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make):
+def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(models, make):
     import json
 
     import cosmos_guardrail
 
-    path = saved("cosmos3") / "model_index.json"
+    path = models("cosmos3") / "model_index.json"
     index = json.loads(path.read_text())
     path.write_text(json.dumps({**index, "enable_safety_checker": False}))
     before = cosmos_guardrail.CosmosSafetyChecker.checked_frames
@@ -105,7 +88,7 @@ def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make)
     path.write_text(json.dumps(index))
     assert cosmos_guardrail.CosmosSafetyChecker.checked_frames == before + video.frame_count
     with pytest.raises(InputError, match="guardrail blocks this prompt"):
-        build(saved("cosmos3")).generate("a weapon")
+        build(models("cosmos3")).generate("a weapon")
 
 
 H3 = FAMILIES["minimax-h3"].options
@@ -120,15 +103,15 @@ H3 = FAMILIES["minimax-h3"].options
         ({"negative_prompt": "dark"}, "negative_prompt is set, but MiniMaxH3ModularPipeline"),
     ],
 )
-def test_what_minimax_h3_does_not_take_is_refused_before_it_is_loaded(saved, options, said):
+def test_what_minimax_h3_does_not_take_is_refused_before_it_is_loaded(models, options, said):
     watcher = Watcher()
     with pytest.raises(ConfigError, match=said):
-        build(saved("minimax-h3"), **{**H3, **options}).generate(PROMPT, progress=watcher)
+        build(models("minimax-h3"), **{**H3, **options}).generate(PROMPT, progress=watcher)
     assert watcher.lines == []
 
 
-def test_parts_of_a_modular_pipeline_that_lack_or_are_damaged_are_named(saved, tmp_path):
-    folder = shutil.copytree(saved("minimax-h3"), tmp_path / "MiniMax-H3")
+def test_parts_of_a_modular_pipeline_that_lack_or_are_damaged_are_named(models, tmp_path):
+    folder = shutil.copytree(models("minimax-h3"), tmp_path / "MiniMax-H3")
     weights = next((folder / "vae").glob("*.safetensors"))
     weights.write_bytes(b"no weights")
     with pytest.raises(FileFormatError, match=r"MiniMax-H3 cannot be loaded .* vae") as told:
@@ -142,10 +125,10 @@ def test_parts_of_a_modular_pipeline_that_lack_or_are_damaged_are_named(saved, t
         build(folder, **H3).generate(PROMPT)
 
 
-def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(saved, make, tmp_path):
+def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(models, make, tmp_path):
     from safetensors.torch import load_file, save_file
 
-    weights = load_file(next((saved("minimax-h3") / "transformer").glob("*.safetensors")))
+    weights = load_file(next((models("minimax-h3") / "transformer").glob("*.safetensors")))
     layer = next(name for name in weights if name.endswith("to_q.weight"))
     rows, columns = weights[layer].shape
     path = tmp_path / "fast.safetensors"
@@ -160,10 +143,10 @@ def test_a_lora_reaches_minimax_h3_and_one_of_another_model_is_refused(saved, ma
         make("minimax-h3", lora=(str(path),))
 
 
-def test_the_turbo_lora_of_minimax_h3_runs_at_its_own_noise_levels(saved, tmp_path, monkeypatch):
+def test_the_turbo_lora_of_minimax_h3_runs_at_its_own_noise_levels(models, tmp_path, monkeypatch):
     from safetensors.torch import load_file, save_file
 
-    folder = shutil.copytree(saved("minimax-h3"), tmp_path / "minimax-h3-turbo")
+    folder = shutil.copytree(models("minimax-h3"), tmp_path / "minimax-h3-turbo")
     weights = load_file(next((folder / "transformer").glob("*.safetensors")))
     layer = next(name for name in weights if name.endswith("to_q.weight"))
     rows, columns = weights[layer].shape
@@ -220,10 +203,10 @@ def test_stages_of_twice_the_frames_are_those_of_their_publisher(make, monkeypat
 
 
 @pytest.mark.parametrize("file", [SPACE, TIME])
-def test_both_upscalers_count_and_one_that_lacks_or_is_another_is_one_line(saved, tmp_path, file):
+def test_both_upscalers_count_and_one_that_lacks_or_is_another_is_one_line(models, tmp_path, file):
     from safetensors.torch import load_file, save_file
 
-    folder = shutil.copytree(saved("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
+    folder = shutil.copytree(models("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
     usual = build(folder, **TEMPORAL).generate(PROMPT)
     assert len(usual.metadata["temporal_latent_upsampler_sha256"]) == 64
     weights = load_file(folder / file)
@@ -264,26 +247,26 @@ def test_both_upscalers_count_and_one_that_lacks_or_is_another_is_one_line(saved
         ({"negative_prompt": "dark"}, "negative_prompt is set, but LTX2DFRTemporalRefinePipeline"),
     ],
 )
-def test_what_twice_the_frames_do_not_take_is_refused_before_they_are_loaded(saved, options, said):
+def test_what_twice_the_frames_do_not_take_is_refused_before_they_are_loaded(models, options, said):
     watcher = Watcher()
     with pytest.raises(ConfigError, match=said):
-        build(saved("ltx2-temporal"), **{**TEMPORAL, **options}).generate(PROMPT, progress=watcher)
+        build(models("ltx2-temporal"), **{**TEMPORAL, **options}).generate(PROMPT, progress=watcher)
     assert watcher.lines == []
 
 
-def test_a_network_without_keyframes_makes_no_frames_in_between(saved, tmp_path):
-    folder = shutil.copytree(saved("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
+def test_a_network_without_keyframes_makes_no_frames_in_between(models, tmp_path):
+    folder = shutil.copytree(models("ltx2-temporal"), tmp_path / "ltx2.5-temporal")
     shutil.rmtree(folder / "transformer")
-    shutil.copytree(saved("ltx2-distilled") / "transformer", folder / "transformer")
+    shutil.copytree(models("ltx2-distilled") / "transformer", folder / "transformer")
     with pytest.raises(InputError, match="a network that makes no keyframes"):
         build(folder, **TEMPORAL).plan(PROMPT)
 
 
-def test_fifty_frames_per_second_start_from_an_image_and_become_events(saved, start_image):
+def test_fifty_frames_per_second_start_from_an_image_and_become_events(models, start_image):
     from texvent.pipeline import text_to_events
     from texvent.settings.resolution import resolve
 
-    of_run = {**TEMPORAL, "generator": str(saved("ltx2-temporal")), "on_failure": "ignore"}
+    of_run = {**TEMPORAL, "generator": str(models("ltx2-temporal")), "on_failure": "ignore"}
     video = {}
     for image in (None, str(start_image)):
         of_image = {} if image is None else {"image": image}

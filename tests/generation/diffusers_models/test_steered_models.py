@@ -31,28 +31,12 @@ from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
 from texvent_scenes.spec.data import scene_from_data  # noqa: E402
 
-from .. import tiny_pipelines  # noqa: E402
 from ..tiny_families import STEERED  # noqa: E402
 from ..tiny_models import OPTIONS, build, pixels  # noqa: E402
 from ..watcher import Watcher  # noqa: E402
 
 SENTENCE = "a red car drives left"
 LAYER = "transformer.transformer_blocks.0.attn1.to_q.lora_"
-
-
-@pytest.fixture(scope="module")
-def saved(tmp_path_factory):
-    """Folder of a family's tiny pipeline, saved once."""
-    root, folders = tmp_path_factory.mktemp("steered"), {}
-
-    def find(name):
-        if name not in folders:
-            folders[name] = root / f"tiny-{name}"
-            with tiny_pipelines.random_weights():
-                STEERED[name].build().save_pretrained(folders[name], safe_serialization=True)
-        return folders[name]
-
-    return find
 
 
 @pytest.fixture
@@ -74,7 +58,7 @@ def test_every_class_that_follows_a_scene_has_a_tiny_pipeline():
 
 
 @pytest.mark.parametrize("name", STEERED)
-def test_a_scene_goes_through_every_class_to_labelled_events(name, saved, options, monkeypatch):
+def test_a_scene_goes_through_every_class_to_labelled_events(name, models, options, monkeypatch):
     given = []
     real = pipeline_call._control_argument
 
@@ -84,7 +68,7 @@ def test_a_scene_goes_through_every_class_to_labelled_events(name, saved, option
 
     monkeypatch.setattr(pipeline_call, "_control_argument", note)
     family, watcher = STEERED[name], Watcher()
-    generator = build(saved(name), look="snow", **options(name))
+    generator = build(models(name), look="snow", **options(name))
     video = generator.generate(SENTENCE, progress=watcher)
     frames = pixels(video)
     assert frames.shape == (family.frames, 32, 32, 3)
@@ -101,9 +85,9 @@ def test_a_scene_goes_through_every_class_to_labelled_events(name, saved, option
     assert np.abs(given[0] - np.rint(255 * near)[..., None]).max() <= 1
 
 
-def test_a_network_that_lies_elsewhere_is_stored_with_its_commit(saved, tmp_path, monkeypatch):
+def test_a_network_that_lies_elsewhere_is_stored_with_its_commit(models, tmp_path, monkeypatch):
     whole, network = tmp_path / "cosmos2.5-transfer-2b", tmp_path / "0a1b2c"
-    shutil.copytree(saved("cosmos-transfer"), whole)
+    shutil.copytree(models("cosmos-transfer"), whole)
     shutil.move(whole / "controlnet", network)
     monkeypatch.setattr(controls, "find_network", lambda repo, revision, announce: network)
     generator = build(whole, control="edges")
@@ -111,11 +95,11 @@ def test_a_network_that_lies_elsewhere_is_stored_with_its_commit(saved, tmp_path
     assert generator.generate(SENTENCE).metadata["controlnet_commit"] == "0a1b2c"
 
 
-def test_events_boxes_and_looks_of_one_scene(saved, tmp_path, monkeypatch):
+def test_events_boxes_and_looks_of_one_scene(models, tmp_path, monkeypatch):
     scene = scene_from_data(
         {"objects": [{"noun": "car", "motions": [{"kind": "drive", "direction": "left"}]}]}
     )
-    shared = {**OPTIONS, "generator": str(saved("wan-vace")), "scene_seed": 5, "noise": "none"}
+    shared = {**OPTIONS, "generator": str(models("wan-vace")), "scene_seed": 5, "noise": "none"}
 
     def run(**options):
         return text_to_events(scene, resolve("generate", {**shared, "look": "rain", **options}))
@@ -143,16 +127,16 @@ def test_events_boxes_and_looks_of_one_scene(saved, tmp_path, monkeypatch):
             run(seed=1, **changed)
 
 
-def test_a_video_that_does_not_follow_is_made_again_and_then_refused(saved):
+def test_a_video_that_does_not_follow_is_made_again_and_then_refused(models):
     watcher = Watcher()
     faults = {"least_agreement": 1.0, "on_failure": "retry"}
     with pytest.raises(TexventError, match=r"all 4 videos.*agree by .*, below 1"):
-        build(saved("wan-vace"), **faults).generate(SENTENCE, progress=watcher)
+        build(models("wan-vace"), **faults).generate(SENTENCE, progress=watcher)
     assert sum("is refused" in line for line in watcher.lines) == 4
 
 
 def test_folders_that_follow_no_scene_or_lack_a_part_are_refused_before_loading(
-    saved, models, tmp_path, monkeypatch
+    models, tmp_path, monkeypatch
 ):
     def forbidden(*_, **__):
         raise AssertionError("a network was loaded")
@@ -167,7 +151,7 @@ def test_folders_that_follow_no_scene_or_lack_a_part_are_refused_before_loading(
         with pytest.raises(InputError, match=message):
             build(folder, width=32, frames=9, control="depth").generate(SENTENCE)
     whole = tmp_path / "cosmos2.5-transfer-2b"
-    shutil.copytree(saved("cosmos-transfer"), whole)
+    shutil.copytree(models("cosmos-transfer"), whole)
     shutil.rmtree(whole / "controlnet")
     with pytest.raises(InputError, match=r"lacks the folder .*controlnet, the network of control"):
         build(whole, control="depth").generate(SENTENCE)
@@ -176,8 +160,8 @@ def test_folders_that_follow_no_scene_or_lack_a_part_are_refused_before_loading(
         build(whole, control="depth").generate(SENTENCE)
 
 
-def test_a_data_set_of_steered_videos_has_the_labels_of_its_scenes(saved, tmp_path):
-    options = {**OPTIONS, "generator": str(saved("wan-vace")), "sensor": "24x16"}
+def test_a_data_set_of_steered_videos_has_the_labels_of_its_scenes(models, tmp_path):
+    options = {**OPTIONS, "generator": str(models("wan-vace")), "sensor": "24x16"}
     options |= {"contrast_threshold": 0.01, "on_failure": "ignore"}
     source = SampleSource(prompts=(SENTENCE,))
     of_set = {"name": "steered", "sources": (source,), "truth": ("boxes",), "options": options}
@@ -187,7 +171,7 @@ def test_a_data_set_of_steered_videos_has_the_labels_of_its_scenes(saved, tmp_pa
     assert not made.failures
     (sample,) = texvent.dataset.open(tmp_path / "kept")
     seed = sample.facts["source"]["seed"]
-    video = build(saved("wan-vace"), seed=seed).generate(SENTENCE)
+    video = build(models("wan-vace"), seed=seed).generate(SENTENCE)
     steps = [video.ground_truth(frame.t_us, frame.t_us).boxes for frame in video]
     assert sample.truth.boxes["track_id"].tolist() == [one.instance for row in steps for one in row]
     assert sample.facts["settings"]["interpolate"]["interpolate"] == "motion"

@@ -4,10 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
 from texvent.truth.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent_scenes.models.joints import Instant, read_joint, read_light
+from texvent_scenes.models.limbs import _held
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.part_lines import read_parts
@@ -139,6 +142,27 @@ def test_surfaces_by_hand():
     for bad in ("tartan", "(1 2)", "paint tartan"):
         with pytest.raises(ValueError, match=r"unknown|must be"):
             read_surface(bad, hues)
+
+
+@given(st.tuples(*[st.floats(-0.5, 1.5).map(lambda one: round(one, 3))] * 3))
+def test_each_channel_of_a_colour_is_from_0_to_1(channels):
+    text = f"({' '.join(map(str, channels))})"
+    if min(channels) >= 0.0 and max(channels) <= 1.0:
+        assert read_surface(text, {}).colour == channels
+    else:
+        with pytest.raises(ValueError, match="three numbers from 0 to 1"):
+            read_surface(text, {})
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 1.0, 2.8, 2.9, 10.0, 90.0])
+def test_a_hand_points_where_the_forearm_does_unless_it_holds_along_it(angle_deg):
+    """Within asin 0.05 = 2.87 degrees of the forearm its direction is that of the trunk."""
+    angle, held = math.radians(angle_deg), np.array([0.0, 0.6, 0.8])
+    across, ahead = np.array([0.0, 0.8, -0.6]), np.array([1.0, 0.0, 0.0])
+    trunk = np.c_[ahead, np.eye(3)[:, 1:], np.zeros(3)]
+    axes = _held(trunk, math.cos(angle) * held + math.sin(angle) * across, 2.0 * held)
+    first = ahead if angle_deg < 2.87 else across
+    np.testing.assert_allclose(axes.T, [first, np.cross(held, first), held], atol=1e-9)
 
 
 def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> list[float]:

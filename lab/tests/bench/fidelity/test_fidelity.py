@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from texvent.errors import ConfigError
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
@@ -36,6 +37,18 @@ QUICK = FidelityPlan(
 @pytest.fixture(scope="module")
 def report():
     return run_fidelity(QUICK)
+
+
+@pytest.mark.parametrize("name", ["scenes", "targets", "metrics"])
+def test_a_plan_of_a_name_that_nothing_has_is_refused(name):
+    with pytest.raises(ConfigError, match="'nothing'"):
+        FidelityPlan(**{name: ("nothing",)})
+
+
+@pytest.mark.parametrize("name", ["fit_seeds", "score_seeds"])
+def test_a_plan_without_seeds_is_refused(name):
+    with pytest.raises(ConfigError, match="seeds at least one"):
+        FidelityPlan(**{name: ()})
 
 
 @pytest.mark.long

@@ -1,4 +1,10 @@
-"""The oracle: its scenes, its camera, its pixels."""
+"""The oracle: its scenes, its camera, its pixels.
+
+python -m lab.tests.bench.oracle.test_oracle    # writes scenes.json anew, after a scene changed
+"""
+
+import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +16,16 @@ from texvent_lab.bench.oracle.scenes import PROMPTS, SCENES, ValueNoise, build_s
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
 ONE = SensorSize(1, 1)
+STORED = Path(__file__).with_name("scenes.json")
+BLOCK = 4
+"""Side of the blocks of pixels whose mean radiance is stored, px."""
+
+
+def coarse_pictures(name):
+    """Mean radiance of blocks of a scene at three instants."""
+    scene, (width, height) = build_scene(name, 7, SensorSize(48, 32)), (48, 32)
+    shape = (height // BLOCK, BLOCK, width // BLOCK, BLOCK)
+    return [scene(one).reshape(shape).mean((1, 3)).round(5).tolist() for one in (0.0, 0.013, 0.4)]
 
 
 def expose_levels(model, levels, step_us=1000, size=ONE, seed=0):
@@ -88,6 +104,12 @@ def test_every_scene_is_finite_positive_and_its_own_per_seed(name):
         assert not np.allclose(scene(0.0), scene(0.1031))
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_every_scene_shows_what_it_showed(name):
+    stored = json.loads(STORED.read_text())[name]
+    np.testing.assert_allclose(coarse_pictures(name), stored, atol=2e-5)
+
+
 def test_textures_move_at_their_known_flow():
     scene = build_scene("translate", 7, SIZE)
     # 120 and 35 px/s: after 0.2 s the image has moved 24 px right and 7 px down.
@@ -136,3 +158,8 @@ def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():
     # It moves, and another seed shows another scene.
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, seed)(0.4))
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, 8)(0.0))
+
+
+if __name__ == "__main__":
+    rows = (f"{json.dumps(name)}: {json.dumps(coarse_pictures(name))}" for name in SCENES)
+    STORED.write_text("{\n" + ",\n".join(rows) + "\n}\n")

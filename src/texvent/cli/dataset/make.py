@@ -84,7 +84,6 @@ def run_make(arguments: Sequence[str]) -> int:
     )
     part = parse_part(options.shards)
     recipe, folder = _open(options)
-    recipe.check_device(options.device)
     begin(recipe, folder)
     work = find_work(
         recipe, folder, part=part, retry_failed=options.retry_failed, device=options.device
@@ -137,10 +136,12 @@ def _open(options: MakeOptions) -> tuple[Recipe, Path]:
     if options.specification.is_dir():
         if options.out is not None:
             raise ConfigError("-o goes with a specification; a data set goes on in its own folder")
-        return load_recipe(options.specification), options.specification.absolute()
+        recipe = load_recipe(options.specification)
+        recipe.check_runs(options.device)
+        return recipe, options.specification.absolute()
     specification = read_specification(options.specification)
     folder = Path(specification.name) if options.out is None else options.out
-    return Recipe.of(specification), folder.absolute()
+    return Recipe.of(specification, options.device), folder.absolute()
 
 
 def _engine(options: MakeOptions, work: Work) -> Engine:

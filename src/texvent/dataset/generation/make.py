@@ -192,8 +192,7 @@ def make(
     """
     if not isinstance(specification, Specification):
         specification = read_specification(specification)
-    recipe, folder = Recipe.of(specification), Path(folder).absolute()
-    recipe.check_device(device)
+    recipe, folder = Recipe.of(specification, device), Path(folder).absolute()
     begin(recipe, folder)
     work = find_work(recipe, folder, retry_failed=retry_failed, device=device)
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:

@@ -80,8 +80,12 @@ class Recipe:
     items: Items
 
     @classmethod
-    def of(cls, specification: Specification) -> Recipe:
+    def of(cls, specification: Specification, device: str = AUTO) -> Recipe:
         """Read the sources and check every option, before any work.
+
+        Args:
+            specification: of the data set.
+            device: of the pixel model and networks; "auto": that of the specification.
 
         Raises:
             InputError: a source does not exist or holds nothing.
@@ -90,6 +94,7 @@ class Recipe:
         """
         recipe = cls(specification, read_items(specification))
         recipe._check_options()
+        recipe.check_runs(device)
         for label in specification.allow_classes:
             if label not in recipe.items.labels:
                 raise ConfigError(
@@ -164,11 +169,7 @@ class Recipe:
         return {VIDEOS: ClipSettings(self.command, of_videos, seed), **found}
 
     def _check_options(self) -> None:
-        """Refuse options that some run would refuse, and those of a variant that change the video.
-
-        Raises:
-            ConfigError, InputError, MissingDependencyError: as `texvent.run.prepare.check_run`.
-        """
+        """Refuse a filter without a use, and options of a variant that change the video."""
         least = self.specification.filters.least_control_agreement
         if least is not None and not self.follows_scenes:
             raise ConfigError(
@@ -177,7 +178,6 @@ class Recipe:
             )
         for name, variant in self.variants.items():
             for settings in self.settings[name].extremes:
-                check_run(settings)
                 of_video = {"generator", *option_names(type(settings.source))}
                 wrong = [one for one in variant.options if one in of_video]
                 if wrong and self.command == "generate":
@@ -186,16 +186,17 @@ class Recipe:
                         "are simulated from the same one: set it in options"
                     )
 
-    def check_device(self, device: str) -> None:
-        """Refuse a device that some run would refuse.
+    def check_runs(self, device: str) -> None:
+        """Refuse options, or a device, that some run would refuse.
 
         Raises:
-            ConfigError, MissingDependencyError: as `texvent.run.prepare.check_run`.
+            ConfigError, InputError, MissingDependencyError: as `texvent.run.prepare.check_run`.
         """
         check_device_name(device)
-        for name in self.variants if device != AUTO else ():
+        for name in self.variants:
             for settings in self.settings[name].extremes:
-                check_run(replace(settings, run=replace(settings.run, device=device)))
+                run = settings.run if device == AUTO else replace(settings.run, device=device)
+                check_run(replace(settings, run=run))
 
     @property
     def prompt_settings(self) -> Settings:

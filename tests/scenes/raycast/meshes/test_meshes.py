@@ -20,7 +20,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.mesh import make_mesh, recoloured, smooth_normals, triangle_normals
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.raycast.meshes.hit import hit_mesh
-from texvent_scenes.raycast.meshes.tree import tree_of
+from texvent_scenes.raycast.meshes.tree import join_labels, tree_of
 from texvent_scenes.raycast.render import world_at
 
 SIZE = SensorSize(48, 36)
@@ -89,6 +89,18 @@ def test_no_ray_slips_between_triangles_at_vertices_and_edges():
         origins = np.broadcast_to(np.array(origin), targets.shape).copy()
         depth, _ = cast(mesh, origins, targets - origins)
         assert np.isfinite(depth).all()
+
+
+@given(st.lists(st.tuples(st.integers(0, 11), st.integers(0, 11)), max_size=14))
+def test_joined_items_have_the_least_number_of_their_group(pairs):
+    label = np.arange(12)
+    join_labels(label, *np.array(pairs, np.int64).reshape(-1, 2).T)
+    groups = [{item} for item in range(12)]
+    for pair in pairs:
+        joined = set.union(*(groups[one] for one in pair))
+        for item in joined:
+            groups[item] = joined
+    assert label.tolist() == [*map(min, groups)]
 
 
 def test_meshes_that_are_none_are_refused_in_one_line():
