@@ -55,6 +55,8 @@ _ON_THE_WAY = 0.3
 """Distance from the line between two things at which something is between them, of its length."""
 _BEFORE = 1.5
 """Half widths of both by which what is before or behind something may be aside of it."""
+_BETWEEN = 24
+"""Instants from one to the next at which a body is compared with what it goes through."""
 _PROTRUDING, _SUNKEN = 0.12, 0.2
 """Share of the size of what is in a container that may be beyond its sides, and least share of its
 height below the rim."""
@@ -334,12 +336,19 @@ def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
 
 def _is_through(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it goes in before the middle and out behind it, meets no part, and one is above."""
-    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
-    slim = 0.3 * one.size[:, None]
+    (low, high), middle = other.parts.swapaxes(0, 1), _refined(one.middle)[:, None]
+    slim = 0.3 * _refined(one.size)[:, None]
     is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2).any(axis=1)
     is_under = ((low < middle) & (high > middle))[..., :2].all(axis=2)
     is_roofed = (is_under & (low[:, 2] > middle[..., 2])).any(axis=1)
     return np.asarray(_is_passing(one, other) & ~is_met.any() & is_roofed)
+
+
+def _refined(values: Float64Array) -> Float64Array:
+    """[t, 3] values at many instants between these: a door is thinner than a step is long."""
+    at = np.linspace(0.0, len(values) - 1.0, _BETWEEN * (len(values) - 1) + 1)
+    columns = (np.interp(at, np.arange(len(values)), one) for one in values.T)
+    return np.stack([*columns], axis=1)
 
 
 def _is_around(one: BodyBoxes, other: BodyBoxes) -> _Flags:

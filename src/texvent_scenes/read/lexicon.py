@@ -41,6 +41,13 @@ def owned_parts() -> Mapping[str, Mapping[str, int]]:
     return parts
 
 
+@cache
+def states() -> Mapping[str, str]:
+    """Adjectives of what opens and closes → what it does then: "an open door"."""
+    found: Mapping[str, str] = read_table("words", "read")["states"]
+    return found
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""

@@ -8,13 +8,13 @@ from typing import Any
 
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.read.lexicon import Token, VerbSense, states, word_set
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -150,14 +150,15 @@ class ThingReader:
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
+        if things and token.text in states():
+            return self._set_state(token, subjects)
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif _is_open(field, things):
-            if field in ("colour", *word_set("things", "claimed")):
-                draft.claim(token, field, value, subjects)
-            return
+            is_told = field in ("colour", *word_set("things", "claimed"))
+            return draft.claim(token, field, value, subjects if is_told else [])
         elif value == "opposite":
             if not draft.part_ways(subjects):
                 return
@@ -170,6 +171,15 @@ class ThingReader:
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
+
+    def _set_state(self, token: Token, subjects: Sequence[int]) -> None:
+        """Apply an adjective of what opens and closes: "an open door"."""
+        draft, state = self._draft, states()[token.text]
+        able = [n for n in subjects if state in self._nouns[draft.things[n]["noun"]].acts]
+        for index in able:
+            add_motion(draft.things[index], VerbSense(kind=state))
+        draft.claim(token, "activity", state, able)
+        draft.show(*([token] if able == [*subjects] else []))
 
     # Verbs
 
@@ -195,6 +205,7 @@ class ThingReader:
             self._claim_act(act, verb, index)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
+            draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():

@@ -11,6 +11,7 @@ from texvent_scenes.models.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
     SEATED,
+    TIMED,
     TO_AND_FROM_SEATS,
 )
 from texvent_scenes.models.anchors import Support, find_support
@@ -68,6 +69,8 @@ _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
+_HANDLE_M = 0.36
+"""From the middle of a door to its handle."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -84,6 +87,8 @@ def place_on_targets(
     What it does may change: it rides or orbits the target. `height` is that of its
     origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
+    if kind == "at" and targets[0].noun.acts & TIMED and group.noun.name in PERSON_NOUNS:
+        return Goal(_stand_before(group, targets[0]), _FIXED)
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
     if kind == "between":  # where `object_placement` has left room
@@ -93,6 +98,15 @@ def place_on_targets(
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
     return _PLACE_BY_KIND[kind](group, targets, height)
+
+
+def _stand_before(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
+    """[3] the middle of a person before what opens, turned to it, beside its handle, m."""
+    body, scale = target.models[0], size_of(group.models[0])
+    group.plan = replace(group.plan, yaw=target.plan.yaw + math.pi)
+    group.fit()
+    aside = min(0.4 * body.width, _HANDLE_M) + 0.3 * scale
+    return target.to_world(0.5 * body.length + 0.4 * scale, -aside, group.origin_m)
 
 
 def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
