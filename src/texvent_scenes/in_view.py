@@ -16,6 +16,7 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
+from texvent_scenes.body_boxes import BodyBoxes, body_of
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
@@ -25,7 +26,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.relation_check import BodyBoxes, Violation, body_of, find_violations
+from texvent_scenes.relation_check import Violation, find_violations
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place

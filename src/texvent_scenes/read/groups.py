@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts, states
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts, states, word_set
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -77,6 +77,14 @@ class Group:
         is_open = is_name and self.article not in ("a", "an")
         same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
         return any(one.is_plural for one in same)
+
+
+def is_trajectory(group: Group) -> bool:
+    """Whether it names the way of something, which is no place: "each other's path"."""
+    is_owned = group.article in word_set("things", "owners")
+    is_owned |= any(one.text.endswith(("'s", "’s", "s'")) for one in group.unknown)
+    head = group.head
+    return bool(is_owned and head and head.text in word_set("things", "trajectories"))
 
 
 @dataclass(frozen=True)
@@ -173,6 +181,8 @@ class GroupReader:
         token = self._token()
         if token.text == "and" and self._joins_adjectives():
             return False
+        if self._at > first and token.text.startswith(_PREPOSITIONS):
+            return True  # "blue lights at night"
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
         if token.has(*_HEADS, *MODIFIERS):

@@ -12,9 +12,17 @@ from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOU
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
+from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, VerbSense, states, word_set
+from texvent_scenes.read.groups import Group, Phrase, is_trajectory
+from texvent_scenes.read.lexicon import (
+    NounSense,
+    Sense,
+    Token,
+    VerbSense,
+    states,
+    word_set,
+)
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -62,7 +70,10 @@ class ThingReader:
         """Add what a group names; the indices of its objects, at most one."""
         head = group.head
         found: list[int] = []
-        if head is not None and names_place(head, relation):
+        if head is not None and relation in word_set("things", "by_effects"):
+            head = _see_as_thing(head)
+            group = replace(group, head=head)
+        if head is not None and names_place(head, relation) and not is_trajectory(group):
             self._draft.set_place(group, head, relation)
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
@@ -249,6 +260,14 @@ class ThingReader:
                 thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+def _see_as_thing(head: Token) -> Token:
+    """A word as the thing that has the effect which it names: "around a fire"."""
+    effects = {one.value for one in head.all("effect")} if not head.has("noun") else set()
+    table = read_table("words", "read")["seen_as"]
+    senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
+    return replace(head, senses=tuple(senses)) if senses else head
 
 
 def _is_open(field: str, things: Sequence[Mapping[str, Any]]) -> bool:
