@@ -236,6 +236,8 @@ def _rest_of(
         return {relation.subject: Motion("sit")}
     if kind == "in" or (kind == "on" and target.motion is None):
         return {relation.subject: STANDING}
+    if kind == "through" and "stand open" in nouns[target.noun].acts:
+        return {relation.targets[0]: Motion("stand open")}
     if kind == "wear" or (kind == "hold" and is_person):
         return {relation.targets[0]: STANDING}
     if kind not in _RESTING:
@@ -274,7 +276,7 @@ def _has_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> boo
         or _flickers(one, nouns[one.noun])
         or len(one.motions) > 1
         or one.noun in nouns_with("flows")
-        or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
+        or (one.motion is not None and one.motion.is_moving and one.motion.kind != "sit")
         for one in description.objects
     )
     acts = any(one.kind in ACTED for one in description.relations)

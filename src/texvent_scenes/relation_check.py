@@ -13,15 +13,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.camera import PosedCamera
+from texvent_scenes.body_boxes import BodyBoxes
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
-from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
-from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on
 from texvent_scenes.staging.tracks.phases import ends_at_rest
 
@@ -57,6 +55,10 @@ _ON_THE_WAY = 0.3
 """Distance from the line between two things at which something is between them, of its length."""
 _BEFORE = 1.5
 """Half widths of both by which what is before or behind something may be aside of it."""
+_LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
+"""Least angle of an arc around something, and how much its radius may differ, by its mean."""
+_BETWEEN = 24
+"""Instants from one to the next at which a body is compared with what it goes through."""
 _PROTRUDING, _SUNKEN = 0.12, 0.2
 """Share of the size of what is in a container that may be beyond its sides, and least share of its
 height below the rim."""
@@ -71,38 +73,6 @@ class Violation(NamedTuple):
     """Such as "under", "left" or "snow"; 2 of a count."""
     line: str
     """For the report, such as "the ball under the chair"."""
-
-
-class BodyBoxes(NamedTuple):
-    """Box around a body at the instants of a clip; arrays [t, 3]."""
-
-    middle: Float64Array
-    """m."""
-    size: Float64Array
-    """Extents, m."""
-    seen: Float64Array
-    """Middle in the image: tangents to the right and downwards, and depth, m."""
-    displacement: Float64Array
-    """[3] from the first place to the last along the camera's axes of mid clip, m."""
-    parts: Float64Array
-    """[k, 2, 3] boxes around its shapes at the first instant, m."""
-    ahead: Float64Array = np.zeros((1, 2))
-    """[t, 2] unit vectors of its heading on the ground; zero: it has none."""
-
-
-def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
-    """The body of an actor at instants, s, with the camera at each."""
-    corners = np.array([actor.corners(time) for time in times])
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    middle, shapes = 0.5 * (low + high), actor.place(times[0])
-    seen = np.array([camera.rotation @ (place - camera.position)
-                     for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
-    seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
-    displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
-    parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
-    yaws = np.array([actor.track.at(time).yaw for time in times])
-    ahead = np.stack([np.cos(yaws), np.sin(yaws)], axis=1)
-    return BodyBoxes(middle, high - low, seen, displacement, np.array(parts), ahead)
 
 
 def find_violations(
@@ -339,18 +309,27 @@ def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
 
 def _is_through(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it goes in before the middle and out behind it, meets no part, and one is above."""
-    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
-    slim = 0.3 * one.size[:, None]
+    (low, high), middle = other.parts.swapaxes(0, 1), _refined(one.middle)[:, None]
+    slim = 0.3 * _refined(one.size)[:, None]
     is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2).any(axis=1)
     is_under = ((low < middle) & (high > middle))[..., :2].all(axis=2)
     is_roofed = (is_under & (low[:, 2] > middle[..., 2])).any(axis=1)
     return np.asarray(_is_passing(one, other) & ~is_met.any() & is_roofed)
 
 
+def _refined(values: Float64Array) -> Float64Array:
+    """[t, 3] values at many instants between these: a door is thinner than a step is long."""
+    at = np.linspace(0.0, len(values) - 1.0, _BETWEEN * (len(values) - 1) + 1)
+    columns = (np.interp(at, np.arange(len(values)), one) for one in values.T)
+    return np.stack([*columns], axis=1)
+
+
 def _is_around(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it goes half of the way around, or stays, as in a ring."""
+    """Whether it goes half of the way around, or on an arc about it, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or _stay(one)])
+    turned, far = np.ptp(np.unwrap(np.arctan2(y, x))), np.hypot(x, y)
+    is_arc = turned >= _LEAST_ARC and np.ptp(far) <= _ROUND * far.mean()
+    return np.array([turned >= 1.05 * np.pi or is_arc or _stay(one)])
 
 
 def _is_near(one: BodyBoxes, other: BodyBoxes, share: float) -> _Flags:

@@ -16,13 +16,18 @@ import numpy as np
 
 from texvent.camera import project
 from texvent.sensor import SensorSize
-from texvent_scenes.colours import SURFACES, find_colour
+from texvent_scenes.body_boxes import BodyBoxes, body_of
 from texvent_scenes.description import SEEN, Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES
-from texvent_scenes.models.materials import MATERIALS, has_colour
-from texvent_scenes.models.protocol import Pose
-from texvent_scenes.relation_check import BodyBoxes, body_of, find_violations
-from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
+from texvent_scenes.part_check import (
+    has_colour,
+    is_blinking,
+    is_lit_in,
+    is_moving_inside,
+    is_of_material,
+)
+from texvent_scenes.relation_check import find_violations
+from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
@@ -136,17 +141,11 @@ class _Staged:
         return np.asarray(np.linalg.norm(moved - moved[0], axis=2).max(axis=1))
 
 
-def _has_colour(staged: _Staged, claim: Claim) -> bool:
-    rest = Pose(0.0, 0.0, 0.0, "stand")
-    rgb = find_colour(str(claim.value), SURFACES)
-    return all(has_colour(one.own_parts(rest), rgb) for one in staged.own(claim))
-
-
-def _is_of(staged: _Staged, claim: Claim) -> bool:
-    """Whether most of it has the texture of a material."""
-    texture, rest = MATERIALS[str(claim.value)].texture, Pose(0.0, 0.0, 0.0, "stand")
-    parts = [part.texture is texture for one in staged.own(claim) for part in one.own_parts(rest)]
-    return texture is not Texture.PLAIN and sum(parts) > 0.5 * len(parts)
+def _of_parts(
+    check: Callable[[Sequence[Actor], Claim, Sequence[float]], bool],
+) -> Callable[[_Staged, Claim], bool]:
+    """A check of the parts of bodies, at the instants of the clip."""
+    return lambda staged, claim: check(staged.own(claim), claim, staged.fine_times)
 
 
 def _is_related(staged: _Staged, claim: Claim) -> bool:
@@ -296,16 +295,6 @@ def is_arc(way: Float64Array) -> bool:
     return bool(strays <= _ROUND * radius and np.ptp(angles) >= _LEAST_ARC)
 
 
-def _is_moving_inside(staged: _Staged, claim: Claim) -> bool:
-    """Whether parts of it move in its body: the hands of a clock."""
-    for one in staged.own(claim):
-        at = [one.own_parts(one.pose(time_s)) for time_s in staged.times]
-        places = np.array([[part.to_body for part in each] for each in at])
-        if np.ptp(places, axis=0).max() <= _STILL * one.size_m:
-            return False
-    return True
-
-
 def _swings(staged: _Staged, claim: Claim) -> bool:
     """Whether the part that moves most turns back on its way."""
     for one in staged.own(claim):
@@ -421,9 +410,12 @@ def _is_doing(staged: _Staged, claim: Claim) -> bool:
 
 
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
-    "colour": _has_colour, "material": _is_of, "relation": _is_related, "off": _leaves,
+    "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
+    "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
+     "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
-    "again": _returns, "circle": _is_circling, "parts": _is_moving_inside, "lie": _is_laid,
+    "again": _returns, "circle": _is_circling, "parts": _of_parts(is_moving_inside),
+    "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
     "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "land": _lands, "stop": _stops,

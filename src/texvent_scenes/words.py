@@ -102,7 +102,7 @@ _LONGEST_PATH = 250
 _SAYS = r"says?|saying|reads?|reading|text|words?|labell?ed|title|spelling|displaying|message"
 _LITERAL = re.compile(
     rf"(?<![\w~./\\-])(?P<file>[\w~./\\-]{{1,{_LONGEST_PATH}}}\.(?i:{_ENDINGS}))\b"
-    r"|(?<![\w.])(?P<checks>\d{1,3}\s?[x×]\s?\d{1,3})(?=[\s-]+\w*(?:board|squares|pattern|grid))"
+    r"|(?<![\w.])(?P<checks>\d{1,3}\s?[x×]\s?\d{1,3})(?=[\s-]+(?:[a-z]+[\s-]+)?\w*(?:board|squares|pattern|grid))"
     rf"|(?<=\b)(?i:(?:{_SAYS})\s*:?\s+){_QUOTE}"
     rf"|(?<=\b)(?i:(?:says?|saying|reads?|reading|the\s(?:word|text|letters))\s+)([A-Z0-9]{{2,}}(?:\s[A-Z0-9!]+)*)\b"
     r"|(?<=\b)(?i:(?:digits?|numbers?)\s+)(\d{1,12})\b"

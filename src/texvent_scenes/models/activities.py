@@ -38,6 +38,8 @@ class Activity:
     """Repetitions per second, of an act that is counted; 0 = it is not."""
     is_hop: bool = False
     """Whether it follows the time of a hop."""
+    is_timed: bool = False
+    """Whether it happens once, and follows the time since it began."""
 
 
 USUAL = "usual"
@@ -76,6 +78,8 @@ ANIMAL_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
     {name: one for name, one in _read("animal_activities").items() if one.words}
 )
 """Activities of animals in place: name → activity."""
+TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_timed)
+"""Acts of parts that happen once: a door opens."""
 MOUTH_ACTIVITIES = frozenset(
     name for name in ANIMAL_ACTIVITIES if "down" in motion_of("animal_activities", name)
 )

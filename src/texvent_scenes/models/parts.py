@@ -272,7 +272,6 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
     if table.get("acts", _ACTS[0]) not in _ACTS:
         raise FileFormatError(f"{where}: acts must be one of {', '.join(_ACTS)}")
-    words = table.get("parts", "").split()
     return Noun(
         name,
         PartsBuilder(where, table),
@@ -283,8 +282,20 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
         acts=_acts_of(table) if "acts" not in table else frozenset(),
-        is_working=bool(table.get("works", habitat == "fixed" and "moving" in words)),
+        is_working=bool(table.get("works", habitat == "fixed" and _moves_by_itself(table))),
     )
+
+
+def _moves_by_itself(table: Mapping[str, Any]) -> bool:
+    """Whether parts of it move whatever it does: no door, which an act opens."""
+    lines = table.get("parts", "").splitlines()
+    return any(one.startswith("moving") and " by " not in one for one in lines)
+
+
+def _channels_of(act: str) -> set[str]:
+    """Channels that an activity of animals decides."""
+    row = motion_of("animal_activities", act)
+    return {*row, *row.get("keys", ())}
 
 
 def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
@@ -293,7 +304,5 @@ def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
     followed = set(" ".join(re.findall(r"\bby ([\w. ]+)", text)).split())
     followed |= {"down"} & {"down" if word == "bow" else "" for word in text.split()}
     return frozenset(
-        name
-        for name in ANIMAL_ACTIVITIES
-        if followed & (motion_of("animal_activities", name).keys() - {"idle"})
+        name for name in ANIMAL_ACTIVITIES if followed & (_channels_of(name) - {"idle"})
     )

@@ -23,6 +23,9 @@ from texvent_scenes.models.limbs import Limb
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import read_table
 
+_OWN_TIME = frozenset({"is_hop", "is_timed"})
+"""Keys of a row that follows the time since it began."""
+
 
 @dataclass(frozen=True)
 class Postures:
@@ -71,7 +74,7 @@ class Postures:
         if row is None and " and " in activity:  # "sit on ground and read"
             seat, _, activity = activity.partition(" and ")
             base = {**_fill(self._follow(seat, pose.time_s), base), "look": (0.0,)}
-        time_s = (pose.act_s or 0.0) if row and row.get("is_hop") else pose.time_s
+        time_s = (pose.act_s or 0.0) if row and (row.keys() & _OWN_TIME) else pose.time_s
         posture = _fill(self._follow(activity, time_s, act_s), base)
         if act_s is not None and steps is not None and steps.amount > 0.0:
             posture = blend(base, posture, ease(act_s, -0.50, -0.20))

@@ -10,7 +10,7 @@ from texvent.prompt_report import Substitution
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import read_table
+from texvent_scenes.models.tables import read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
 from texvent_scenes.read.lexicon import NO_TOKEN, word_set
 from texvent_scenes.spec.data import scene_from_data
@@ -109,6 +109,20 @@ def _limit_counts(draft: SceneDraft) -> None:
                 draft.fates[token.at] = str(count)  # "30" balls are 24
 
 
+def _run_belts(draft: SceneDraft) -> None:
+    """Let belts run as what is on them moves, which does not go by itself."""
+    for index, one in enumerate(draft.things):
+        for relation in one["relations"]:
+            belt = draft.things[relation["to"][0]]
+            is_carried = relation["kind"] == "on" and belt["noun"] in trait_values("belt speed")
+            is_carried &= not draft.can_go(index) and len(one["motions"]) == 1
+            if is_carried and one["motions"][0]["kind"] in ("move", "slide", "drive"):
+                said = one["motions"].pop()
+                direction = {"direction": "clockwise"} if said.get("direction") == "left" else {}
+                kept = {key: said[key] for key in ("speed_m_s", "pace") if key in said}
+                belt["motions"] = belt["motions"] or [{"kind": "work", **kept, **direction}]
+
+
 def _build(draft: SceneDraft, prompt: str) -> Scene:
     """The scene."""
     for index, one in enumerate([*draft.things]):
@@ -116,6 +130,7 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
             _reach_speed(motion, draft.nouns[one["noun"]])
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
             draft.halve(index)
+    _run_belts(draft)
     ids = number_nouns([one["noun"] for one in draft.things])
     for one in draft.things:
         done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")

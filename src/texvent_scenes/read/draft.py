@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.read.groups import Group
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import ACTED, PLACING
@@ -150,6 +150,12 @@ class SceneDraft:
             return False
         if kind in PLACING and any(self._stands_by(target, subject) for target in targets):
             return False
+        is_alongside = self.things[targets[0]]["noun"] in nouns_with("alongside")
+        if is_alongside and kind in ("to", "at", "towards"):  # "arrives at a platform"
+            for motion in self.things[subject]["motions"][-1:]:
+                motion["end_pace"] = 0.0
+            kind = "beside"
+        kind = "from" if is_alongside and kind == "out of" else kind
         self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
         return True
 
@@ -174,7 +180,12 @@ class SceneDraft:
 
     def add_move(self, move: dict[str, Any]) -> None:
         """Add a move of the camera; what flies is seen from the air."""
-        self.moves.append({**move, **({"phase": self.phase} if self.phase else {})})
+        phase = {"phase": self.phase} if self.phase else {}
+        same = [one for one in self.moves if one["kind"] == move["kind"] == "travel"]
+        if same and same[-1].get("phase", 0) == self.phase:  # "a dashcam driving at 20 m/s"
+            same[-1].update(move)
+        else:
+            self.moves.append({**move, **phase})
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
 
@@ -186,6 +197,12 @@ class SceneDraft:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         kinds = {one["kind"] for one in self.things[index]["motions"]}
         return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
+
+    def has_top(self, index: int) -> bool:
+        """Whether an object stays, so that others may rise, jump or fall from on top of it."""
+        noun = self.things[index]["noun"]
+        is_low = trait_value("climbed", noun) is None and noun not in nouns_with("towering")
+        return self.nouns[noun].habitat in ("fixed", "ground") and is_low
 
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
@@ -318,6 +335,9 @@ class SceneDraft:
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            is_moved &= verb.object not in TIMED or all(
+                verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
+            )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts, states, word_set
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -79,6 +79,14 @@ class Group:
         return any(one.is_plural for one in same)
 
 
+def is_trajectory(group: Group) -> bool:
+    """Whether it names the way of something, which is no place: "each other's path"."""
+    is_owned = group.article in word_set("things", "owners")
+    is_owned |= any(one.text.endswith(("'s", "’s", "s'")) for one in group.unknown)
+    head = group.head
+    return bool(is_owned and head and head.text in word_set("things", "trajectories"))
+
+
 @dataclass(frozen=True)
 class Phrase:
     """Preposition with its groups; without any, a pronoun follows: "behind them"."""
@@ -128,7 +136,7 @@ class GroupReader:
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown:
+            if token.is_unknown and token.text not in states():
                 unknown.append(token)
                 if article in ("a", "an"):  # "a six axis arm" is one
                     modifiers = [one for one in modifiers if not _counts(one)]
@@ -173,6 +181,8 @@ class GroupReader:
         token = self._token()
         if token.text == "and" and self._joins_adjectives():
             return False
+        if self._at > first and token.text.startswith(_PREPOSITIONS):
+            return True  # "blue lights at night"
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
         if token.has(*_HEADS, *MODIFIERS):
@@ -182,7 +192,9 @@ class GroupReader:
         before = self._token(-1)
         if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling"
-        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
+        is_state = token.text in states() and self._at == first
+        is_word = token.is_unknown or token.has("picture") or is_state
+        return not (is_word or token.verbs("ing", "ed"))
 
     def _joins_adjectives(self) -> bool:
         """Whether "and" stands between two of a kind: "a black and white disc"."""

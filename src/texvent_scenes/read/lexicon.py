@@ -41,6 +41,13 @@ def owned_parts() -> Mapping[str, Mapping[str, int]]:
     return parts
 
 
+@cache
+def states() -> Mapping[str, str]:
+    """Adjectives of what opens and closes → what it does then: "an open door"."""
+    found: Mapping[str, str] = read_table("words", "read")["states"]
+    return found
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""
@@ -122,10 +129,12 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     ]  # fmt: skip
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
-    for noun, kinds in read_table("kinds", "read").items():
-        for kind in kinds if noun in nouns else ():
-            if kind not in plurals:
-                names.setdefault(kind, NounSense(noun, is_kind=True))
+    others = {**read_table("kinds", "read")}
+    same = others.pop("same")
+    for is_kind, table in ((True, others), (False, same)):
+        for noun, kind in ((noun, kind) for noun, kinds in table.items() for kind in kinds):
+            if noun in nouns and kind not in plurals:
+                names.setdefault(kind, NounSense(noun, is_kind=is_kind))
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():

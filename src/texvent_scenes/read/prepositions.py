@@ -61,10 +61,22 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
         for word in each if has and counts <= drawn else ():
-            if word.has("verb") and not word.has("noun", "field"):  # do they move?
-                draft.claim(word, "parts", "", has)
-            draft.show(word)
+            _say_of_part(draft, word, part, has)
     return True
+
+
+def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int]) -> None:
+    """Account for a word about a part; whether it moves, shines or has a colour is to be seen."""
+    is_lamp, fields = part in word_set("things", "lamps"), dict(
+        one.value for one in word.all("field")
+    )  # fmt: skip
+    if word.has("verb") and not word.has("noun", "field"):
+        draft.claim(word, "blink" if is_lamp else "parts", "", owners)
+    elif "colour" in fields:
+        draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
+    elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
+        return  # "with shiny blades"
+    draft.show(word)
 
 
 def _list_words(group: Group) -> list[Token]:
@@ -268,8 +280,11 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way
-    if kind == "from" and [one["kind"] for one in thing["motions"]] == ["rise"]:
+    does = [one["kind"] for one in thing["motions"]]
+    if kind == "from" and does in (["rise"], ["fall"], ["jump"]) and draft.has_top(other):
         return "off"
+    if noun in trait_values("belt speed") and kind in ("past", "down"):
+        return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS else ""
     if kind == "at" and noun not in word_set("things", "tables"):

@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import trait_value
-from texvent_scenes.read.lexicon import NounSense, Sense, Token, word_set
+from texvent_scenes.models.tables import read_table, trait_value
+from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Sense, Token, word_set
 from texvent_scenes.words import list_plurals
 
 _NEAR = 3
@@ -23,10 +23,26 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
-    return [_choose(one, tokens, nouns) if not one.senses else one for one in tokens]
+    chosen = [_choose(one, tokens, nouns) if not one.senses else one for one in tokens]
+    return [_see_beside(one, chosen) for one in chosen]
+
+
+def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token, with the noun that it means beside some others: the platform of a train."""
+    senses = [one.value for one in token.all("noun")]
+    row = read_table("words", "read")["beside"].get(senses[0].noun) if senses else None
+    others = {one.value.noun for each in tokens for one in each.all("noun")}
+    if row is None or not others & {*row["nouns"]}:
+        return token
+    return replace(token, senses=(Sense("noun", replace(senses[0], noun=row["noun"])),))
 
 
 def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> Token:
+    like, (before, following) = read_table("words", "read")["like"], (
+        tokens[one] if 0 <= one < len(tokens) else NO_TOKEN for one in (token.at - 1, token.at + 1)
+    )  # fmt: skip
+    if token.text in like and following.has("articles") and not before.has("articles"):
+        return replace(token, senses=(Sense("relation", like[token.text]),))  # "round a fire"
     found = find_nouns(token.text, nouns)
     after = tokens[token.at + 1 : token.at + 1 + _NEAR]
     kinds = {one.value.kind for each in after for one in each.all("verb")}

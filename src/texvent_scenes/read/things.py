@@ -8,14 +8,21 @@ from typing import Any
 
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.read.groups import Group, Phrase, is_trajectory
+from texvent_scenes.read.lexicon import (
+    NounSense,
+    Sense,
+    Token,
+    VerbSense,
+    states,
+    word_set,
+)
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -63,7 +70,10 @@ class ThingReader:
         """Add what a group names; the indices of its objects, at most one."""
         head = group.head
         found: list[int] = []
-        if head is not None and names_place(head, relation):
+        if head is not None and relation in word_set("things", "by_effects"):
+            head = _see_as_thing(head)
+            group = replace(group, head=head)
+        if head is not None and names_place(head, relation) and not is_trajectory(group):
             self._draft.set_place(group, head, relation)
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
@@ -151,14 +161,15 @@ class ThingReader:
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
+        if things and token.text in states():
+            return self._set_state(token, subjects)
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif _is_open(field, things):
-            if field in ("colour", *word_set("things", "claimed")):
-                draft.claim(token, field, value, subjects)
-            return
+            is_told = field in ("colour", *word_set("things", "claimed"))
+            return draft.claim(token, field, value, subjects if is_told else [])
         elif value == "opposite":
             if not draft.part_ways(subjects):
                 return
@@ -171,6 +182,15 @@ class ThingReader:
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
+
+    def _set_state(self, token: Token, subjects: Sequence[int]) -> None:
+        """Apply an adjective of what opens and closes: "an open door"."""
+        draft, state = self._draft, states()[token.text]
+        able = [n for n in subjects if state in self._nouns[draft.things[n]["noun"]].acts]
+        for index in able:
+            add_motion(draft.things[index], VerbSense(kind=state))
+        draft.claim(token, "activity", state, able)
+        draft.show(*([token] if able == [*subjects] else []))
 
     # Verbs
 
@@ -196,6 +216,7 @@ class ThingReader:
             self._claim_act(act, verb, index)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
+            draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
@@ -247,6 +268,14 @@ class ThingReader:
                 thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+def _see_as_thing(head: Token) -> Token:
+    """A word as the thing that has the effect which it names: "around a fire"."""
+    effects = {one.value for one in head.all("effect")} if not head.has("noun") else set()
+    table = read_table("words", "read")["seen_as"]
+    senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
+    return replace(head, senses=tuple(senses)) if senses else head
 
 
 def _is_open(field: str, things: Sequence[Mapping[str, Any]]) -> bool:

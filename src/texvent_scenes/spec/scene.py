@@ -86,7 +86,7 @@ class Motion:
     @property
     def is_moving(self) -> bool:
         """Whether the object leaves its place or turns."""
-        return self.kind not in ("stand", "hang")
+        return self.kind not in ("stand", "hang", "stand open", "stand closed")
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.anchors import has_places, locate
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.people.outfit import Prop
@@ -123,13 +124,14 @@ class Actor:
     def pose(self, time_s: float) -> Pose:
         """State of its limbs at that instant."""
         state = self.track.at(time_s)
+        is_timed = state.activity in TIMED
         return Pose(
             state.tempo * time_s + 0.37 * self.lead_m,
             state.distance_m + self.lead_m,
             state.speed_m_s,
             state.activity,
             *self._change_over(time_s, state.activity),
-            act_s=state.act_s,
+            act_s=state.tempo * state.act_s if is_timed and state.act_s else state.act_s,
             grips=state.grips,
         )
 

@@ -40,7 +40,7 @@ from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
-RESTS = frozenset({"stand", "sit", "lie", "hang", "move"})
+RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
 """Motions that say no more than a noun does anyway."""
 _ALIKE = (
     ("left", "right", "towards", "away", "forward", "backward", "up", "down"),

@@ -76,7 +76,8 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
     acts = NOUNS[noun].acts
-    assert acts in (frozenset(ANIMAL_ACTIVITIES), MOUTH_ACTIVITIES)
+    of_things = {one for one in ANIMAL_ACTIVITIES if "open" in one or "close" in one}
+    assert acts in (frozenset(ANIMAL_ACTIVITIES) - of_things, MOUTH_ACTIVITIES)
     for act in acts:
         start, moved = parts_at(noun, act, 0.0), 0.0
         for time_s in np.arange(0.0, 2.0, 0.21):
@@ -153,7 +154,7 @@ def test_a_bad_formula_is_named(formula, message):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("by down", "by dwon", "no channel 'dwon'; known: down"),
+        ("by down", "by dwon", "no channel 'dwon'; known: ajar, down"),
         ('"crest"', '"crown"', "known: crest, none"),
         ('"head {height/4}', '"haed {height/4}', "must be on one of ground, head"),
     ],

@@ -13,6 +13,10 @@ from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import ends_at_rest
 
 _FIXED, _AWAY = np.zeros(3), np.array([0.0, 1.0, 0.0])
+_AT_START = ("from", "away from")
+"""Relations to what somebody leaves."""
+_EDGE_M, _AHEAD_M = 0.2, 2.0
+"""Gap between a train and its platform, whose middle is so far ahead of that of the train, m."""
 _AT_DOOR_M, _QUEUE_M = 0.3, 1.2
 """From the wall of a house to the middle of who has come out of it; gap between those who wait or
 stop one before the other, m."""
@@ -28,6 +32,8 @@ def place_on_way(group: ObjectGroup, kind: str, subject: ObjectGroup, height: fl
     has_door = group.noun.name in nouns_with("has a door")
     if kind == "from" and has_door and subject.plan.motion.direction == "towards":
         return _lead_out(group, subject, height)
+    if kind in ("beside", *_AT_START, "past") and group.noun.name in nouns_with("alongside"):
+        return _lay_alongside(group, kind, subject, height)
     if kind in ("behind", "front", "beside"):
         return _place_in_queue(group, kind, subject, height)
     return None
@@ -49,6 +55,22 @@ def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
     group.fit()
     back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _lay_alongside(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
+    """Along the way of a subject where it stops or begins, on the side of the camera."""
+    yaw, path = subject.plan.yaw, subject.plan.path
+    place = np.array(subject.centre)
+    if path is not None:
+        state = path.at(0.0 if kind in _AT_START else subject.plan.duration_s)
+        place, yaw = place + np.array(state.position), state.yaw
+    group.plan = replace(group.plan, yaw=yaw)
+    group.fit()
+    apart = 0.5 * (subject.models[0].width + group.models[0].width) + _EDGE_M
+    side = -1.0 if math.cos(yaw) > 0.0 else 1.0
+    aside = side * apart * np.array([-math.sin(yaw), math.cos(yaw)])
+    along = _AHEAD_M * np.array([math.cos(yaw), math.sin(yaw)])
+    return Goal(np.array([*(place[:2] + aside + along), height]), _FIXED)
 
 
 def _place_in_queue(

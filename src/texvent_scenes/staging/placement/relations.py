@@ -11,6 +11,7 @@ from texvent_scenes.models.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
     SEATED,
+    TIMED,
     TO_AND_FROM_SEATS,
 )
 from texvent_scenes.models.anchors import Support, find_support
@@ -41,6 +42,7 @@ from texvent_scenes.staging.placement.object_groups import (
     list_around,
 )
 from texvent_scenes.staging.placement.on_way import place_on_way
+from texvent_scenes.staging.placement.rings import STANDING_M, stand_before, stand_in_ring
 from texvent_scenes.staging.placement.zones import hangs_on
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
@@ -64,8 +66,8 @@ _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
 
 _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
-_SEATED_M, _STANDING_M = 0.28, 0.35
-"""From the edge of a table to the middle of who sits or stands at it."""
+_SEATED_M = 0.28
+"""From the edge of a table to the middle of who sits at it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _PERSON_M = 0.5
@@ -84,6 +86,8 @@ def place_on_targets(
     What it does may change: it rides or orbits the target. `height` is that of its
     origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
+    if kind == "at" and targets[0].noun.acts & TIMED and group.noun.name in PERSON_NOUNS:
+        return Goal(stand_before(group, targets[0]), _FIXED)
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
     if kind == "between":  # where `object_placement` has left room
@@ -92,15 +96,20 @@ def place_on_targets(
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
+    if kind == "around":
+        return _place_around(group, targets, height, neighbours)
     return _PLACE_BY_KIND[kind](group, targets, height)
 
 
-def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+def _place_around(
+    group: ObjectGroup, targets: Sequence[ObjectGroup], height: float, neighbours: Sequence[int]
+) -> Goal:
     """Circle around a target for moving objects; objects at rest stand around it and face it."""
     target = targets[0]
     x, y, level = target.centre
     if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
-        return Goal(place_at(group, target, [group.index] * len(group.models)), _FIXED)
+        is_table = target.noun.name in nouns_with("table")
+        return Goal((place_at if is_table else stand_in_ring)(group, target, neighbours), _FIXED)
     group.orbits = target
     level += 0.8 * target.top_m if group.noun.habitat == "air" else 0.0
     return Goal(np.array([x, y, max(level, 0.0)]), _FIXED)
@@ -133,7 +142,6 @@ def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: 
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
-    "around": _place_around,
     "above": _place_above,
     "under": _place_under,
     "follow": _place_follower,
@@ -327,7 +335,7 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     is_person = group.noun.name in PERSON_NOUNS
     may_sit = is_person and target.noun.name in nouns_with("table")
     group.on_chairs = may_sit and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
-    reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
+    reach = (_SEATED_M if group.on_chairs else STANDING_M) * scale
     wide, deep, _ = target.half_at_rest() + reach
     places = list_around(len(neighbours), float(wide), float(deep))
     first = neighbours.index(group.index)

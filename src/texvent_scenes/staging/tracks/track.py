@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.shapes import affine, compose, point, shift
 from texvent_scenes.models.shapes import rotation as about
 from texvent_scenes.rendered_scene import Float64Array
@@ -222,6 +223,7 @@ class Track:
         if key.hop_m > 0.0 and 0.0 <= elapsed <= key.duration_s:
             hop, act_s = hop_of(key, elapsed)
             height += hop
+        act_s = elapsed / min(key.duration_s or 1.0, 1.0) if key.activity in TIMED else act_s
         height += self.edge_m * abs(math.sin(pitch))
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
         if not self.is_upright:

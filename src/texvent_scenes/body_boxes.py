@@ -1,0 +1,45 @@
+"""Boxes around bodies and their parts over a clip, in the world and as a camera sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.camera import PosedCamera
+from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor
+
+
+class BodyBoxes(NamedTuple):
+    """Box around a body at the instants of a clip; arrays [t, 3]."""
+
+    middle: Float64Array
+    """m."""
+    size: Float64Array
+    """Extents, m."""
+    seen: Float64Array
+    """Middle in the image: tangents to the right and downwards, and depth, m."""
+    displacement: Float64Array
+    """[3] from the first place to the last along the camera's axes of mid clip, m."""
+    parts: Float64Array
+    """[k, 2, 3] boxes around its shapes at the first instant, m."""
+    ahead: Float64Array = np.zeros((1, 2))
+    """[t, 2] unit vectors of its heading on the ground; zero: it has none."""
+
+
+def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
+    """The body of an actor at instants, s, with the camera at each."""
+    corners = np.array([actor.corners(time) for time in times])
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    middle, shapes = 0.5 * (low + high), actor.place(times[0])
+    seen = np.array([camera.rotation @ (place - camera.position)
+                     for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
+    seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
+    displacement = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
+    parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
+    yaws = np.array([actor.track.at(time).yaw for time in times])
+    ahead = np.stack([np.cos(yaws), np.sin(yaws)], axis=1)
+    return BodyBoxes(middle, high - low, seen, displacement, np.array(parts), ahead)

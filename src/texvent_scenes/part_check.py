@@ -1,0 +1,68 @@
+"""Checks of the parts of bodies: their colours, materials, lamps and joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from texvent_scenes.colours import SURFACES, find_colour
+from texvent_scenes.description import Claim
+from texvent_scenes.models import materials
+from texvent_scenes.models.protocol import ModelPart, Pose
+from texvent_scenes.rendered_scene import Texture
+from texvent_scenes.staging.actors import Actor
+
+_REST = Pose(0.0, 0.0, 0.0, "stand")
+_STILL, _DARK = 1e-3, 0.5
+"""Way of a part that does not move, in sizes of its body; share of its greatest light below which a
+lamp is off."""
+
+
+def has_colour(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+    """Whether each has a part of a colour."""
+    rgb = find_colour(str(claim.value), SURFACES)
+    return all(materials.has_colour(one.own_parts(_REST), rgb) for one in own)
+
+
+def is_of_material(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+    """Whether most of each has the texture of a material."""
+    texture = materials.MATERIALS[str(claim.value)].texture
+    parts = [part.texture is texture for one in own for part in one.own_parts(_REST)]
+    return texture is not Texture.PLAIN and sum(parts) > 0.5 * len(parts)
+
+
+def is_moving_inside(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+    """Whether parts of each move in its body: the hands of a clock."""
+    for one in own:
+        at = [one.own_parts(one.pose(time_s)) for time_s in times]
+        places = np.array([[part.to_body for part in each] for each in at])
+        if np.ptp(places, axis=0).max() <= _STILL * one.size_m:
+            return False
+    return True
+
+
+def _list_lamps(actor: Actor, times: Sequence[float]) -> Iterator[list[ModelPart]]:
+    """Each part that shines, at the instants."""
+    for each in zip(*(actor.own_parts(actor.pose(time_s)) for time_s in times), strict=True):
+        if max(part.emission for part in each) > 0.0:
+            yield list(each)
+
+
+def is_blinking(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+    """Whether a lamp of each is on and off."""
+    return all(
+        any(
+            min(part.emission for part in lamp) <= _DARK * max(part.emission for part in lamp)
+            for lamp in _list_lamps(one, times)
+        )
+        for one in own
+    )
+
+
+def is_lit_in(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+    """Whether a lamp of each shines in a colour."""
+    rgb = find_colour(str(claim.value), SURFACES)
+    return all(
+        any(materials.has_colour(lamp[:1], rgb) for lamp in _list_lamps(one, times)) for one in own
+    )
