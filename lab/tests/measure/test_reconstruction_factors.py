@@ -199,6 +199,28 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     assert pages["reconstruction-factors.svg"].startswith(b"<?xml")
 
 
+def test_a_published_network_is_scored_as_a_trained_one(folder, monkeypatch, capsys):
+    write_recording(folder / "bar")
+    monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))
+    words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
+    words += ["--seeds", "1", "--clips", "1", "--names", "as it is", "--published", "firenet"]
+    monkeypatch.setattr(
+        sys, "argv", ["reconstruction_factors", *words, "-o", str(folder / "a.json")]
+    )
+    assert main() == 2  # there are no weights, which is known before any training
+    assert "firenet.pth" in capsys.readouterr().err
+    assert not (folder / "work").exists()
+    monkeypatch.setattr(sys, "argv", [one for one in sys.argv if one not in words[-2:]])
+    assert main() == 0
+    weights = folder / "texvent-cache/weights/firenet.pth"
+    weights.parent.mkdir(parents=True, exist_ok=True)
+    weights.write_bytes((folder / "work/factor-0-0/weights.pt").read_bytes())
+    monkeypatch.setattr(sys, "argv", [*sys.argv, "--published", "firenet", "--overwrite"])
+    assert main() == 0
+    trained, published = read_document(folder / "a.json")["rows"]
+    assert published == {"factor": "firenet, as published", "scores": trained["scores"]}
+
+
 def test_a_table_has_means_and_errors_over_seeds():
     table = factors_table([FactorScore("a", {"mse": [0.1, 0.3], "ssim": [0.5, 0.5]})])
     assert "| a | 0.200 ± 0.100 | 0.500 ± 0.000 |" in table

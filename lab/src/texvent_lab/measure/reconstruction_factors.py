@@ -171,16 +171,30 @@ def trainings(
     return found
 
 
-def score(weights: Path, config: ReconstructionConfig, recording: FrameRecording) -> dict[str, Any]:
-    """Means of the measures over the images that a network makes of recorded events."""
+def score(name: str, weights: Path | None, recording: FrameRecording) -> dict[str, Any]:
+    """Means of the measures over the images that a network makes of recorded events.
+
+    Raises:
+        InputError: there are no weights.
+    """
     from texvent_lab.reconstruct.reconstructor import load_reconstructor  # imports torch
 
-    network = load_reconstructor(config.network.name, weights)
+    network = load_reconstructor(name, weights)
     scorer = ReconstructionScorer(
         reconstructor=network, measures=load_measures(), plan=ReconstructionPlan()
     )
     scores = scorer.score(recording, recording.events).scores
     return {name: scores.mean(name) for name in scores.values}
+
+
+def score_published(names: Sequence[str], recording: FrameRecording) -> list[dict[str, Any]]:
+    """Rows of published networks, whose weights are found as `texvent reconstruct` finds them."""
+    rows = []
+    for name in names:
+        found = score(name, None, recording)
+        scores = {measure: [value] for measure, value in found.items()}
+        rows.append({"factor": f"{name}, as published", "scores": scores})
+    return rows
 
 
 def run(
@@ -190,13 +204,15 @@ def run(
     seeds: int,
     names: Sequence[str] | None,
     scale: Scale = Scale(),
+    published: Sequence[str] = (),
 ) -> Any:
-    """Train and score what was not before; the document."""
+    """Train and score what was not before, after networks as they were published; the document."""
     from texvent_lab.train.loop import train  # imports torch
     from texvent_lab.train.reconstruction.streamed import StreamedTask
 
     start, rows = time.perf_counter(), []
     recording = dataclasses.replace(open_recording(locate_source(source)[0]), name=source)
+    yardsticks = score_published(published, recording)
     configs = trainings(path, work, names, scale)
     draws = {name: one.get("stream") for name, one in read_document(path)["factors"].items()}
     for name, config in configs.items():
@@ -209,7 +225,7 @@ def run(
             if draws[name] is not None:
                 task, tables = StreamedTask(one, draws[name]), {**tables, "stream": draws[name]}
             train(task, one.schedule, folder, tables=tables, **options)
-            for measure, value in score(folder / "weights.pt", one, recording).items():
+            for measure, value in score(one.network.name, folder / "weights.pt", recording).items():
                 values.setdefault(measure, []).append(value)
             print(f"{name}, seed {seed}: {time.perf_counter() - start:.0f} s", file=sys.stderr)
         rows.append({"factor": name, "scores": values})
@@ -218,7 +234,7 @@ def run(
         "environment": describe_environment(),
         "recording": source,
         "protocol": {"networks per row": seeds, **dataclasses.asdict(scale)},
-        "rows": rows,
+        "rows": [*rows, *yardsticks],
         "seconds": time.perf_counter() - start,
     }
 
@@ -233,13 +249,16 @@ def main() -> int:
     parser.add_argument("--clips", type=int, help="clips to learn from; default: all")
     parser.add_argument("--epochs", type=int, help="of each training; default: as its file says")
     parser.add_argument("--names", help="factors, separated by commas; default: all")
+    parser.add_argument("--published", help="networks to score beside them, such as pie-net")
     parser.add_argument("-o", "--out", type=Path)
     parser.add_argument("--overwrite", action="store_true")
     given = parser.parse_args()
-    names = given.names.split(",") if given.names else None
+    names, published = (one.split(",") if one else None for one in (given.names, given.published))
     try:
         scale = Scale(given.clips, given.epochs)
-        document = run(given.factors, given.recording, given.work, given.seeds, names, scale)
+        document = run(
+            given.factors, given.recording, given.work, given.seeds, names, scale, published or ()
+        )
         if given.out:
             write_document(given.out, document, overwrite=given.overwrite)
     except TexventError as error:

@@ -33,10 +33,14 @@ table.threshold = [0.05, 2.0]
 [factors.late]
 table.times = "frames"
 
+[factors.drawn]
+turntable.stream = "recommended"
+
 [factors.own]
 turntable.scenes.assets = "looks"
 turntable.threshold = 0.4
 """
+COUNTS = "number of events alone"
 LOOK = """
 [mug]
 parts = "box paint  0 0 .05  .1 .1 .1"
@@ -65,7 +69,7 @@ def test_a_factor_replaces_one_property_and_leaves_the_others(configs):
     found = read_factors(configs / "factors.toml", arms_of(configs))
     base = found["table"]["texvent"]
     assert list(found["table"]) == ["texvent", "no noise", "far", "more", "late"]
-    assert list(found["turntable"]) == ["texvent", "no noise", "own"]
+    assert list(found["turntable"]) == ["texvent", "no noise", "drawn", "own"]
     assert found["table"]["no noise"] == Arm(base.specification, {"noise": "none"})
     far = found["table"]["far"].items
     assert {one.scene["camera"]["position_m"][1] for one in far} == {-0.8}
@@ -112,6 +116,7 @@ def test_thresholds_are_matched_fixed_or_drawn_per_clip(configs):
             'arm = "texvent"\n[factors.a.table]\ntimes = "frame"',
             "allowed: exact, frames",
         ),
+        ('arm = "texvent"\n[factors.a.table]\nstream = "v3v"', "stream is 'v3v'; .*'v2v'"),
         ('arm = "texvent"\n[factors.a.table]\nthreshold = -1', "give one above 0, or the"),
     ],
 )
@@ -135,12 +140,16 @@ def test_the_command_compares_factors_with_their_arm(configs, tmp_path, capsys):
     assert document["reference"] == "texvent"
     table, turntable = ([one["arm"] for one in document[test]] for test in ("table", "turntable"))
     assert table == ["texvent", "no noise", "far", "more", "late", "recorded"]
-    assert turntable == ["texvent", "no noise", "own", "recorded", "number of events alone"]
+    assert turntable == ["texvent", "no noise", "drawn", "own", "recorded", COUNTS]
     windows = {one["arm"]: one["windows"] for one in document["table"][:5]}
     assert windows["more"]["windows"] == 2 * windows["texvent"]["windows"]
     assert windows["more"]["threshold"] is None
     assert windows["late"]["share"] != windows["texvent"]["share"]
-    assert document["turntable"][2]["windows"]["threshold"] == 0.4
+    by_arm = {one["arm"]: one["windows"] for one in document["turntable"]}
+    assert by_arm["own"]["threshold"] == 0.4
+    assert by_arm["drawn"]["threshold"] is None
+    assert by_arm["drawn"]["events"] != by_arm["texvent"]["events"] > 0
+    assert document["protocol"]["arms"]["drawn"] == {"stream": "recommended"}
     assert "| less texvent |" in capsys.readouterr().out
     page = page_files(document, "one.json")["one.md"].decode()
     assert "| more | – | " in page

@@ -46,6 +46,13 @@ class DigitsArm:
     threshold_range: float = 1.0
     """Highest threshold over the lowest: each part of a set draws its own about the fitted one,
     evenly on a logarithmic scale. 1 is one threshold for all."""
+    stream: str = ""
+    """Draws of a training stream, by name, for each part of a set in place of the model's."""
+
+    @property
+    def part(self) -> int:
+        """Digits that share the draws of their pixels."""
+        return SHEET if self.threshold_range == 1.0 and not self.stream else PART
 
     def settings(self, way: Way, *, threshold: float | None = None) -> Settings:
         """Options of a run.
@@ -68,6 +75,10 @@ class DigitsArm:
         return fitted * math.exp(part * math.log(self.threshold_range))
 
 
+SHEET = 100
+"""Digits per sheet."""
+PART = 20
+"""Digits per sheet where thresholds are drawn."""
 THRESHOLD_KEY = 0x7E57
 """Keeps the draws of thresholds apart from those of motion."""
 _PAPER = {"simulator": "texvent", "preset": "paper"}
@@ -114,8 +125,12 @@ ABLATION: tuple[DigitsArm, ...] = (
     DigitsArm(
         "all but latency", {**_QUIET, **_FRAME_TIMES}, ("frames",), WIDE, threshold_range=40.0
     ),
+    DigitsArm("recommended", {}, ("exact",), MEASURED, stream="recommended"),
+    DigitsArm("stream physical", {}, ("exact",), MEASURED, stream="physical"),
+    DigitsArm("v2v", {}, ("exact",), MEASURED, stream="v2v"),
 )
-"""Display, motion and noise as on the pairs for fitting; then one property changed, then all.
+"""Display, motion and noise as on the pairs for fitting; then one property changed, then all; then
+the training stream's draws, of which no threshold is fitted.
 Nearly all noise of N-MNIST's sensor is OFF, .25 events per pixel and second, and its photoreceptors
 follow brightness as a low-pass of 40 Hz at white does: both measured on the pairs."""
 

@@ -106,8 +106,8 @@ class SetScore:
     events: float
     """Events of the median simulated recording."""
     on_share: float
-    threshold: float
-    """Contrast threshold, log units."""
+    threshold: float | None
+    """Contrast threshold, log units; None where a stream draws it."""
     is_matched: bool
     """Whether the threshold gives the recorded count; else it is the preset's own."""
     accuracy: list[float]
@@ -157,9 +157,10 @@ def digits_table(report: DigitsReport) -> str:
     table = []
     for row in ranked:
         one = next(iter(row.values()))
-        lost = "" if one.is_matched else " (count not reached)"
+        drawn = "drawn" if one.threshold is None else f"{one.threshold:.3f}"
+        lost = "" if one.is_matched or one.threshold is None else " (count not reached)"
         cells = [_cell(row[kind]) if kind in row else "–" for kind in report.ceiling]
-        counts = (f"{one.threshold:.3f}", f"{one.events:.0f}{lost}", f"{one.on_share:.3f}")
+        counts = (drawn, f"{one.events:.0f}{lost}", f"{one.on_share:.3f}")
         table.append([one.arm, WAY_TITLES[one.way], *counts, *cells])
     ceiling = [mean_text(values) for values in report.ceiling.values()]
     counts = ("", f"{report.recorded_events:.0f}", f"{report.recorded_on_share:.3f}")

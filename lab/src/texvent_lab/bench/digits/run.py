@@ -7,6 +7,7 @@ so that a run that was stopped goes on.
 from __future__ import annotations
 
 import dataclasses
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,12 +20,15 @@ from numpy.typing import NDArray
 from texvent import __version__
 from texvent.config import check_range
 from texvent.errors import FileFormatError
+from texvent.events import EventStream
 from texvent.extending import require
+from texvent.frames import frame_time_us
 from texvent.io.atomic import atomic_file
 from texvent.run.prepare import prepare_video
 from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.files.cache_folder import make_folder
 from texvent.simulation.model_options import contrast_threshold_of
+from texvent.training.draws import RANGES
 from texvent_lab.bench.digits.data import (
     FIRST_TEST,
     DigitRecording,
@@ -40,9 +44,17 @@ from texvent_lab.bench.digits.inputs import (
     represent_all,
     represent_recordings,
 )
-from texvent_lab.bench.digits.plan import Cell, DigitsArm, DigitsPlan, DigitsTraining, Way, find_arm
+from texvent_lab.bench.digits.plan import (
+    BETWEEN,
+    Cell,
+    DigitsArm,
+    DigitsPlan,
+    DigitsTraining,
+    Way,
+    find_arm,
+)
 from texvent_lab.bench.digits.results import DigitsReport, SetScore, compare_with_best
-from texvent_lab.bench.digits.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.sheet import WHITE, Digits, DigitSheet
 from texvent_lab.bench.digits.training import predict, train_network
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.jobs import Progress, no_progress
@@ -51,10 +63,6 @@ from texvent_lab.train.schedule import EXTRA
 
 PROTOCOL = 4
 """Part of every file's name: raise it when a step computes something else from the same plan."""
-SHEET = 100
-"""Digits per sheet."""
-PART = 20
-"""Digits per sheet where thresholds are drawn."""
 LEAST_AGREEMENT = 0.6
 """Share of events with the right sign below which recordings are refused; see
 `polarity_agreement`."""
@@ -120,6 +128,8 @@ class DigitsRun:
         settings = arm.settings(cell.way).as_tables()
         chance = (dataclasses.asdict(arm.stimulus), arm.threshold_range)
         facts = (settings, *chance, plan.pairs, self.target, plan.digits, self.mnist)
+        if arm.stream:
+            facts = (*facts, arm.stream)
         return self.path("set", ".npz", *facts)
 
     def prediction_path(self, training: DigitsTraining) -> Path:
@@ -182,6 +192,11 @@ def make_set(run: DigitsRun, cell: Cell) -> str:
     """
     start_s, plan, arm = time.perf_counter(), run.plan, find_arm(cell.arm)
     mnist = read_mnist(plan.mnist)
+    if arm.stream:
+        found = simulate_digits(mnist, plan.numbers, arm, cell.way, math.nan)
+        dataclasses.replace(found, is_matched=False).write(run.set_path(cell))
+        seconds = time.perf_counter() - start_s
+        return f"{cell.arm}: {found.median_count:.0f} events ({seconds:.0f} s)"
 
     def simulate(numbers: NDArray[np.int64], threshold: float, arm: DigitsArm) -> InputSet:
         return simulate_digits(mnist, numbers, arm, cell.way, threshold)
@@ -219,16 +234,12 @@ def simulate_digits(
         threshold: contrast threshold, log units.
     """
     parts = []
-    size = SHEET if arm.threshold_range == 1.0 else PART
-    for first in range(0, len(numbers), size):
-        chosen = numbers[first : first + size]
-        number = int(chosen[0])
-        settings = arm.settings(way, threshold=arm.threshold_of(number, threshold))
-        run = dataclasses.replace(settings.run, seed=number)
+    for first in range(0, len(numbers), arm.part):
+        chosen = numbers[first : first + arm.part]
         digits = Digits.draw(mnist.images[chosen - 1], chosen, DRAWING_SEED, arm.stimulus)
-        sheet = DigitSheet(digits)
-        video = prepare_video(sheet, dataclasses.replace(settings, run=run))
-        images, counts = represent_all(video.packets.collect())
+        sheet, number = DigitSheet(digits), int(chosen[0])
+        events = _events_of(sheet, arm, way, arm.threshold_of(number, threshold), number)
+        images, counts = represent_all(events)
         parts.append(
             InputSet(
                 {name: sheet.cut(image) for name, image in images.items()},
@@ -237,6 +248,24 @@ def simulate_digits(
             )
         )
     return join_inputs(parts)
+
+
+def _events_of(
+    sheet: DigitSheet, arm: DigitsArm, way: Way, threshold: float, seed: int
+) -> EventStream:
+    """Events of a sheet by the pixel model of an arm, or by the draws of its stream."""
+    if arm.stream:
+        from texvent_lab.train.one_clip import streamed_events  # imports torch
+
+        fps = sheet.fps * (BETWEEN + 1)
+        instants = (frame_time_us(n, fps) for n in range((sheet.frame_count - 1) * (BETWEEN + 1)))
+        frames = [sheet.at(one) for one in instants]
+        light = np.stack([one.pixels for one in frames]) / WHITE
+        coded = np.rint(WHITE * light ** (1 / RANGES[arm.stream].gamma)).astype(np.uint8)
+        return streamed_events(coded, np.array([one.t_us for one in frames]), arm.stream, seed)
+    settings = arm.settings(way, threshold=threshold)
+    run = dataclasses.replace(settings.run, seed=seed)
+    return prepare_video(sheet, dataclasses.replace(settings, run=run)).packets.collect()
 
 
 def train_one(run: DigitsRun, training: DigitsTraining) -> str:
@@ -295,7 +324,7 @@ def collect(run: DigitsRun, seconds: float) -> DigitsReport:
                     representation=kind,
                     events=simulated.median_count,
                     on_share=simulated.on_share,
-                    threshold=simulated.threshold,
+                    threshold=None if math.isnan(simulated.threshold) else simulated.threshold,
                     is_matched=simulated.is_matched,
                     accuracy=(votes[cell] == recorded.labels).mean(axis=1).tolist(),
                     p=p_values[cell],

@@ -17,11 +17,13 @@ from texvent.extending import suggest
 from texvent.options.values import convert
 from texvent.runtime.identity import derived_seed
 from texvent.settings.config_files import read_document
+from texvent.training.draws import RANGES
 from texvent_lab.bench.fidelity.event_files import FileEntry
 
 Test: TypeAlias = Literal["table", "turntable"]
 Times: TypeAlias = Literal["exact", "frames"]
 TIMES = get_args(Times)
+CHANGES = ("options", "scenes", "vary", "clips", "threshold", "spread", "times", "stream")
 
 
 def clip_name(test: Test, item: Item) -> str:
@@ -43,6 +45,8 @@ class Arm:
     """Standard deviation of the natural logarithm of the threshold between clips."""
     times: Times = "exact"
     """Whether events have times of their own, or that of the next frame."""
+    stream: str = ""
+    """Draws of a training stream, by name, in place of the simulator and its thresholds."""
     events: FileEntry | None = None
     """Events that another program made of the clips, in place of a simulator's."""
 
@@ -79,7 +83,7 @@ def read_factors(path: Path, arms: Mapping[Test, Mapping[str, Arm]]) -> dict[Tes
     Args:
         path: a TOML file: `arm`, and a table `factors.NAME.TEST` each with some of `options` (of
             the simulator), `scenes` (options of the scenes), `vary`, `clips` (a factor of their
-            number), `threshold`, `spread` and `times`; see `Arm`.
+            number), `threshold`, `spread`, `times` and `stream`; see `Arm`.
         arms: test → arms of its specification.
 
     Raises:
@@ -102,12 +106,13 @@ def read_factors(path: Path, arms: Mapping[Test, Mapping[str, Arm]]) -> dict[Tes
 
 
 def _changed(arm: Arm, changes: Mapping[str, Any], folder: Path, where: str) -> Arm:
-    _known(changes, ("options", "scenes", "vary", "clips", "threshold", "spread", "times"), where)
+    _known(changes, CHANGES, where)
     times: Times = changes.get("times", arm.times)
-    if times not in get_args(Times):
-        raise ConfigError(
-            f"{where}: times is {shown(times)}; {suggest(str(times), get_args(Times))}"
-        )
+    stream = changes.get("stream", arm.stream)
+    for name, value, allowed in (("times", times, TIMES), ("stream", stream, ("", *RANGES))):
+        if value not in allowed:
+            known = suggest(str(value), tuple(one for one in allowed if one))
+            raise ConfigError(f"{where}: {name} is {shown(value)}; {known}")
     share, spread = (
         float(convert(changes.get(name, usual), float, f"{where}: {name}"))
         for name, usual in (("clips", 1.0), ("spread", arm.spread))
@@ -132,6 +137,7 @@ def _changed(arm: Arm, changes: Mapping[str, Any], folder: Path, where: str) -> 
         threshold,
         spread,
         times,
+        stream,
     )
 
 

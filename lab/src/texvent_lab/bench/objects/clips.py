@@ -94,6 +94,15 @@ def simulate_clip(path: Path, options: Mapping[str, Any], threshold: float | Non
     return simulate_video(_video(path), _settings(path, options), threshold)
 
 
+def stream_clip(path: Path, randomize: str) -> EventStream:
+    """Events of an arm whose pixels are drawn as a training stream draws them."""
+    from texvent_lab.train.one_clip import streamed_events  # imports torch
+
+    luma = np.stack([one.pixels for one in frames_of(path)])
+    times_us = np.array(_video(path).times_us)
+    return streamed_events(luma, times_us, randomize, derived_seed(1, path.stem))
+
+
 def at_frames(path: Path, events: EventStream) -> EventStream:
     """Events of a clip, each at the time of the first frame that is not before it."""
     times_us = np.array(_video(path).times_us)

@@ -195,6 +195,8 @@ class Run:
         facts: list[Any] = [dict(arm.options), self.target(test), arm.threshold, arm.spread]
         if arm.times != "exact":
             facts.append(arm.times)
+        if arm.stream:
+            facts.append(["stream", arm.stream])
         if arm.events is not None:
             facts.append(arm.events.digest)
         return self.path("windows", frames, *facts)

@@ -39,6 +39,7 @@ from texvent_lab.bench.objects.clips import (
     match_threshold,
     render_clip,
     simulate_clip,
+    stream_clip,
 )
 from texvent_lab.bench.objects.plan import (
     CLASSES,
@@ -170,7 +171,7 @@ def simulate(run: Run, test: Test, name: str) -> str:
             count, pixels = count_pixels(paths[:PILOT], events_of)
             found, _ = arm.events.fit(count, round(target * pixels))
             threshold = None if found is None else found.threshold
-        elif not arm.threshold:
+        elif not arm.threshold and not arm.stream:
             threshold = match_threshold(paths[:PILOT], arm.options, events_of, target)
         numbers = [CLASSES[test].index(one.label or "") for one in arm.items]
         thresholds = [arm.threshold_of(one.stem, threshold) for one in paths]
@@ -197,7 +198,10 @@ def _simulator(run: Run, test: Test, arm: Arm) -> Simulate:
         ).collect()
 
     def simulated(path: Path, threshold: float | None) -> EventStream:
-        events = simulate_clip(path, arm.options, threshold)
+        if arm.stream:
+            events = stream_clip(path, arm.stream)
+        else:
+            events = simulate_clip(path, arm.options, threshold)
         return at_frames(path, events) if arm.times == "frames" else events
 
     return simulated
@@ -279,7 +283,7 @@ def _protocol(run: Run) -> dict[str, Any]:
         "spread of thresholds": plan.spread,
         "recorded share of pixels with an event": {test: run.target(test) for test in CLASSES},
         "arms": {
-            name: dict(arm.options)
+            name: {"stream": arm.stream} if arm.stream else dict(arm.options)
             for test in ("turntable", "table")
             for name, arm in plan.sets[test].items()
         },

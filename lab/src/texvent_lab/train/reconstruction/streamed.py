@@ -13,10 +13,10 @@ import numpy as np
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.errors import InputError
-from texvent.frames import MICROSECONDS
 from texvent.options.values import plain
 from texvent.runtime.identity import derived_seed, digest
 from texvent.training import Clip, EventStream, PromptClips
+from texvent_lab.train.one_clip import OneClip
 from texvent_lab.train.reconstruction.config import ReconstructionConfig
 from texvent_lab.train.reconstruction.task import IMAGES, VOXELS, WHITE, ReconstructionTask
 from texvent_lab.train.task import Batches
@@ -93,7 +93,7 @@ class StreamedExamples:
         between_us = float(np.median(np.diff(clip.times_us)))
         side = data.crop or clip.frames.shape[1]
         stream = EventStream(
-            _One(clip),
+            OneClip(clip),
             batch=1,
             frames=data.length,
             size=(side, side),
@@ -115,21 +115,3 @@ class StreamedExamples:
 @cache
 def _rendered(prompt: str, seed: int, options: str) -> Clip:
     return PromptClips([prompt], **json.loads(options), seed=seed).read(0, (), MOST_BYTES)
-
-
-@dataclass(frozen=True)
-class _One:
-    """A `ClipSource` of one clip."""
-
-    clip: Clip
-    known_truth: tuple[str, ...] = ()
-
-    def __len__(self) -> int:
-        return 1
-
-    def name(self, index: int) -> str:
-        return f"clip {index} of {self.clip.times_us[-1] / MICROSECONDS:g} s"
-
-    def read(self, index: int, truth: Any, most_bytes: int) -> Clip:
-        del index, truth, most_bytes
-        return self.clip
