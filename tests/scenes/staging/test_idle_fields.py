@@ -230,6 +230,7 @@ def test_a_motion_that_begins_late_is_not_taken_for_rest(what, start_s):
     assert (f"{kind}s", start) == (what.split()[1], start_s)
 
 
+@pytest.mark.filterwarnings("ignore:scene. not shown. the crossing")
 def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():
     car = SceneObject("car", position_m=(-4, 1), heading_deg=0, motions=(Motion("drive"),))
     scene = Scene(objects=(car,), place=Place("city", crossing_m=(9, 30)))
