@@ -15,7 +15,7 @@ from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, VerbSense, word_set
+from texvent_scenes.read.lexicon import Token, VerbSense, owned_parts, word_set
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -94,6 +94,10 @@ class ThingReader:
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
+        owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
+        if owners and group.article in word_set("things", "owners"):
+            draft.show(head)
+            return []  # "a cyclist falls off his bike"
         is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
@@ -209,6 +213,7 @@ class ThingReader:
         draft = self._draft
         if act.kind in ("swim", "surf"):
             draft.claim(verb, "water", "", [index])
+            draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move":
