@@ -93,6 +93,23 @@ def test_who_rides_in_a_closed_vehicle_is_hidden():
     assert not report("a woman rides a motorcycle").out_of_view
 
 
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a girl swings on a swing in a playground", "on", True),
+        ("a girl on a swing is pushed by her brother", "on", False),  # she is moved off it
+        ("a tram passes a church and stops", "stops", True),
+    ],
+)
+def test_a_swing_bears_on_its_seat_and_what_passes_may_stop(text, word, is_shown):
+    said = " ".join(report(text).shown).split()
+    assert (word in said) == is_shown
+
+
+def test_the_head_of_a_compound_is_not_its_first_noun():
+    assert "aircraft" in report("a jet takes off from an aircraft carrier").not_understood
+
+
 def test_a_cyclist_has_one_bicycle():
     assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
     assert "bike" in report("a cyclist falls off his bike").shown

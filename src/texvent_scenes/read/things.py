@@ -229,7 +229,10 @@ class ThingReader:
     def _can_arrive(self, subjects: Sequence[int]) -> bool:
         """Whether what stops goes by itself, and nothing is said of how it moves before."""
         things = self._draft.things
-        return all(self._draft.can_go(n) and not things[n]["motions"] for n in subjects)
+        said = [things[n]["motions"] for n in subjects]
+        is_open = all(not one or [{*each} for each in one] == [{"kind"}] for one in said)
+        is_open &= all(each["kind"] == "move" for one in said for each in one)  # "passes and stops"
+        return is_open and all(map(self._draft.can_go, subjects))
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
