@@ -34,6 +34,7 @@ from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.particles.choose import FALLING
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
@@ -49,7 +50,7 @@ several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
 _PART = 0.03
-"""Share of the image from which on acts on what is cut off are seen: at the trunk of a tree."""
+"""Share of the image from which on climbing what is cut off is seen: the trunk of a tree."""
 _FILLED = (0.1, 0.4)
 """Shares of the image that tell what something is of which less than `LEAST_INSIDE` is inside, or
 even than `LEAST_SEEN`: a wall of a garage is none."""
@@ -104,6 +105,9 @@ def find_unseen(
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     pixels = {one: view.pixels for one, view in views.items()}
     related = {i for one in description.relations for i in one.targets}
+    climbed = {
+        i for one in description.relations for i in one.targets if one.kind in ("up", "down")
+    }
     least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     unseen, partly = {*scene.missing}, set[int]()
@@ -134,12 +138,14 @@ def find_unseen(
                 continue
         elif most < least and inside < 2:
             outside.append(f"{thing.noun} (cut off)")
-            is_large = most >= _PART * size.width * size.height
+            is_large = index in climbed and most >= _PART * size.width * size.height
             partly |= {index} if inside or is_large else set()
         else:
             continue
         unseen.add(index)
-    hidden = unseen - partly
+    inside_one = _list_inside(description, scene.actors)
+    outside += [f"{description.objects[index].noun} (hidden)" for index in sorted(inside_one)]
+    unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
     violations = [*_list_words_of(description, unseen, partly)]
@@ -169,6 +175,14 @@ def _find_unrealised(
             yield one
     yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+
+
+def _list_inside(description: SceneDescription, actors: Sequence[Actor]) -> set[int]:
+    """Objects that ride in a closed vehicle, which shows nobody."""
+    closed = {one.object_index for one in actors if hides_riders(one.noun)}
+    bodied = {one.object_index for one in actors}
+    return {one.subject for one in description.relations
+            if one.kind in ("ride", "in") and one.targets[0] in closed} - bodied  # fmt: skip
 
 
 def _is_brief(views: Sequence[View]) -> bool:

@@ -32,7 +32,8 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 """Direction → axis of the camera (right, down, forward) and sign."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow")
+_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
+            "on a seat")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _TOGETHER, _PASSED_ALL = ("behind", "front", "beside"), ("past", "overtake")
@@ -129,6 +130,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
         is_seen = target in nouns_with("see-through")
         is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
         return "never" if is_out else "contained"
+    if kind == "on" and target in nouns_with("swings"):
+        return "on a seat"
     if kind == "on" and hangs_on(noun, target):
         return "hung"
     if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
@@ -375,6 +378,8 @@ _RULES: Mapping[str, _Rule] = {
     "in": lambda one, other: _within(one, other, 3),
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
     "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,
+    "on a seat": lambda one, other: _within(one, other, 2) & (_clears(one, other, 0.0) < 0.0),
+    "push": lambda one, other: _is_near(one, other, 0.5),
     "contained": _is_contained, "hung": _is_hung,
     "never": lambda one, other: np.zeros(1, dtype=np.bool_),
     "through an opening": _is_through,

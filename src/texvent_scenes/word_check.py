@@ -33,7 +33,8 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
-_LEAST_CLIP_S, _DONE = 1.0, ("bounce", "ground", "activity", "stop before", "stop", "land")
+_LEAST_CLIP_S = 1.0
+_DONE = ("bounce", "ground", "activity", "stop before", "stop", "land", "descend")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
@@ -334,6 +335,13 @@ def _lands(staged: _Staged, claim: Claim) -> bool:
                for one in others)  # fmt: skip
 
 
+def _descends(staged: _Staged, claim: Claim) -> bool:
+    """Whether it is lower at some instant than before: what dives."""
+    heights = [one.middle[:, 2] for one in staged.own_boxes(claim)]
+    depths = [float((np.maximum.accumulate(each) - each).max()) for each in heights]
+    return all(one > 0.1 * body.size_m for one, body in zip(depths, staged.own(claim), strict=True))
+
+
 def _is_in_water(staged: _Staged, claim: Claim) -> bool:
     """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
     place, said = staged.scene.place, staged.description.relations
@@ -418,6 +426,7 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "lie": _is_laid,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
-    "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "land": _lands, "stop": _stops,
+    "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "descend": _descends,
+    "land": _lands, "stop": _stops,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -12,6 +12,8 @@ from tests.scenes.test_word_check import check, report, told
         ("a panda climbs a tree, slips and falls down", "climbs", False),
         ("a squirrel climbs a tree", "climbs", True),
         ("a person dives and swims", "dives", False),
+        ("a goalkeeper dives to the left", "dives", False),
+        ("a whale dives", "dives", True),
         ("a car drives left and stops", "stops", True),
         ("a plane takes off, turns and flies away", "turns", True),
     ],
@@ -84,3 +86,30 @@ def test_a_verb_without_its_subject_or_its_object_is_not_understood(text, word):
 def test_what_goes_behind_what_goes_follows_it(text):
     assert any('"follow"' in line for line in report(text).scene)
     assert "behind" in report(text).shown
+
+
+def test_who_rides_in_a_closed_vehicle_is_hidden():
+    assert "man (hidden)" in report("a man drives a car").out_of_view
+    assert not report("a woman rides a motorcycle").out_of_view
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a girl swings on a swing in a playground", "on", True),
+        ("a girl on a swing is pushed by her brother", "on", False),  # she is moved off it
+        ("a tram passes a church and stops", "stops", True),
+    ],
+)
+def test_a_swing_bears_on_its_seat_and_what_passes_may_stop(text, word, is_shown):
+    said = " ".join(report(text).shown).split()
+    assert (word in said) == is_shown
+
+
+def test_the_head_of_a_compound_is_not_its_first_noun():
+    assert "aircraft" in report("a jet takes off from an aircraft carrier").not_understood
+
+
+def test_a_cyclist_has_one_bicycle():
+    assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
+    assert "bike" in report("a cyclist falls off his bike").shown

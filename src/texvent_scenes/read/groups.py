@@ -217,7 +217,8 @@ class GroupReader:
         is_head = after.has("noun", "place") and not after.has("relation", "adverb")
         is_head &= is_named or not after.has("verb")
         is_head = is_head and self._agrees(article, first) and not self._has_object()
-        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
+        nouns = [one.value for one in self._token(-1).all("noun")]
+        is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
         is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"

@@ -232,13 +232,18 @@ class _SentenceReader(ThingReader):
     ) -> tuple[list[int], list[int], Sequence[Phrase | Token]]:
         """The actor, the object and the rest of a passive clause: "a ball kicked by a man"."""
         after = tuple(one for one in clause.after if isinstance(one, Phrase) or not is_grammar(one))
-        by = after[0] if after else None  # "is kicked by"
+        first = clause.verb.at if clause.verb is not None else 0
+        later = [
+            one for one in after if (one.preposition if isinstance(one, Phrase) else one).at > first
+        ]
+        by = later[0] if later else None  # "is kicked by"
         is_passive = clause.verb is not None and clause.verb.verbs("ed") and not objects
         if not is_passive or not isinstance(by, Phrase) or by.preposition.text != "by":
             return subjects, objects, after
         agents = [index for group in by.groups for index in self._name(group)]
         self._draft.mark(by.preposition, "shown" if agents else "lost")
-        return (agents, subjects, after[1:]) if agents else (subjects, [], after[1:])
+        rest = tuple(one for one in after if one is not by)
+        return (agents, subjects, rest) if agents else (subjects, [], rest)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""

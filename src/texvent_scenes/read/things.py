@@ -20,6 +20,7 @@ from texvent_scenes.read.lexicon import (
     Sense,
     Token,
     VerbSense,
+    owned_parts,
     states,
     word_set,
 )
@@ -104,6 +105,10 @@ class ThingReader:
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
+        owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
+        if owners and group.article in word_set("things", "owners"):
+            draft.show(head)
+            return []  # "a cyclist falls off his bike"
         is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
@@ -230,6 +235,7 @@ class ThingReader:
         draft = self._draft
         if act.kind in ("swim", "surf"):
             draft.claim(verb, "water", "", [index])
+            draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move":
@@ -245,7 +251,10 @@ class ThingReader:
     def _can_arrive(self, subjects: Sequence[int]) -> bool:
         """Whether what stops goes by itself, and nothing is said of how it moves before."""
         things = self._draft.things
-        return all(self._draft.can_go(n) and not things[n]["motions"] for n in subjects)
+        said = [things[n]["motions"] for n in subjects]
+        is_open = all(not one or [{*each} for each in one] == [{"kind"}] for one in said)
+        is_open &= all(each["kind"] == "move" for one in said for each in one)  # "passes and stops"
+        return is_open and all(map(self._draft.can_go, subjects))
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
