@@ -1,14 +1,18 @@
 """Statistics of bursts, on events counted by hand."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from texvent import EventStream, SensorSize
 from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.bench.document import read_document
 from texvent_lab.measure.street import as_markdown, inside, measure, two_cars
 from texvent_scenes.scene_input import describe_scene, list_nouns
 from texvent_scenes.staging.compose import compose_scene
 
+ROOT = Path(__file__).parents[3]
 SIZE = SensorSize(8, 4)
 ROWS = [  # x, y, ms, polarity
     (1, 1, 0, 1), (1, 1, 4, 1), (1, 1, 10, 1),  # an edge: gaps of 4 and 6 ms
@@ -37,6 +41,11 @@ def test_events_of_a_car_are_those_in_its_box_as_it_moves():
     boxes["t"], boxes["x"], boxes["y"], boxes["w"], boxes["h"] = (0, 60_000), (1, 21), 1, 1, 1
     # The margin is 4 px: after 12 ms the box begins at x = 5, and 1 is outside.
     assert inside(stream(), boxes).t.tolist() == [0, 1000, 4000, 10_000]
+
+
+def test_the_table_of_the_design_notes_is_that_of_the_stored_result():
+    rows = read_document(ROOT / "docs/results/street.json.gz")["rows"]
+    assert as_markdown(rows) in (ROOT / "docs/design.md").read_text(encoding="utf-8")
 
 
 def test_two_cars_pass_each_other_before_the_camera():

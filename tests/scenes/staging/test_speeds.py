@@ -131,6 +131,14 @@ def test_traffic_is_as_slow_and_as_long_in_the_picture_as_in_a_street(nouns):
         assert np.diff(spans, axis=2).min() > 0.055
 
 
+@pytest.mark.parametrize(("duration_s", "is_told"), [(2.0, False), (5.0, True)])
+def test_that_a_fast_one_leaves_the_street_is_told_only_where_it_does(duration_s, is_told):
+    fast = (thing("car", ("drive", way, 1.0, None, 15.0)) for way in ("right", "left"))
+    scene = stage(*fast, duration_s=duration_s)
+    assert np.all(in_view(scene, np.linspace(0.0, duration_s, 21))) != is_told
+    assert bool(scene.camera_path.notes) == is_told
+
+
 def test_one_vehicle_and_a_camera_that_moves_stay_near():
     assert np.diff(spans_in_image(traffic("car"), [0.5]), axis=2).min() > 0.25
     truck = Camera((CameraMove("truck"),))

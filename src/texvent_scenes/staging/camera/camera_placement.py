@@ -279,10 +279,11 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
     reach = 0.5 * main.size_m * path.framing.focal / np.maximum(seen[:, 2], 1e-3)
     is_seen = np.all(np.abs(seen[:, :2]) < [0.5, 0.5 * aspect] + reach[:, None], axis=1)
     first_s, last_s = times[is_seen][[0, -1]] if is_seen.any() else path.passage_s
-    yield (
-        f"the {main.noun.name} is fast: it is in view for {last_s - first_s:.2g} s, "
-        f"from {first_s:.2g} s on"
-    )
+    if last_s - first_s < path.duration_s:
+        yield (
+            f"the {main.noun.name} is fast: it is in view for {last_s - first_s:.2g} s, "
+            f"from {first_s:.2g} s on"
+        )
 
 
 def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | None) -> CameraTrack:
