@@ -28,6 +28,12 @@ ROW = re.compile(r"^  (?=-)(?:-\S+(?: \S+)?, )*--(?P<name>[a-z][a-z0-9-]*)(?: (?
 TIMES = re.compile(r"[\d.,]+ (?:s|ms|kB|MB|GB|hours)\b|[\d.,]+ per second")
 
 
+_OWN_VERSION = re.compile(
+    re.escape(full_version())
+    if "+" in full_version()
+    # Without git, generators, whose version has no commit, name the same one.
+    else rf"(?<!\bversion['\"]: ['\"])(?<!\bversion&quot;: &quot;){re.escape(full_version())}"
+)
 OPAQUE = (".mp4", ".gif", ".avi", ".h5", ".hdf5", ".tar", ".parquet", ".bag", ".mcap", ".db3")
 """Files whose bytes other programs make, or that hold the version between other bytes."""
 
@@ -167,7 +173,7 @@ def _arrays(events: texvent.EventStream) -> list[NDArray[Any]]:
 
 def _settled(text: str) -> str:
     """Without times of work, places on the disk, version, and digests that hang on these."""
-    text = TIMES.sub("", text).replace(full_version(), "VERSION")
+    text = _OWN_VERSION.sub("VERSION", TIMES.sub("", text))
     text = re.sub(r'"(?:\w*seconds|seen)": ?[^,}\n]+', "", text)
     text = re.sub(r"\b[0-9a-f]{24,64}\b", "DIGEST", text)
     text = re.sub(r"install it with: .*", "", text)  # another line in another environment

@@ -1,6 +1,7 @@
 """The check of a scene: what is out of view or tiny, and which words no instant shows."""
 
 import itertools
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -42,6 +43,18 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     assert behind.out_of_view == ("car",)
     beside = unseen_from(SceneObject("car", count=3), position=(0.0, -3.5, 1.0))
     assert beside.out_of_view in (("car (1 of 3)",), ("car (2 of 3)",))
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_nothing_is_told_of_a_row_of_which_more_than_half_is_out_of_view(count):
+    lost = set()
+    for x in (0.0, 2.0, 4.0, 6.0, 8.0):
+        row = SceneObject("car", count=count)
+        unseen = unseen_from(row, position=(x, -6.0, 1.5), target=(x, 0.0, 1.0))
+        for number in re.findall(rf"\((\d) of {count}\)", *unseen.out_of_view):
+            assert unseen.gone == ({0} if 2 * int(number) > count else set())
+            lost.add(int(number))
+    assert min(lost) <= count / 2 < max(lost)
 
 
 @pytest.mark.parametrize(("aim_m", "found"), [(3.0, ()), (6.0, ("car (cut off)",))])

@@ -144,6 +144,13 @@ def test_those_on_foot_stand_ashore_of_what_floats(text, dry, wet):
     assert across(scene, dry).max() < -half_m + 0.05
     assert np.median(across(scene, wet)) > -half_m
     assert faults(said, scene) == []
+    if half_m == 0.0:  # the shore is halfway between the nearest of both
+        line = road_of(scene)[0]
+        places = [
+            [float(line.across(one.middle(0.0)[None, :2])[0]) for one in scene.actors
+             if one.noun.name == noun] for noun in (dry, wet)
+        ]  # fmt: skip
+        assert max(places[0]) + min(places[1]) == pytest.approx(0.0, abs=0.05)
 
 
 @pytest.mark.parametrize(

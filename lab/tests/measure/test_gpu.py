@@ -22,6 +22,19 @@ pytestmark = pytest.mark.torch
 TINY = gpu.SMALL
 
 
+@pytest.mark.parametrize(("repeats", "calls"), [(1, 1), (3, 1), (2, 4)])
+def test_repeats_are_timed_per_call_and_the_first_two_are_not(repeats, calls, monkeypatch):
+    clock, seen = [0.0], []
+
+    def call():
+        seen.append(clock[0])
+        clock[0] += 100.0 if len(seen) <= 2 * calls else 0.5
+
+    monkeypatch.setattr(gpu.time, "perf_counter", lambda: clock[0])
+    assert gpu._times(call, repeats, "cpu", calls=calls) == [0.5] * repeats
+    assert len(seen) == (repeats + 2) * calls
+
+
 def test_every_figure_is_measured_and_stored():
     plan = replace(gpu.TINY, pair_sizes=(), long_run=0, wan=None)
     saved: list[int] = []

@@ -136,6 +136,30 @@ def test_what_is_wrong_is_said_in_one_line(change: dict[str, Any], wanted: str) 
     assert len(str(caught.value)) < 300
 
 
+def nest(value: Any, *names: str | int) -> Any:
+    """A value below names of tables and places of lists."""
+    for name in reversed(names):
+        value = {name: value} if isinstance(name, str) else [value]
+    return value
+
+
+TABLES = [
+    *([], ["splits"], ["options"], ["filters"], ["variants", "esim"], ["variants", 0]),
+    *(["variants", 0, "options"], ["sources", 0], ["sources", 0, "words"], ["sources", 0, "vary"]),
+]
+
+
+@pytest.mark.parametrize("names", TABLES, ids=str)
+@pytest.mark.parametrize("value", [5, "x", ["x"], {1: 2}], ids=str)
+def test_what_is_no_table_of_names_is_refused_wherever_there_is_one(
+    names: list[str | int], value: Any
+) -> None:
+    tables = {**ONE, **nest(value, *names)} if names else value
+    with pytest.raises(ConfigError, match=r"it must be|unknown") as caught:
+        specification_from(tables, folder=Path())
+    assert "\n" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("sources", "wanted"),
     [
