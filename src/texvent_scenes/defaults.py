@@ -348,10 +348,10 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
 
 def _darken(description: SceneDescription) -> SceneDescription:
     """Lights that flash or blink do so in the dark, unless the scene says otherwise."""
-    is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects) or any(
-        one.blink_hz is not None or one.noun in nouns_with("seen in the dark")
-        for one in description.objects
-    )
+    objects, patterns = description.objects, nouns_with("flat pattern")
+    is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects)
+    is_seen |= any(one.noun in nouns_with("seen in the dark") for one in objects)
+    is_seen |= any(one.blink_hz is not None and one.noun not in patterns for one in objects)
     if description.light.kind is not None or not is_seen:
         return description
     description = replace(description, light=replace(description.light, kind="night"))
