@@ -340,6 +340,15 @@ def _falls(staged: _Staged, claim: Claim) -> bool:
     return True
 
 
+def _each_holds(staged: _Staged, claim: Claim) -> bool:
+    """Whether there is something for each to hold: one table is carried by one."""
+    objects, said = staged.description.objects, staged.description.relations
+    holders = {one.subject for one in said
+               if one.kind == "hold" and not {*claim.targets}.isdisjoint(one.targets)}  # fmt: skip
+    held = sum(objects[one].count for one in claim.targets)
+    return sum(objects[one].count for one in holders) <= held
+
+
 def _shines(staged: _Staged, claim: Claim) -> bool:
     """Whether a lamp of it is on at some time, or it is a pattern that blinks."""
     lit = {one.actor.instance for one in staged.scene.lamps.lit if one.shines or one.flashes}
@@ -369,7 +378,7 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
      "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _of_parts(is_moving_inside),
-    "lie": _is_laid, "shine": _shines,
+    "lie": _is_laid, "shine": _shines, "hold": _each_holds,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
     "reverse": _goes_back, "fall": _falls,

@@ -296,3 +296,43 @@ def test_a_camera_goes_through_what_has_a_way_through_alone():
 def test_a_board_has_the_squares_that_are_said_after_it():
     board = read("calibration board 9x6 on a table", list_nouns()).scene.objects[0]
     assert board.picture.value == "9x6"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a black disc moving up and down on a white background at 2 Hz",
+        "a square moves up and down",
+        "a bar slides up and down at 1 Hz",
+    ],
+)
+def test_a_pattern_that_moves_up_and_down_does_so_in_the_picture(text):
+    one = staged(text)[0].actors[0]
+    places = np.array([one.middle(time_s) for time_s in np.linspace(0.0, 2.0, 41)])
+    assert np.ptp(places[:, 2]) > 0.3 * one.model.height
+    assert np.ptp(places[:, :2], axis=0).max() < 1e-6
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "verb", "is_so"),
+    [("two men carry a table", "carry", False), ("three kids hold an umbrella", "hold", False),
+     ("a man and a woman carry a sofa", "carry", False), ("a man carries a box", "carries", True),
+     ("two women hold two cups", "hold", True)],
+)  # fmt: skip
+def test_what_several_hold_is_held_by_each_or_not_shown(text, verb, is_so):
+    assert (verb in report(text).shown) is is_so
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a car approaching the camera at 60 km/h", "a dog approaches the camera",
+     "a person approaching the camera"],
+)  # fmt: skip
+def test_what_approaches_the_camera_comes_nearer(text):
+    scene = staged(text)[0]
+    away = [np.linalg.norm(scene.actors[0].middle(time_s) - scene.camera(time_s).position)
+            for time_s in (0.0, 2.0)]  # fmt: skip
+    assert away[1] < away[0]
+    assert scene.actors[0].track.at(1.0).speed_m_s > 0.5
+    assert not read(text, list_nouns()).scene.camera.moves

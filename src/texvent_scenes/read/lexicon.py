@@ -345,6 +345,17 @@ def _read_phrase(
             found = ()  # "the cat's" alone: whose, not what
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
+            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            found = tuple(
+                one
+                for one in found
+                if not (
+                    is_thing
+                    and one.kind == "shot"
+                    and words[end] == "camera"
+                    and words[at].endswith("ing")
+                )
+            )
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()

@@ -236,7 +236,7 @@ class ThingReader:
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
-            self._claim_act(act, verb, index)
+            self._claim_act(act, verb, index, objects)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
@@ -248,9 +248,11 @@ class ThingReader:
             )
         return list(objects if act.object and objects else subjects)
 
-    def _claim_act(self, act: VerbSense, verb: Token, index: int) -> None:
+    def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""
         draft = self._draft
+        if act.relation == "hold":
+            draft.claim(verb, "hold", "", [index], objects)
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
             draft.claim(verb, "shine", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
