@@ -336,3 +336,30 @@ def test_what_approaches_the_camera_comes_nearer(text):
     assert away[1] < away[0]
     assert scene.actors[0].track.at(1.0).speed_m_s > 0.5
     assert not read(text, list_nouns()).scene.camera.moves
+
+
+@pytest.mark.parametrize(
+    ("text", "height_m"),
+    [("drone hovering 2 m above the ground", 2.0), ("a bird flies 5 metres above the sea", 5.0),
+     ("a helicopter hovers 20 m above a field", 20.0)],
+)  # fmt: skip
+def test_what_is_in_the_air_begins_at_the_height_that_is_said(text, height_m):
+    assert staged(text)[0].actors[0].lowest_m(0.0) == pytest.approx(height_m, abs=0.02 * height_m)
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a drone flies 3 m over a car", "a man 2 m above the ground", "a dog 1 m off a table"]
+)
+def test_no_other_height_is_read(text):
+    said = report(text)
+    assert any("m" in one.split() or one[0].isdigit() for one in said.not_understood)
+
+
+@pytest.mark.parametrize(
+    "text", ["a microwave door opens", "a woman closes the fridge door", "the oven door is open"]
+)
+def test_the_door_of_a_thing_is_what_opens_of_it(text):
+    nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
+    assert "door" not in nouns
+    assert is_right(text)

@@ -211,7 +211,9 @@ class ThingReader:
             is_lamp = any("blink_hz" in one or one["noun"] in LAMPS for one in things)
             return not (motions or works or is_lamp)
         if field == "height_m":  # it is no way either: "seen from 3 m"
-            return not any(one["kind"] in ("fall", "bounce") for one in motions)
+            return not any(
+                one["kind"] in ("fall", "bounce", "hover", "fly", "float") for one in motions
+            )
         is_set = field in word_set("things", "once") and any(field in one for one in things)
         return is_set or field in word_set("things", "claimed")
 
