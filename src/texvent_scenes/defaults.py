@@ -27,8 +27,7 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "wear"})
 _GOING = {"stand": "slide", "float": "fly"}
-_AFLOAT = ("sail", "paddle")
-_ROCKING = 0.5
+_AFLOAT, _ROCKING = ("sail", "paddle"), 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
@@ -165,8 +164,9 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
     if motion.kind in ("hover", "float") and noun.motion in _AFLOAT:
         motion = replace(motion, kind="sway", pace=_ROCKING * motion.pace)
     if motion.kind == "slide" and noun.name in nouns_with("flat pattern"):  # in its own plane
-        kind = {"up": "rise", "down": "sink"}.get(motion.direction or "")
-        motion = motion if kind is None else replace(motion, kind=kind, direction=None)
+        kind = {"up": "rise", "down": "sink", "up and down": "fly"}.get(motion.direction or "")
+        way = motion.direction if kind in (None, "fly") else None
+        motion = replace(motion, kind=kind or motion.kind, direction=way)
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
     return (_at_rate(motion, noun),)
@@ -348,10 +348,10 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
 
 def _darken(description: SceneDescription) -> SceneDescription:
     """Lights that flash or blink do so in the dark, unless the scene says otherwise."""
-    is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects) or any(
-        one.blink_hz is not None or one.noun in nouns_with("seen in the dark")
-        for one in description.objects
-    )
+    objects, patterns = description.objects, nouns_with("flat pattern")
+    is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects)
+    is_seen |= any(one.noun in nouns_with("seen in the dark") for one in objects)
+    is_seen |= any(one.blink_hz is not None and one.noun not in patterns for one in objects)
     if description.light.kind is not None or not is_seen:
         return description
     description = replace(description, light=replace(description.light, kind="night"))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,28 +12,34 @@ from texvent_scenes.description import Claim
 from texvent_scenes.models import materials
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.rendered_scene import Texture
-from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.actors import Actor, PlacedModel
 
+Place: TypeAlias = Callable[[Actor, float], PlacedModel]
+"""A body at an instant, s, with its lamps as bright as they are then."""
 _REST = Pose(0.0, 0.0, 0.0, "stand")
 _STILL, _DARK = 1e-3, 0.5
 """Way of a part that does not move, in sizes of its body; share of its greatest light below which a
 lamp is off."""
 
 
-def has_colour(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+def has_colour(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
     """Whether each has a part of a colour."""
     rgb = find_colour(str(claim.value), SURFACES)
     return all(materials.has_colour(one.own_parts(_REST), rgb) for one in own)
 
 
-def is_of_material(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+def is_of_material(
+    own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place
+) -> bool:
     """Whether most of each has the texture of a material."""
     texture = materials.MATERIALS[str(claim.value)].texture
     parts = [part.texture is texture for one in own for part in one.own_parts(_REST)]
     return texture is not Texture.PLAIN and sum(parts) > 0.5 * len(parts)
 
 
-def is_moving_inside(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+def is_moving_inside(
+    own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place
+) -> bool:
     """Whether parts of each move in its body: the hands of a clock."""
     for one in own:
         at = [one.own_parts(one.pose(time_s)) for time_s in times]
@@ -42,27 +49,28 @@ def is_moving_inside(own: Sequence[Actor], claim: Claim, times: Sequence[float])
     return True
 
 
-def _list_lamps(actor: Actor, times: Sequence[float]) -> Iterator[list[ModelPart]]:
+def _list_lamps(actor: Actor, times: Sequence[float], place: Place) -> Iterator[list[ModelPart]]:
     """Each part that shines, at the instants."""
-    for each in zip(*(actor.own_parts(actor.pose(time_s)) for time_s in times), strict=True):
+    for each in zip(*(place(actor, time_s).parts for time_s in times), strict=True):
         if max(part.emission for part in each) > 0.0:
             yield list(each)
 
 
-def is_blinking(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+def is_blinking(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
     """Whether a lamp of each is on and off."""
     return all(
         any(
             min(part.emission for part in lamp) <= _DARK * max(part.emission for part in lamp)
-            for lamp in _list_lamps(one, times)
+            for lamp in _list_lamps(one, times, place)
         )
         for one in own
     )
 
 
-def is_lit_in(own: Sequence[Actor], claim: Claim, times: Sequence[float]) -> bool:
+def is_lit_in(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
     """Whether a lamp of each shines in a colour."""
     rgb = find_colour(str(claim.value), SURFACES)
     return all(
-        any(materials.has_colour(lamp[:1], rgb) for lamp in _list_lamps(one, times)) for one in own
+        any(materials.has_colour(lamp[:1], rgb) for lamp in _list_lamps(one, times, place))
+        for one in own
     )

@@ -20,6 +20,7 @@ from texvent_scenes.body_boxes import BodyBoxes, body_of
 from texvent_scenes.description import SEEN, Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.part_check import (
+    Place,
     has_colour,
     is_blinking,
     is_lit_in,
@@ -28,6 +29,7 @@ from texvent_scenes.part_check import (
 )
 from texvent_scenes.relation_check import find_violations
 from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.rows_and_arcs import is_arc, is_in_line
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
@@ -41,10 +43,6 @@ _OF_CAMERA = (SEEN, "circle")
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
-_STRAY, _UNEVEN = 0.12, 2.0
-"""Most departure of a row from its line, in gaps; most ratio of its gaps."""
-_ROUND, _LEAST_ARC = 0.08, math.pi / 3.0
-"""Most departure of a way from its circle, in radii; least angle of that circle that it covers."""
 _GROUNDED = 0.1
 """Height, in sizes of a body, up to which it is on the ground."""
 _NEAR_END, _RESTING = 3.0, 0.15
@@ -143,10 +141,12 @@ class _Staged:
 
 
 def _of_parts(
-    check: Callable[[Sequence[Actor], Claim, Sequence[float]], bool],
+    check: Callable[[Sequence[Actor], Claim, Sequence[float], Place], bool],
 ) -> Callable[[_Staged, Claim], bool]:
     """A check of the parts of bodies, at the instants of the clip."""
-    return lambda staged, claim: check(staged.own(claim), claim, staged.fine_times)
+    return lambda staged, claim: check(
+        staged.own(claim), claim, staged.fine_times, staged.scene.lamps.place
+    )
 
 
 def _is_related(staged: _Staged, claim: Claim) -> bool:
@@ -233,17 +233,6 @@ def _is_row(staged: _Staged, claim: Claim) -> bool:
     return is_in_line(places) and (bool(is_across) or claim.value != "across")
 
 
-def is_in_line(places: Float64Array) -> bool:
-    """Whether places on the ground, [n, 2] m, are on a line, at even gaps."""
-    if len(places) < 2:
-        return False
-    off = places - places.mean(axis=0)
-    _, _, axes = np.linalg.svd(off)
-    gaps = np.diff(np.sort(off @ axes[0]))
-    is_straight = np.abs(off @ axes[1]).max() <= _STRAY * gaps.mean()
-    return bool(is_straight and gaps.max() <= _UNEVEN * gaps.min())
-
-
 def _count(staged: _Staged, actor: Actor) -> float:
     """Times that it leaves its first pose and comes back to it; half a time: it is not back."""
     departure, count, is_out = staged.departure(actor), 0.0, False
@@ -281,19 +270,6 @@ def _is_circling(staged: _Staged, claim: Claim) -> bool:
     else:
         ways = [one.middle[:, :2] for one in staged.own_boxes(claim)]
     return all(map(is_arc, ways))
-
-
-def is_arc(way: Float64Array) -> bool:
-    """Whether a way on the ground, [t, 2] m, lies on a circle, and covers enough of it."""
-    if np.ptp(way, axis=0).max() < _STILL:
-        return False
-    terms = np.column_stack([2.0 * way, np.ones(len(way))])
-    x, y, rest = np.linalg.lstsq(terms, (way**2).sum(axis=1), rcond=None)[0]
-    radius = math.sqrt(max(rest + x * x + y * y, 0.0))
-    off = way - [x, y]
-    angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
-    strays = np.abs(np.linalg.norm(off, axis=1) - radius).max()
-    return bool(strays <= _ROUND * radius and np.ptp(angles) >= _LEAST_ARC)
 
 
 def _swings(staged: _Staged, claim: Claim) -> bool:
@@ -400,6 +376,21 @@ def _falls(staged: _Staged, claim: Claim) -> bool:
     return True
 
 
+def _each_holds(staged: _Staged, claim: Claim) -> bool:
+    """Whether there is something for each to hold: one table is carried by one."""
+    objects, said = staged.description.objects, staged.description.relations
+    holders = {one.subject for one in said
+               if one.kind == "hold" and not {*claim.targets}.isdisjoint(one.targets)}  # fmt: skip
+    held = sum(objects[one].count for one in claim.targets)
+    return sum(objects[one].count for one in holders) <= held
+
+
+def _shines(staged: _Staged, claim: Claim) -> bool:
+    """Whether a lamp of it is on at some time, or it is a pattern that blinks."""
+    lit = {one.actor.instance for one in staged.scene.lamps.lit if one.shines or one.flashes}
+    return all(one.instance in lit for one in staged.own(claim))
+
+
 def _is_doing(staged: _Staged, claim: Claim) -> bool:
     """Whether a person, a hand or an animal does it at some instant.
 
@@ -423,7 +414,7 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
      "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": _stops_before, "row": _is_row, "times": _repeats,
     "again": _returns, "circle": _is_circling, "parts": _of_parts(is_moving_inside),
-    "lie": _is_laid,
+    "lie": _is_laid, "shine": _shines, "hold": _each_holds,
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
     "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "descend": _descends,

@@ -95,13 +95,14 @@ def list_verb_forms(verb: str, irregular: str = "") -> list[tuple[str, str]]:
 
 _ENDINGS = "png|jpe?g|bmp|tiff?|webp|pgm|ppm|mp4|m4v|mov|avi|mkv|webm|gif|mpg"
 _QUOTE = "[\"“‘']([^\"”’']{1,200})[\"”’']"
-_QUOTED = 3
+_QUOTED = 4
 """Number of the group between quotation marks."""
 _LONGEST_PATH = 250
 """Characters of a path; a longer run of letters is no path."""
 _SAYS = r"says?|saying|reads?|reading|text|words?|labell?ed|title|spelling|displaying|message"
 _LITERAL = re.compile(
     rf"(?<![\w~./\\-])(?P<file>[\w~./\\-]{{1,{_LONGEST_PATH}}}\.(?i:{_ENDINGS}))\b"
+    r"|(?<=board\s)(?P<checks_after>\d{1,3}\s?[x×]\s?\d{1,3})\b"
     r"|(?<![\w.])(?P<checks>\d{1,3}\s?[x×]\s?\d{1,3})(?=[\s-]+(?:[a-z]+[\s-]+)?\w*(?:board|squares|pattern|grid))"
     rf"|(?<=\b)(?i:(?:{_SAYS})\s*:?\s+){_QUOTE}"
     rf"|(?<=\b)(?i:(?:says?|saying|reads?|reading|the\s(?:word|text|letters))\s+)([A-Z0-9]{{2,}}(?:\s[A-Z0-9!]+)*)\b"
@@ -120,10 +121,10 @@ def find_literals(prompt: str) -> Iterator[tuple[int, int, Picture]]:
     for match in _LITERAL.finditer(prompt):
         if match["file"] is not None:
             yield (*match.span("file"), Picture(kind="file", value=match["file"]))
-        elif match["checks"] is not None:
-            yield (*match.span("checks"), Picture(kind="checkerboard", value=match["checks"]))
+        elif said := match["checks"] or match["checks_after"]:
+            yield (*match.span(), Picture(kind="checkerboard", value=said))
         else:
-            number = next(n for n in range(3, 7) if match[n] is not None)
+            number = next(n for n in range(4, 8) if match[n] is not None)
             begin, end = match.span(number)
             quote = number == _QUOTED
             if number <= _QUOTED + 1:  # with the word that says so: "says STOP"

@@ -223,3 +223,143 @@ def test_a_view_that_travels_goes_once_and_as_fast_as_is_said(text, speed):
 )
 def test_other_words_of_short_prompts_are_read(text):
     assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "rates"),
+    [
+        ("two LEDs blinking at 50 Hz and 100 Hz", [50.0, 100.0]),
+        ("a lamp flickering at 20 Hz next to a lamp flickering at 30 Hz", [20.0, 30.0]),
+        ("two LEDs blinking at 80 Hz", [80.0]),
+    ],
+)
+def test_each_of_several_has_its_own_frequency(text, rates):
+    objects = read(text, list_nouns()).scene.objects
+    assert [one.blink_hz for one in objects] == rates
+    assert not report(text).not_understood
+
+
+def test_a_second_frequency_of_one_thing_is_not_understood():
+    assert "9 hz" in report("an LED blinks at 5 Hz at 9 Hz").not_understood
+
+
+@pytest.mark.parametrize(
+    ("text", "paces"),
+    [
+        ("a pendulum at 0.5 Hz next to a metronome at 60 bpm", [0.5 / 0.540686, 0.5]),
+        ("two fans spinning at 5 Hz and 8 Hz", [5 / 3.37, 8 / 3.37]),
+        ("a fan at 300 rpm", [5 / 3.37]),
+    ],
+)
+def test_what_works_does_so_at_a_rate_without_a_verb(text, paces):
+    objects = understand(text, list_nouns()).objects
+    np.testing.assert_allclose([one.motions[0].pace for one in objects], paces, rtol=1e-5)
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_so"),
+    [("a white square flickering at 10 Hz on a black background", True),
+     ("a flashing disc", True), ("a checkerboard blinks at 4 Hz", False),
+     ("a chair flickers at 5 Hz", False), ("a flickering screen", False)],
+)  # fmt: skip
+def test_patterns_and_lamps_blink_and_nothing_else(text, is_so):
+    scene = staged(text)[0]
+    assert is_right(text) is is_so
+    shares = {one.lamps.place(one.actors[0], time_s).parts[0].to_body[:, :3].max().round(6)
+              for one in (scene,) for time_s in np.arange(0.0, 0.5, 0.0125)}  # fmt: skip
+    assert len(shares) == 1 + is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "speed"),
+    [("dashcam view in the rain at 50 km/h", 50 / 3.6), ("ego motion at 3 m/s in a forest", 3.0),
+     ("driver view at night at 72 km/h", 20.0)],
+)  # fmt: skip
+def test_a_speed_without_a_body_is_that_of_the_view(text, speed):
+    camera = staged(text)[0].camera
+    way = camera(1.1).position - camera(0.9).position
+    np.testing.assert_allclose(np.linalg.norm(way), 0.2 * speed, rtol=0.02)
+    assert is_right(text)
+
+
+def test_a_camera_goes_through_what_has_a_way_through_alone():
+    said = "camera dollies forward through a doorway"
+    scene = staged(said)[0]
+    ahead = [(scene.actors[0].middle(0.0) - scene.camera(time_s).position)[:2]
+             for time_s in (0.0, 2.0)]  # fmt: skip
+    assert ahead[0] @ ahead[1] < 0.0
+    for text in ("the camera moves through a car", "the camera flies through a tunnel"):
+        assert "through" in report(text).not_understood
+
+
+def test_a_board_has_the_squares_that_are_said_after_it():
+    board = read("calibration board 9x6 on a table", list_nouns()).scene.objects[0]
+    assert board.picture.value == "9x6"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a black disc moving up and down on a white background at 2 Hz",
+        "a square moves up and down",
+        "a bar slides up and down at 1 Hz",
+    ],
+)
+def test_a_pattern_that_moves_up_and_down_does_so_in_the_picture(text):
+    one = staged(text)[0].actors[0]
+    places = np.array([one.middle(time_s) for time_s in np.linspace(0.0, 2.0, 41)])
+    assert np.ptp(places[:, 2]) > 0.3 * one.model.height
+    assert np.ptp(places[:, :2], axis=0).max() < 1e-6
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "verb", "is_so"),
+    [("two men carry a table", "carry", False), ("three kids hold an umbrella", "hold", False),
+     ("a man and a woman carry a sofa", "carry", False), ("a man carries a box", "carries", True),
+     ("two women hold two cups", "hold", True)],
+)  # fmt: skip
+def test_what_several_hold_is_held_by_each_or_not_shown(text, verb, is_so):
+    assert (verb in report(text).shown) is is_so
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a car approaching the camera at 60 km/h", "a dog approaches the camera",
+     "a person approaching the camera"],
+)  # fmt: skip
+def test_what_approaches_the_camera_comes_nearer(text):
+    scene = staged(text)[0]
+    away = [np.linalg.norm(scene.actors[0].middle(time_s) - scene.camera(time_s).position)
+            for time_s in (0.0, 2.0)]  # fmt: skip
+    assert away[1] < away[0]
+    assert scene.actors[0].track.at(1.0).speed_m_s > 0.5
+    assert not read(text, list_nouns()).scene.camera.moves
+
+
+@pytest.mark.parametrize(
+    ("text", "height_m"),
+    [("drone hovering 2 m above the ground", 2.0), ("a bird flies 5 metres above the sea", 5.0),
+     ("a helicopter hovers 20 m above a field", 20.0)],
+)  # fmt: skip
+def test_what_is_in_the_air_begins_at_the_height_that_is_said(text, height_m):
+    assert staged(text)[0].actors[0].lowest_m(0.0) == pytest.approx(height_m, abs=0.02 * height_m)
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a drone flies 3 m over a car", "a man 2 m above the ground", "a dog 1 m off a table"]
+)
+def test_no_other_height_is_read(text):
+    said = report(text)
+    assert any("m" in one.split() or one[0].isdigit() for one in said.not_understood)
+
+
+@pytest.mark.parametrize(
+    "text", ["a microwave door opens", "a woman closes the fridge door", "the oven door is open"]
+)
+def test_the_door_of_a_thing_is_what_opens_of_it(text):
+    nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
+    assert "door" not in nouns
+    assert is_right(text)

@@ -11,7 +11,7 @@ from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.rendered_scene import Shape
-from texvent_scenes.word_check import is_arc, is_in_line
+from texvent_scenes.rows_and_arcs import is_arc, is_in_line
 
 
 @cache

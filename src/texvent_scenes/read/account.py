@@ -120,7 +120,8 @@ def _run_belts(draft: SceneDraft) -> None:
                 said = one["motions"].pop()
                 direction = {"direction": "clockwise"} if said.get("direction") == "left" else {}
                 kept = {key: said[key] for key in ("speed_m_s", "pace") if key in said}
-                belt["motions"] = belt["motions"] or [{"kind": "work", **kept, **direction}]
+                belt["motions"] = belt["motions"] or [{"kind": "work"}]
+                belt["motions"][-1] |= {**kept, **direction}
 
 
 def _build(draft: SceneDraft, prompt: str) -> Scene:

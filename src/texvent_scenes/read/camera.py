@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from texvent_scenes.models.tables import read_table
+from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move
 from texvent_scenes.read.groups import Phrase
@@ -23,6 +24,20 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
         return False  # "rain drops running down a pane"
     is_new = not draft.things and clause.about not in ("nearest", "company")
     return travels and is_place and is_new
+
+
+def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) -> bool:
+    """Lead a camera that goes ahead through what has a way through; whether it has one."""
+    is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
+    nouns = {draft.things[one]["noun"] for one in targets}
+    if move.get("means") == "fly" or not (is_ahead and nouns <= nouns_with("passage")):
+        return False
+    if move["kind"] == "dolly":
+        move |= split_move("travel forward") | {"means": "walk"}
+    for thing in (draft.things[one] for one in targets):
+        opens = "stand open" in draft.nouns[thing["noun"]].acts
+        thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens
+    return True
 
 
 def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:

@@ -22,6 +22,8 @@ from texvent_scenes.spec.scene import MoveDirection
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
+_QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
+"""Fields of which each object has one."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -35,8 +37,13 @@ def is_grammar(token: Token) -> bool:
 def split_move(phrase: str) -> dict[str, Any]:
     """A move of words.toml, such as "zoom in", as fields of `CameraMove`."""
     kind, _, direction = phrase.partition(" ")
+    direction, _, means = direction.partition(" ") if kind == "travel" else (direction, "", "")
     is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
-    return {"kind": kind, **({"direction": direction} if is_turned else {})}
+    return {
+        "kind": kind,
+        **({"direction": direction} if is_turned else {}),
+        **({"means": means} if means else {}),
+    }
 
 
 def names_place(head: Token, relation: str) -> bool:
@@ -115,6 +122,8 @@ class SceneDraft:
     """Fields of the camera, the light and the place."""
     claims: dict[int, list[Claim]] = field(default_factory=dict)
     """Number of a token → what is claimed of it."""
+    _said: dict[tuple[int, str], float] = field(default_factory=dict)
+    """Index of an object and a quantity that is said of it → its value."""
     _left: list[int] = field(default_factory=list)
     """Object from which one was parted last."""
     fates: dict[int, str] = field(default_factory=dict)
@@ -189,6 +198,13 @@ class SceneDraft:
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
 
+    def set_journey(self, name: str, value: Any) -> bool:
+        """Set a field of the camera's way; False: it goes none."""
+        ways = [one for one in self.moves if one["kind"] == "travel"]
+        for one in ways[-1:]:
+            one[name] = value
+        return bool(ways)
+
     def can_go(self, index: int) -> bool:
         """Whether an object can go from place to place by itself."""
         return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
@@ -247,6 +263,24 @@ class SceneDraft:
             is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
             name = "end_m_s" if is_end else name
         set_field(self.things[index], said.kind, name, value)
+        self._said[index, name] = value
+
+    def find_unsaid(self, name: str, indices: Sequence[int], nearest: Sequence[int]) -> list[int]:
+        """Objects of which a quantity is said now: no other than before of the same.
+
+        Of "two LEDs at 5 Hz and 9 Hz" the second has it, of "a fan at 5 Hz by a fan at 9 Hz" the
+        nearest one.
+        """
+        if name not in _QUANTITIES or not any((one, name) in self._said for one in indices):
+            return [*indices]
+        free = [one for one in nearest if one not in indices and (one, name) not in self._said]
+        if free:
+            return free
+        own = indices[0]
+        if len(indices) > 1 or self.things[own]["count"] != 2:
+            return []
+        self._part(own, 1)
+        return [len(self.things) - 1]
 
     def repeat(self, times: Any, indices: Sequence[int]) -> None:
         """Let objects rest after so many repetitions of what is counted."""
@@ -319,8 +353,7 @@ class SceneDraft:
             case "machine":
                 return not has_object and all(self.nouns[one].is_working for one in names)
             case "source" | "lamp":
-                is_switched = verb.who == "lamp" and verb.kind in ("on", "off")
-                if is_switched and not names <= LAMPS.keys() - word_set("things", "flames"):
+                if verb.who == "lamp" and not self._can_shine(verb.kind, names):
                     return False
                 return not has_object and not is_acting
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
@@ -343,6 +376,13 @@ class SceneDraft:
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    def _can_shine(self, kind: str, names: set[str]) -> bool:
+        """Whether nouns have lamps that can be switched, or are patterns that can blink."""
+        if kind in ("on", "off"):
+            return names <= LAMPS.keys() - word_set("things", "flames")
+        lit = nouns_with("own effect") | nouns_with("flat pattern") | word_set("things", "flames")
+        return names <= LAMPS.keys() | lit
 
     def _are_moved(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
         """Whether subjects move objects already: what they do then is not shown."""

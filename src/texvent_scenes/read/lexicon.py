@@ -6,7 +6,6 @@ import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -23,6 +22,7 @@ from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.quantities import Found, read_height, read_quantity, read_stated
 from texvent_scenes.words import find_literals, list_plurals, list_verb_forms
 
 _UNSAID = ("parked ", "flying ")
@@ -240,18 +240,12 @@ def _plain(value: str) -> str | float | bool:
 
 MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
-MAX_COUNT = 24
-"""Most copies of one object."""
-_RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
-_HERTZ = (0.001, 100_000.0)
-"""Least and most of a quantity of scenes."""
 _NUMBER = (
     r"(?:(?<!\S)[-−])?(?:(?:\d+ )?\d+(?:\.\d+)?(?:(?: ?[/⁄] ?|[-–])\d+(?:\.\d+)?)+(?![\w-])"
     r"|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
 )
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
-_SIGNS = str.maketrans("−⁄", "-/")
 _MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
 """Between "1" and "½", which NFKC would join to 11/2."""
 
@@ -345,28 +339,30 @@ def _read_phrase(
             found = ()  # "the cat's" alone: whose, not what
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
+            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            found = tuple(
+                one
+                for one in found
+                if not (
+                    is_thing
+                    and one.kind == "shot"
+                    and words[end] == "camera"
+                    and words[at].endswith("ing")
+                )
+            )
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
-    if length == 1 and (stated := _read_stated(words, at, lexicon)):
-        return stated
-    return _read_quantity(words, at, lexicon) if is_number else (length, senses)
+    if length == 1 and (stated := read_stated(words, at, lexicon)):
+        return _as_senses(stated)
+    if is_number:
+        return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
+    return length, senses
 
 
-def _read_stated(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses] | None:
-    """A start or a height: "after 2 seconds", "from 1 m", "from a height of one metre"."""
-    how = read_table("words", "read")["said_after"].get(words[at].casefold(), {"units": {}})
-    rest = [one.casefold() for one in words[at + 1 : at + 6]]
-    skipped = 3 if rest[1:3] == ["height", "of"] else 0
-    number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
-    counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
-    said = [number] if number.replace(".", "").isdecimal() else counts
-    factor = how["units"].get(unit)
-    after = words[at + 3 + skipped : at + 4 + skipped]
-    if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
-        return None
-    value, (least, most) = factor * float(said[0]), _RANGES[how["field"]]
-    return skipped + 3, (Sense(how["kind"], (how["field"], value)),) * (least <= value <= most)
+def _as_senses(found: Found) -> tuple[int, Senses]:
+    """A quantity with its senses."""
+    return found[0], tuple(Sense(kind, value) for kind, value in found[1])
 
 
 def _without_chance(
@@ -393,27 +389,3 @@ def _without_chance(
         and not (after in articles and one.kind == "verb" and one.value.who == "plain"
                  and one.value.relation is None and words[end] in word_set("things", "particles"))
     )  # fmt: skip
-
-
-def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
-    """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range.
-
-    Of "0.5/2 m/s" and "2-3 Hz" it is open which number is meant.
-    """
-    text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
-    try:
-        number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
-    except (ValueError, ZeroDivisionError, OverflowError):
-        return 1, ()
-    number = -number if text.startswith("-") else number
-    for length in (3, 2, 1):
-        unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
-        for sense in lexicon.get(unit, ()):
-            if sense.kind == "unit":
-                field, factor = sense.value
-                least, most = _RANGES.get(field, _HERTZ)
-                is_shown = least <= number * factor <= most
-                said = Sense("adverb", (field, number * factor))
-                return 1 + length, (said,) if is_shown else ()
-    count = Sense("field", ("count", max(1, min(round(number), MAX_COUNT))))
-    return 1, (count,) if number >= 0.0 and number.is_integer() else ()

@@ -281,7 +281,8 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way
     does = [one["kind"] for one in thing["motions"]]
-    if kind == "from" and does in (["rise"], ["fall"], ["jump"]) and draft.has_top(other):
+    is_low = does in (["fall"], ["jump"]) and draft.has_top(other)
+    if kind == "from" and (does == ["rise"] or is_low):
         return "off"
     if noun in trait_values("belt speed") and kind in ("past", "down"):
         return kind if draft.can_go(index) else "on"

@@ -10,7 +10,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import find_move, is_ego
+from texvent_scenes.read.camera import find_move, go_through, is_ego
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Phrase
@@ -374,6 +374,8 @@ class _SentenceReader(ThingReader):
                 is_swept = turns and one.preposition.text in word_set("things", "swept")
                 targets += found if is_swept else []
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
+                if found and kind == "through":
+                    is_side = move is None or not go_through(draft, move, found)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
+from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table, trait_value
 from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Sense, Token, word_set
@@ -24,7 +25,15 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
     chosen = [_choose(one, tokens, nouns) if not one.senses else one for one in tokens]
-    return [_see_beside(one, chosen) for one in chosen]
+    seen = [_see_beside(one, chosen) for one in chosen]
+    return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
+
+
+def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Token:
+    """The token as a word that adds nothing, if it is what opens of a thing: "a fridge door"."""
+    owners = [nouns[one.value.noun] for one in before.all("noun")]
+    is_part = token.text in word_set("things", "leaves") and any(one.acts & TIMED for one in owners)
+    return replace(token, senses=(Sense("hollow", "hollow"),)) if is_part else token
 
 
 def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:

@@ -165,14 +165,15 @@ class ThingReader:
         draft, light = self._draft, self._draft.parts["light"]
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
+        subjects = draft.find_unsaid(field, subjects, self._nearest)
         things = [draft.things[index] for index in subjects]
-        if things and token.text in states():
-            return self._set_state(token, subjects)
+        if self._say_at_once(token, field, value, subjects):
+            return
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
-        elif _is_open(field, things):
+        elif self._is_open(field, things):
             is_told = field in ("colour", *word_set("things", "claimed"))
             return draft.claim(token, field, value, subjects if is_told else [])
         elif value == "opposite":
@@ -181,12 +182,22 @@ class ThingReader:
         elif said is not None and things:
             for index in subjects:
                 draft.say_field(token, said, index)
-            draft.claim(token, SEEN, "", subjects)
+            is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
+            draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
         else:
             if not self._draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
+
+    def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
+        """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h"."""
+        if subjects and token.text in states():
+            self._set_state(token, subjects)
+            return True
+        is_way = field == "speed_m_s" and not subjects and self._draft.set_journey(field, value)
+        self._draft.show(*([token] if is_way else []))
+        return is_way
 
     def _set_state(self, token: Token, subjects: Sequence[int]) -> None:
         """Apply an adjective of what opens and closes: "an open door"."""
@@ -196,6 +207,20 @@ class ThingReader:
             add_motion(draft.things[index], VerbSense(kind=state))
         draft.claim(token, "activity", state, able)
         draft.show(*([token] if able == [*subjects] else []))
+
+    def _is_open(self, field: str, things: Sequence[Mapping[str, Any]]) -> bool:
+        """Whether a field of things cannot be set: a second colour, a height of what stands."""
+        motions = [one for thing in things for one in thing["motions"]]
+        if field == "rate_hz":
+            works = any(self._nouns[one["noun"]].is_working for one in things)
+            is_lamp = any("blink_hz" in one or one["noun"] in LAMPS for one in things)
+            return not (motions or works or is_lamp)
+        if field == "height_m":  # it is no way either: "seen from 3 m"
+            return not any(
+                one["kind"] in ("fall", "bounce", "hover", "fly", "float") for one in motions
+            )
+        is_set = field in word_set("things", "once") and any(field in one for one in things)
+        return is_set or field in word_set("things", "claimed")
 
     # Verbs
 
@@ -218,7 +243,7 @@ class ThingReader:
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
-            self._claim_act(act, verb, index)
+            self._claim_act(act, verb, index, objects)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
@@ -230,7 +255,7 @@ class ThingReader:
             )
         return list(objects if act.object and objects else subjects)
 
-    def _claim_act(self, act: VerbSense, verb: Token, index: int) -> None:
+    def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""
         draft = self._draft
         if act.kind in ("swim", "surf"):
@@ -240,6 +265,10 @@ class ThingReader:
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move":
             draft.claim(verb, "stop", "", [index])
+        if act.relation == "hold":
+            draft.claim(verb, "hold", "", [index], objects)
+        if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
+            draft.claim(verb, "shine", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
@@ -285,14 +314,3 @@ def _see_as_thing(head: Token) -> Token:
     table = read_table("words", "read")["seen_as"]
     senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
     return replace(head, senses=tuple(senses)) if senses else head
-
-
-def _is_open(field: str, things: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether a field of things cannot be set: a second colour, a height of what does not fall."""
-    motions = [one for thing in things for one in thing["motions"]]
-    if field == "rate_hz":
-        return not (motions or any("blink_hz" in one or one["noun"] in LAMPS for one in things))
-    if field == "height_m":  # it is no way either: "seen from 3 m"
-        return not any(one["kind"] in ("fall", "bounce") for one in motions)
-    is_set = field in word_set("things", "once") and any(field in one for one in things)
-    return is_set or field in word_set("things", "claimed")

@@ -227,6 +227,7 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
         yield Idle(f"{where}.material", f"a {one.noun} is of it anyway, or cannot be of any other")
     for name in ("blink_hz", "switch_s", "is_lit"):
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
+        has_light |= name == "blink_hz" and noun.name in nouns_with("flat pattern")
         if getattr(one, name) is not None and not has_light:
             known = few(sorted(LAMPS), _MOST_NAMED)
             yield Idle(f"{where}.{name}", f"a {one.noun} has no lamp; these have: {known}")

@@ -16,6 +16,7 @@ from texvent_scenes.models.effects import LAMPS, LampKind, lamp_of
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.protocol import ModelPart, fraction
 from texvent_scenes.models.shapes import rotation
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import LAMP_RECORD, Float64Array, Ground
 from texvent_scenes.spec.scene import Lamp
 from texvent_scenes.staging.actors import Actor, PlacedModel
@@ -42,6 +43,8 @@ _MOST_CASTERS, _FAINTEST_SHARE = 3, 0.05
 does, as a share of the brightest one's."""
 _FARTHEST_M, _SCENE_LAMP_M = 120.0, 0.03
 """Farthest reach of a lamp's light, and radius of a lamp of the scene."""
+_HALF, _GONE = 0.5, 1e-4
+"""Light of a pattern below which it is not drawn; share of its size that is left of it then."""
 _NO_LAMPS = np.zeros(0, LAMP_RECORD)
 _LEVELS_S = np.linspace(0.0, 6.0, 24, endpoint=False)
 """Instants at which the brightest state of a part is sought."""
@@ -64,6 +67,8 @@ class LitActor:
     """Whether its lamps cast shadows."""
     switch_s: float | None = None
     """As `SceneObject.switch_s`."""
+    flashes: bool = False
+    """Whether it has no lamp, and is drawn on a screen by turns: a square that blinks."""
 
     def is_on(self, lamp: LampKind) -> bool:
         """Whether a lamp is on, at some time."""
@@ -81,7 +86,7 @@ class LitActor:
     @property
     def fastest_hz(self) -> float:
         """Highest frequency at which a lamp of it goes up and down, Hz; 0 = all are steady."""
-        rates = [0.0]
+        rates = [(self.blink_hz or 0.0) * self.flashes]
         for _, _, lamp in self.lamps:
             rate = max(self._blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
             rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
@@ -109,6 +114,8 @@ class LitActor:
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
         parts = list(placed.parts)
+        if self.flashes and wave_level("square", (self.blink_hz or 0.0) * time_s) < _HALF:
+            parts = [one.at(_GONE * one.to_body) for one in parts]
         for index, _, lamp in self.lamps:
             if self.is_on(lamp) or self.is_lit is not None:
                 factor = lamp.boost * self.level(lamp, time_s)
@@ -224,7 +231,9 @@ def plan_lamps(
     for one in actors:
         said, lamps = description.objects[one.object_index], _list_lamps(one)
         each = LitActor(one, said.is_lit, said.blink_hz, strength, lamps, switch_s=said.switch_s)
-        lit += [each] if lamps else []
+        is_pattern = one.noun.name in nouns_with("flat pattern") and not lamps
+        each = replace(each, flashes=is_pattern and said.blink_hz is not None)
+        lit += [each] if lamps or each.flashes else []
     still = _still_lamps(items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT

@@ -1,0 +1,86 @@
+"""Quantities of a prompt: numbers of things, and numbers with their units, as kinds and values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any, TypeAlias
+
+from texvent_scenes.models.tables import read_table
+
+Found: TypeAlias = tuple[int, tuple[tuple[str, Any], ...]]
+"""Number of words that a quantity takes, and the kinds and values of its senses."""
+Units: TypeAlias = Mapping[tuple[str, ...], Sequence[Any]]
+"""Phrase → its senses, those of units among them."""
+_ARTICLES = ("a", "an", "the")
+_LEVELS = ("sea", "water", "lake", "river", "road", "street", "grass", "field", "meadow", "desert")
+"""Words of places whose ground is at height 0."""
+MAX_COUNT = 24
+"""Most copies of one object."""
+_RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
+_HERTZ = (0.001, 100_000.0)
+"""Least and most of a quantity of scenes."""
+_SIGNS = str.maketrans("−⁄", "-/")
+
+
+def read_height(words: Sequence[str], at: int) -> Found | None:
+    """A height of what is in the air: "2 m above the ground", "5 m over" the sea.
+
+    Above what stands there it is another one.
+    """
+    unit, over, *rest = ([one.casefold() for one in words[at + 1 : at + 5]] + ["", ""])[:4]
+    factor = read_table("words", "read")["said_after"]["from"]["units"].get(unit)
+    if factor is None or over not in ("above", "over", "off") or not words[at][0].isdigit():
+        return None
+    below = next((one for one in rest if one not in _ARTICLES), "")
+    is_ground = below == "ground"
+    try:
+        value = factor * float(words[at])
+    except ValueError:
+        return None
+    if not is_ground and (below not in _LEVELS or over == "off"):
+        return None
+    least, most = _RANGES["height_m"]
+    length = 4 + rest.index(below) if is_ground else 2
+    return length, (("adverb", ("height_m", value)),) * (least <= value <= most)
+
+
+def read_stated(words: Sequence[str], at: int, lexicon: Units) -> Found | None:
+    """A start or a height: "after 2 seconds", "from 1 m", "from a height of one metre"."""
+    how = read_table("words", "read")["said_after"].get(words[at].casefold(), {"units": {}})
+    rest = [one.casefold() for one in words[at + 1 : at + 6]]
+    skipped = 3 if rest[1:3] == ["height", "of"] else 0
+    number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
+    counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
+    said = [number] if number.replace(".", "").isdecimal() else counts
+    factor = how["units"].get(unit)
+    after = words[at + 3 + skipped : at + 4 + skipped]
+    if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
+        return None
+    value, (least, most) = factor * float(said[0]), _RANGES[how["field"]]
+    return skipped + 3, ((how["kind"], (how["field"], value)),) * (least <= value <= most)
+
+
+def read_quantity(words: Sequence[str], at: int, lexicon: Units) -> Found:
+    """A number of things, or a speed or frequency with its unit ("1 1/2 Hz"), in range.
+
+    Of "0.5/2 m/s" and "2-3 Hz" it is open which number is meant.
+    """
+    text = re.sub(" ?/ ?", "/", words[at].replace(",", "").translate(_SIGNS))
+    try:
+        number = float(sum(Fraction(one) for one in text.removeprefix("-").split()))
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return 1, ()
+    number = -number if text.startswith("-") else number
+    for length in (3, 2, 1):
+        unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
+        for sense in lexicon.get(unit, ()):
+            if sense.kind == "unit":
+                field, factor = sense.value
+                least, most = _RANGES.get(field, _HERTZ)
+                is_shown = least <= number * factor <= most
+                said = ("adverb", (field, number * factor))
+                return 1 + length, (said,) if is_shown else ()
+    count = ("field", ("count", max(1, min(round(number), MAX_COUNT))))
+    return 1, (count,) if number >= 0.0 and number.is_integer() else ()
