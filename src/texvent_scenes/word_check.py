@@ -32,6 +32,7 @@ from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.rows_and_arcs import is_arc, is_in_line
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.surroundings.environment import RoadLine
 
 _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
@@ -43,6 +44,8 @@ _OF_CAMERA = (SEEN, "circle")
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
 departure below which a body does not move, in its sizes."""
+_MOSTLY = 0.75
+"""Share of the clip in which what swims is in the water."""
 _GROUNDED = 0.1
 """Height, in sizes of a body, up to which it is on the ground."""
 _NEAR_END, _RESTING = 3.0, 0.15
@@ -322,7 +325,15 @@ def _is_in_water(staged: _Staged, claim: Claim) -> bool:
     """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
     place, said = staged.scene.place, staged.description.relations
     is_inside = any(one.kind == "in" and one.subject == claim.subject for one in said)
-    return is_inside or place.has_shore or place.ground in (Ground.SEA, Ground.UNDERWATER)
+    if is_inside or not place.has_shore:
+        return is_inside or place.ground in (Ground.SEA, Ground.UNDERWATER)
+    base = staged.scene.animated_environment.base
+    x, y = map(float, base.road_offset)
+    half_m = float(base.road_half_width) if place.ground is not Ground.LAKE else 0.0
+    line, ways = RoadLine(base.road_angle, (x, y)), staged.own_boxes(claim)
+    across_m = np.array([line.across(one.middle[:, :2]) for one in ways])
+    is_wet = (across_m > -half_m) & (across_m < (half_m or math.inf))
+    return bool(is_wet.mean() >= _MOSTLY)
 
 
 def _keeps_to_ground(staged: _Staged, claim: Claim) -> bool:
