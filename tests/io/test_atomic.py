@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import errno
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from texvent.errors import OutputError
-from texvent.io.atomic import atomic_file, check_output, is_disk_full
+from texvent.io.atomic import atomic_file, check_output, check_output_folder, is_disk_full
 
 
 def test_the_file_appears_only_when_the_block_ends(tmp_path: Path) -> None:
@@ -61,6 +63,34 @@ def test_folders_and_devices_are_never_replaced(tmp_path: Path) -> None:
         check_output(tmp_path, overwrite=True)
     with pytest.raises(OutputError, match="not a regular file"):
         check_output("/dev/null", overwrite=True)
+
+
+ENTRIES: dict[str, Callable[[Path], object]] = {
+    "own": Path.touch,
+    "foreign": Path.touch,
+    "folder": Path.mkdir,
+    "link to a folder": lambda place: place.symlink_to(place.parent, target_is_directory=True),
+    "link to nothing": lambda place: place.symlink_to("nothing"),
+}
+
+
+@pytest.mark.parametrize("is_nested", [False, True])
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_a_folder_is_replaced_if_all_that_it_holds_is_of_its_kind(
+    tmp_path: Path, entry: str, is_nested: bool
+) -> None:
+    (tmp_path / "out").mkdir()
+    ENTRIES[entry](tmp_path / "out" / entry)
+    options: dict[str, Any] = {"is_own": lambda path: path.name == "own", "is_nested": is_nested}
+    is_replaced = entry == "own" or (entry == "folder" and is_nested)
+    said = "exists already" if is_replaced else "holds other files"
+    with pytest.raises(OutputError, match=said):
+        check_output_folder(tmp_path / "out", overwrite=False, **options)
+    if is_replaced:
+        assert check_output_folder(tmp_path / "out", overwrite=True, **options).is_dir()
+        return
+    with pytest.raises(OutputError, match=said):
+        check_output_folder(tmp_path / "out", overwrite=True, **options)
 
 
 def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path: Path) -> None:

@@ -17,8 +17,10 @@ from texvent_scenes.models.part_lines import read_parts
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.people.person import Rider
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import part
+from texvent_scenes.models.skeleton import _SLIVER_M, _clip
 from texvent_scenes.models.surfaces import read_surface, shared_surfaces
-from texvent_scenes.rendered_scene import Texture
+from texvent_scenes.rendered_scene import Shape, Texture
 
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
 
@@ -163,6 +165,22 @@ def test_a_hand_points_where_the_forearm_does_unless_it_holds_along_it(angle_deg
     axes = _held(trunk, math.cos(angle) * held + math.sin(angle) * across, 2.0 * held)
     first = ahead if angle_deg < 2.87 else across
     np.testing.assert_allclose(axes.T, [first, np.cross(held, first), held], atol=1e-9)
+
+
+@given(*[st.floats(-2, 2)] * 2, st.floats(0.01, 1), st.floats(0.01, 2), st.sampled_from(range(3)))
+def test_a_box_is_cut_off_at_two_planes(middle, low, half, width, axis):
+    """What lies outside leaves a sliver inside, which is not seen."""
+    box = part(Shape.BOX, Material((0.5, 0.5, 0.5)), np.c_[np.diag([half] * 3), [middle] * 3])
+    found = _clip(box, axis, low, low + width).to_body
+    first, last = max(middle - half, low), min(middle + half, low + width)
+    if last - first > 2 * _SLIVER_M:
+        expected = 0.5 * (first + last), 0.5 * (last - first)
+    else:
+        inside = min(max(middle, low + _SLIVER_M), low + width - _SLIVER_M)
+        expected = inside, _SLIVER_M
+    assert (found[axis, 3], found[axis, axis]) == pytest.approx(expected, abs=2e-4)
+    others = [one for one in range(3) if one != axis]
+    assert (found[others, 3] == middle).all()
 
 
 def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> list[float]:

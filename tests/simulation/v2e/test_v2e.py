@@ -95,6 +95,17 @@ def test_leak_before_a_noise_event_makes_no_light_noise():
     assert events.t[1] == pytest.approx(1_200_000 + 0.2 / 0.26 * 1e6, abs=1)
 
 
+@pytest.mark.parametrize(
+    ("change", "polarities", "label"),
+    [(0.1, [1], NOISE), (0.3, [1, 1], SIGNAL), (-0.4, [0], SIGNAL)],
+)
+def test_events_are_noise_where_leak_of_their_sign_is_half_of_them(change, polarities, label):
+    config = with_only(leak_rate_hz=1.0, leak_rate_decades=0.0)
+    # 0.16 of leak in 0.8 s: of an event of 0.2, of two, and against one of -0.2.
+    events = run(V2eSimulator(config), frames_of([40, 40 * math.exp(change)], [0, 800_000]))
+    assert (events.p.tolist(), set(events.label.tolist())) == (polarities, {label})
+
+
 def test_a_change_kept_back_by_the_refractory_period_fires_later():
     config = with_only(refractory_period_us=25_000)
     values = [40, 40 * math.exp(2.01), 40 * math.exp(2.01), 40 * math.exp(2.01)]
