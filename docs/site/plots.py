@@ -202,7 +202,8 @@ def teaching_scores() -> dict[str, dict[str, tuple[list[float], list[float]]]]:
     found: dict[str, dict[str, tuple[list[float], list[float]]]] = {}
     for test, measure in (("table", "AP50 visible"), ("turntable", "accuracy")):
         found[test] = {}
-        for name in ("objects-factors", "objects-clips"):  # of other frames, with their own base
+        for name in ("objects-factors", "objects-clips", "objects-recipes"):
+            # The last two are of other frames, with their own base.
             rows = read(f"{name}.json.gz")[test]
             arms = {row["arm"]: row["scores"][measure] for row in rows}
             found[test] |= teaching_rows(arms, "physical", 0)
