@@ -133,7 +133,11 @@ CHILDREN = {
         "results/objects-clips",
         "results/objects-programs",
     ],
-    "teaching": ["results/reconstruction-factors", "results/reconstruction-stream"],
+    "teaching": [
+        "results/objects-recipes",
+        "results/reconstruction-factors",
+        "results/reconstruction-stream",
+    ],
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load", "spiking"],

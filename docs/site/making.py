@@ -25,6 +25,7 @@ BENCHMARKS = {
     "objects": (),
     "objects-factors": (),
     "objects-clips": (),
+    "objects-recipes": (),
     "objects-recorded": (),
     "objects-programs": (),
     "reconstruction-factors": (),

@@ -23,12 +23,15 @@ LOOKS = {
 TEACHING = {
     "times of frames": ("frame times", "frame times", "frame times"),
     "no noise": ("no noise", "no noise", "no noise"),
-    "more noise": ("twice the noise", "", "noise on every pixel"),
+    "twice the noise": ("twice the noise", "", ""),
+    "noise on every pixel": ("", "", "noise on every pixel"),
     "one threshold, .2": ("threshold .2", "", "threshold .2"),
     "thresholds drawn about it": ("thresholds about the matched one", "", ""),
     "thresholds .05 to 2": ("thresholds .05 to 2", "wide thresholds", "thresholds .05 to 2"),
     "one prompt": ("", "", "1 scene"),
-    "fewer clips or scenes": ("a third of the clips", "", "3 scenes"),
+    "three prompts": ("", "", "3 scenes"),
+    "ten prompts": ("", "", "10 scenes"),
+    "a third of the clips": ("a third of the clips", "", ""),
     "three times the clips": ("three times the clips", "", ""),
     "films": ("", "", "films"),
     "moved photos": ("", "", "moved photos"),
@@ -36,6 +39,9 @@ TEACHING = {
     "no pauses": ("no pauses", "", ""),
     "farther away": ("naive framing", "", ""),
     "things as recorded": ("things as recorded", "", ""),
+    "drawn as recommended": ("recommended", "recommended", ""),
+    "drawn about a DAVIS346": ("stream physical", "stream physical", ""),
+    "drawn as by V2V": ("v2v", "v2v", ""),
     "latency of 40 Hz": ("", "latency of 40 Hz", ""),
     "higher contrast": ("", "high contrast", ""),
 }
@@ -196,7 +202,8 @@ def teaching_scores() -> dict[str, dict[str, tuple[list[float], list[float]]]]:
     found: dict[str, dict[str, tuple[list[float], list[float]]]] = {}
     for test, measure in (("table", "AP50 visible"), ("turntable", "accuracy")):
         found[test] = {}
-        for name in ("objects-factors", "objects-clips"):  # of other frames, with their own base
+        for name in ("objects-factors", "objects-clips", "objects-recipes"):
+            # The last two are of other frames, with their own base.
             rows = read(f"{name}.json.gz")[test]
             arms = {row["arm"]: row["scores"][measure] for row in rows}
             found[test] |= teaching_rows(arms, "physical", 0)

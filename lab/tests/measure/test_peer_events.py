@@ -64,3 +64,31 @@ def test_folders_without_frames_are_named_in_a_line(given, tmp_path, monkeypatch
         assert line.startswith("error: ")
         assert name in line
     assert not (tmp_path / "out").exists()
+
+
+def test_noise_of_v2e_is_its_preset_at_a_rate_that_no_other_program_takes(
+    given, tmp_path, monkeypatch, capsys
+):
+    made = []
+
+    class EventEmulator:
+        def __init__(self, **options):
+            made.append(options)
+
+        def generate_events(self, pixels, t_s):
+            return np.array([[t_s, 1, 0, 1]]) if t_s else None
+
+    monkeypatch.setitem(sys.modules, "v2ecore", SimpleNamespace())
+    monkeypatch.setitem(
+        sys.modules, "v2ecore.emulator", SimpleNamespace(EventEmulator=EventEmulator)
+    )
+    frames = [Frame(np.zeros((2, 3), np.uint8), t_us) for t_us in (0, 500_000)]
+    for noise_hz in (None, 0.3):
+        x, y, t_us, p = peer_events.load_v2e(noise_hz)(frames, 0.2)
+        assert (x.tolist(), y.tolist(), t_us.tolist(), p.tolist()) == ([1], [0], [500_000], [1])
+    assert made[0].items() < made[1].items()
+    assert made[1]["shot_noise_rate_hz"] == 0.3
+    assert made[1]["cutoff_hz"] == 30  # of its preset
+    with pytest.raises(SystemExit):
+        run(monkeypatch, tmp_path / "frames", tmp_path / "out", "--noise-hz", "1")
+    assert "--noise-hz is for v2e" in capsys.readouterr().err

@@ -123,6 +123,20 @@ def test_each_factor_has_a_training_of_its_own(folder):
         trainings(folder / "factors.toml", folder / "work", ["as it is"])
 
 
+def test_films_count_from_the_folder_of_their_specification(folder, monkeypatch):
+    before, _, after = TEXT.partition("[[sources]]")
+    videos = '[[sources]]\nvideos = ["one.mp4", "two.mp4"]\n'
+    (folder / "films.toml").write_text(before + videos + after[after.index("[variants") :])
+    text = 'training = "training.toml"\n[factors.films]\nspecification = "films.toml"\n'
+    (folder / "films-factors.toml").write_text(text)
+    for name in ("one", "two"):
+        (folder / f"{name}.mp4").touch()
+    monkeypatch.chdir(folder)
+    config = trainings(Path("films-factors.toml"), folder / "elsewhere/work", None)["films"]
+    (source,) = read_specification(config.data.specification).sources
+    assert source.videos == (str(folder / "one.mp4"), str(folder / "two.mp4"))
+
+
 def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(folder):
     config = trainings(folder / "factors.toml", folder / "work", ["streamed"])["streamed"]
     examples = StreamedExamples(config, "v2v")

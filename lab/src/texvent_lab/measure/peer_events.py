@@ -6,8 +6,9 @@
 
 Each program runs in an environment that has it (the extra `./lab[peers]`; v2e from a
 clone of its repository, `--path CLONE`), as its authors' defaults have it but for the contrast
-threshold: there is a folder of event files per threshold. Programs get the frames alone; v2e's
-network for interpolation, whose weights are not in its repository, is left out.
+threshold, and v2e's noise with `--noise-hz`: there is a folder of event files per threshold.
+Programs get the frames alone; v2e's network for interpolation, whose weights are not in its
+repository, is left out.
 """
 
 from __future__ import annotations
@@ -73,12 +74,26 @@ def _load_evlib() -> Simulate:
     return simulate
 
 
-def _load_v2e() -> Simulate:
+NOISY = {"sigma_thres": 0.05, "cutoff_hz": 30.0, "leak_rate_hz": 0.1}
+"""What v2e's own preset `noisy` sets beside thresholds and its rate of noise."""
+
+
+def load_v2e(noise_hz: float | None = None) -> Simulate:
+    """v2e's pixel model.
+
+    Args:
+        noise_hz: events per pixel and second of shot noise, with its preset `noisy`; None: its
+            defaults, without shot noise.
+
+    Raises:
+        ImportError: it is not installed.
+    """
     emulator: Any = importlib.import_module("v2ecore.emulator")
+    options = {} if noise_hz is None else {**NOISY, "shot_noise_rate_hz": noise_hz}
 
     def simulate(frames: list[Frame], threshold: float) -> Columns:
         core = emulator.EventEmulator(
-            pos_thres=threshold, neg_thres=threshold, seed=1, device="cpu"
+            pos_thres=threshold, neg_thres=threshold, seed=1, device="cpu", **options
         )
         made = [core.generate_events(one.pixels, one.t_us / MICROSECONDS) for one in frames]
         rows = np.concatenate([np.empty((0, 4)), *(part for part in made if part is not None)])
@@ -89,7 +104,7 @@ def _load_v2e() -> Simulate:
 
 
 PROGRAMS: Mapping[str, Callable[[], Simulate]] = {
-    "eventcv": _load_eventcv, "evlib": _load_evlib, "v2e": _load_v2e
+    "eventcv": _load_eventcv, "evlib": _load_evlib, "v2e": load_v2e
 }  # fmt: skip
 """Name → loader, which raises ImportError where the program is not installed."""
 
@@ -170,13 +185,20 @@ def main() -> int:
     parser.add_argument("frames", type=Path, help="folder of texvent bench ... --write-frames")
     parser.add_argument("out", type=Path, help="folder to write")
     parser.add_argument("--path", type=Path, help="clone of the program's repository")
+    parser.add_argument(
+        "--noise-hz", type=float, help="v2e with its preset noisy at this rate of shot noise"
+    )
     parser.add_argument("--overwrite", action="store_true")
     chosen = parser.parse_args()
     if chosen.path is not None:
         sys.path.insert(0, str(chosen.path))
+    noise_hz: float | None = chosen.noise_hz
+    if noise_hz is not None and chosen.program != "v2e":
+        parser.error("--noise-hz is for v2e; the others run as their defaults have it")
     try:
-        simulate = PROGRAMS[chosen.program]()
+        simulate = PROGRAMS[chosen.program]() if noise_hz is None else load_v2e(noise_hz)
         program = describe_program(chosen.program, chosen.path)
+        program |= {} if noise_hz is None else {"noise_hz": str(noise_hz)}
     except ImportError as error:
         print(f"error: {chosen.program} cannot be imported here: {error}", file=sys.stderr)
         return 2

@@ -152,7 +152,7 @@ def trainings(
         if names and name not in names:
             continue
         own = changes.get("specification")
-        source = path.parent / own if own else base.data.specification
+        source = (path.parent / own if own else base.data.specification).resolve()
         variant = str(changes.get("variant", base.data.variant))
         make_folder(work)
         written = work.resolve() / f"factor-{number}.yaml"
@@ -188,9 +188,17 @@ def score(name: str, weights: Path | None, recording: FrameRecording) -> dict[st
 
 
 def score_published(names: Sequence[str], recording: FrameRecording) -> list[dict[str, Any]]:
-    """Rows of published networks, whose weights are found as `texvent reconstruct` finds them."""
+    """Rows of published networks, whose weights are found as `texvent reconstruct` finds them.
+
+    Raises:
+        ConfigError: unknown name, or one that gives depth.
+        InputError: there are no weights.
+    """
+    from texvent_lab.reconstruct.reconstructor import find_network  # imports torch
+
     rows = []
     for name in names:
+        find_network(name)
         found = score(name, None, recording)
         scores = {measure: [value] for measure, value in found.items()}
         rows.append({"factor": f"{name}, as published", "scores": scores})

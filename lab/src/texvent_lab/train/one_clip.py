@@ -37,7 +37,11 @@ class OneClip:
 
 
 def streamed_events(
-    frames: NDArray[np.uint8], times_us: NDArray[np.int64], randomize: str, seed: int
+    frames: NDArray[np.uint8],
+    times_us: NDArray[np.int64],
+    randomize: str,
+    seed: int,
+    **ranges: Any,
 ) -> EventStream:
     """Events of a whole clip with pixels as the stream draws them; nothing else is drawn.
 
@@ -46,8 +50,10 @@ def streamed_events(
         times_us: of each, µs; events have the same clock.
         randomize: name of the stream's ranges, of `texvent.training.draws.RANGES`.
         seed: of the draws.
+        **ranges: in place of some of those.
     """
-    still = dataclasses.replace(RANGES[randomize], speed=(1, 1), pause=(0.0, 0.0), flip=0.0)
+    motionless: Any = {"speed": (1, 1), "pause": (0.0, 0.0), "flip": 0.0}
+    still = dataclasses.replace(RANGES[randomize], **motionless, **ranges)
     height, width = frames.shape[1:]
     stream = TrainingStream(
         OneClip(Clip(frames, times_us)),

@@ -48,6 +48,8 @@ class DigitsArm:
     evenly on a logarithmic scale. 1 is one threshold for all."""
     stream: str = ""
     """Draws of a training stream, by name, for each part of a set in place of the model's."""
+    stream_threshold: tuple[float, float] | None = None
+    """Thresholds that the stream draws between, log units; None: its own."""
 
     @property
     def part(self) -> int:
@@ -126,6 +128,14 @@ ABLATION: tuple[DigitsArm, ...] = (
         "all but latency", {**_QUIET, **_FRAME_TIMES}, ("frames",), WIDE, threshold_range=40.0
     ),
     DigitsArm("recommended", {}, ("exact",), MEASURED, stream="recommended"),
+    DigitsArm(
+        "recommended about the matched threshold",
+        {},
+        ("exact",),
+        MEASURED,
+        stream="recommended",
+        stream_threshold=(0.05, 0.15),
+    ),
     DigitsArm("stream physical", {}, ("exact",), MEASURED, stream="physical"),
     DigitsArm("v2v", {}, ("exact",), MEASURED, stream="v2v"),
 )

@@ -127,9 +127,11 @@ class DigitsRun:
         plan, arm = self.plan, find_arm(cell.arm)
         settings = arm.settings(cell.way).as_tables()
         chance = (dataclasses.asdict(arm.stimulus), arm.threshold_range)
-        facts = (settings, *chance, plan.pairs, self.target, plan.digits, self.mnist)
+        facts: list[Any] = [settings, *chance, plan.pairs, self.target, plan.digits, self.mnist]
         if arm.stream:
-            facts = (*facts, arm.stream)
+            facts.append(arm.stream)
+        if arm.stream_threshold:
+            facts.append(arm.stream_threshold)
         return self.path("set", ".npz", *facts)
 
     def prediction_path(self, training: DigitsTraining) -> Path:
@@ -262,7 +264,9 @@ def _events_of(
         frames = [sheet.at(one) for one in instants]
         light = np.stack([one.pixels for one in frames]) / WHITE
         coded = np.rint(WHITE * light ** (1 / RANGES[arm.stream].gamma)).astype(np.uint8)
-        return streamed_events(coded, np.array([one.t_us for one in frames]), arm.stream, seed)
+        ranges = {"threshold": arm.stream_threshold} if arm.stream_threshold else {}
+        times_us = np.array([one.t_us for one in frames])
+        return streamed_events(coded, times_us, arm.stream, seed, **ranges)
     settings = arm.settings(way, threshold=threshold)
     run = dataclasses.replace(settings.run, seed=seed)
     return prepare_video(sheet, dataclasses.replace(settings, run=run)).packets.collect()
