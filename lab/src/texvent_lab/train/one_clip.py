@@ -27,7 +27,7 @@ class OneClip:
         return 1
 
     def name(self, index: int) -> str:
-        """What to call it in messages."""
+        """Name of the clip in messages."""
         return f"clip {index} of {self.clip.times_us[-1] / MICROSECONDS:g} s"
 
     def read(self, index: int, truth: Any, most_bytes: int) -> Clip:
