@@ -83,11 +83,8 @@ class StagedClip:
     def relates(self, claim: Claim, kind: str, when: slice = slice(None)) -> bool:
         """Whether a relation between the objects of a claim holds at some of the instants."""
         about = [] if claim.subject is None else [claim.subject, *claim.targets]
-        return bool(about) and self.holds(kind, about, [
-            [BodyBoxes(one.middle[when], one.size[when], one.seen[when], one.displacement,
-                       one.parts) for one in self.boxes[index]]
-            for index in about
-        ])  # fmt: skip
+        copies = [[one.cut(when) for one in self.boxes[index]] for index in about]
+        return bool(about) and self.holds(kind, about, copies)
 
     def holds(self, kind: str, about: Sequence[int], copies: Sequence[Sequence[BodyBoxes]]) -> bool:
         """Whether the first bodies are so to the others, which are copies of these objects."""

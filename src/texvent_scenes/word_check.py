@@ -50,6 +50,8 @@ _DONE = ("bounce", "ground", "activity", "stop before", "stop", "land", "descend
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
+_LIT_SHARE = 0.5
+"""Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
 """Share of the clip in which what swims is in the water."""
 _STRAY, _UNEVEN = 0.12, 2.0
@@ -179,8 +181,13 @@ def _each_holds(staged: StagedClip, claim: Claim) -> bool:
 
 
 def _shines(staged: StagedClip, claim: Claim) -> bool:
-    """Whether a lamp of it is on at some time, or it is a pattern that blinks."""
-    lit = {one.actor.instance for one in staged.scene.lamps.lit if one.shines or one.flashes}
+    """Whether a lamp of it is on at some time, or it is a pattern, and one that blinks goes off."""
+    is_short = staged.duration_s < _LEAST_CLIP_S
+    lit = {
+        one.actor.instance for one in staged.scene.lamps.lit
+        if (one.shines or one.flashes)
+        and (not one.blink_hz or is_short or one.blink_hz * staged.duration_s > _LIT_SHARE)
+    }  # fmt: skip
     return all(one.instance in lit for one in staged.own(claim))
 
 

@@ -290,3 +290,13 @@ def test_a_note_tells_how_long_something_else_hides_a_body(y, found):
     view = {"position": (0.0, -30.0, 2.0), "target": (0.0, 0.0, 1.0)}
     notes = unseen_from(house, car, **view).notes
     assert any(one.startswith("the car is hidden for ") for one in notes) == found
+
+
+def test_boxes_at_the_end_of_a_way_have_the_parts_and_the_heading_of_that_instant():
+    rider, bus = block((0.0, 5.0), 1.0), block((0.0, 5.0), 8.0)
+    last = bus.cut(slice(-1, None))
+    assert last.parts[0].tolist() == [[1.0, -4.0, 0.0], [9.0, 4.0, 8.0]]
+    assert last.ahead.tolist() == [[1.0, 0.0]]
+    above = rider._replace(middle=rider.middle + np.array([0.0, 0.0, 8.0]))
+    assert RULES["on"](above.cut(slice(-1, None)), last).all()
+    assert not RULES["on"](above.cut(slice(-1, None)), block((0.0, 0.0), 8.0).cut(slice(1))).any()

@@ -252,3 +252,9 @@ def test_a_colour_is_that_of_enough_of_the_surface():
     assert not has_colour([large, small], SURFACES["black"])
     assert has_colour([large, small, small], SURFACES["black"])
     assert not has_colour([large], SURFACES["red"])
+
+
+@pytest.mark.parametrize("noun", ["square", "lamp"])
+@pytest.mark.parametrize(("rate_hz", "is_shown"), [("0.1", False), ("1", True)])
+def test_what_flashes_goes_off_in_the_clip(noun, rate_hz, is_shown):
+    check(f"a {noun} flashes at {rate_hz} Hz", "flashes", is_shown)
