@@ -29,6 +29,13 @@ class BodyBoxes(NamedTuple):
     ahead: Float64Array = np.zeros((1, 2))
     """[t, 2] unit vectors of its heading on the ground; zero: it has none."""
 
+    def cut(self, when: slice) -> BodyBoxes:
+        """Boxes at some of the instants, the parts at the first of these."""
+        middle = self.middle[when]
+        parts = self.parts + (middle[0] - self.middle[0])
+        size, seen, ahead = self.size[when], self.seen[when], self.ahead[when]
+        return BodyBoxes(middle, size, seen, self.displacement, parts, ahead)
+
 
 def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
     """The body of an actor at instants, s, with the camera at each."""

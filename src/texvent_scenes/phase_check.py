@@ -126,7 +126,8 @@ def list_hidden(
     times: Sequence[float], size: SensorSize,
 ) -> Iterator[str]:  # fmt: skip
     """Notes on what something else hides for a part of the clip, such as a tunnel."""
-    for one in scene.actors:
+    flashing = {one.actor.instance for one in scene.lamps.lit if one.flashes}
+    for one in (each for each in scene.actors if each.instance not in flashing):
         counts = seen[one.instance]
         gone = [not count and _is_inside(one, time_s, camera, size)
                 for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip

@@ -1,23 +1,21 @@
 """Relation check: relations and directions of a scene that its bodies do not realise.
 
-Boxes around the bodies at a few instants decide. Left, right, front and behind are those of the
-image.
+Boxes around the bodies at a few instants decide, by the rules of `relation_rules.py`.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent_scenes.body_boxes import BodyBoxes
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.relation_rules import RULES, are_still, is_between
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on
@@ -40,29 +38,8 @@ _TOGETHER, _PASSED_ALL = ("behind", "front", "beside"), ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
-_LEAST_DISPLACEMENT, _MOST_COPIES, _DIRECT, _AT_START = 0.1, 0.75, 0.5, 0.15
-"""Displacement, in sizes of a body, that is motion; share of a subject's copies in a relation;
-least share of the way by which what goes "towards" something comes nearer; gap in sizes at which
-what goes "from" something begins."""
-
-
-_AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
-_FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
-"""Points of a foot around its middle, at so much of its size, of which something must be below so
-many; height of a seat over that of who sits there."""
-_LANE_M, _STOPPED = 3.0, 1.5
-"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes."""
-_ON_THE_WAY = 0.3
-"""Distance from the line between two things at which something is between them, of its length."""
-_BEFORE = 1.5
-"""Half widths of both by which what is before or behind something may be aside of it."""
-_LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
-"""Least angle of an arc around something, and how much its radius may differ, by its mean."""
-_BETWEEN = 24
-"""Instants from one to the next at which a body is compared with what it goes through."""
-_PROTRUDING, _SUNKEN = 0.12, 0.2
-"""Share of the size of what is in a container that may be beyond its sides, and least share of its
-height below the rim."""
+_MOST_COPIES = 0.75
+"""Share of a subject's copies in a relation."""
 
 
 class Violation(NamedTuple):
@@ -90,10 +67,10 @@ def find_violations(
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
-        if kind not in (*_RULES, "between") or one.subject in one.targets:
+        if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
-        held = [_holds(kind, body, others, at_end=goes_on) for body in own]
+        held = [holds(kind, body, others, at_end=goes_on) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
@@ -139,267 +116,22 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     return kind
 
 
-def _holds(
-    kind: str, body: BodyBoxes, others: Sequence[BodyBoxes], *, at_end: bool = False
-) -> bool:
+def holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes], *, at_end: bool = False) -> bool:
     """Whether a body is so to another one, or between two of them, for long enough.
 
     `at_end`: it does several things one after the other, and so is there when the last is done.
     """
     if kind == "between":
         pairs = itertools.combinations(others, 2)
-        flags = [(_is_between(body, *pair), _stay(body, *pair)) for pair in pairs]
+        flags = [(is_between(body, *pair), are_still(body, *pair)) for pair in pairs]
     else:
-        flags = [(_RULES[kind](body, other), _stay(body, other)) for other in others]
+        flags = [(RULES[kind](body, other), are_still(body, other)) for other in others]
     is_lasting = kind in _LASTING
-    are_both_going = kind in _TOGETHER and not _stay(body) and not any(map(_stay, others))
+    are_both_going = kind in _TOGETHER and not are_still(body) and not any(map(are_still, others))
     found = [
         (at_end and is_lasting and held[-2:].all())
         or np.mean(held) >= (0.5 if is_lasting or are_both_going
-                             or (stay and kind in PLACING) else 1e-9)
-        for held, stay in flags
+                             or (is_still and kind in PLACING) else 1e-9)
+        for held, is_still in flags
     ]  # fmt: skip
     return all(found) if kind in _PASSED_ALL else any(found)
-
-
-def _stay(*bodies: BodyBoxes) -> bool:
-    """Whether bodies stay in their places."""
-    return all(
-        np.ptp(one.middle, axis=0).max() <= _LEAST_DISPLACEMENT * one.size.max() for one in bodies
-    )
-
-
-_Flags = NDArray[np.bool_]
-_Rule = Callable[[BodyBoxes, BodyBoxes], _Flags]
-"""Whether a body is so to another one at each instant, [t]; [1] of relations of a whole way."""
-
-
-def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> _Flags:
-    """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
-    room = 0.55 * other.size + share * one.size + 0.02
-    return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
-
-
-def _is_amid(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether its middle is between the outermost parts of the other, seen from above."""
-    low, high = other.parts[:, 0, :2].min(axis=0), other.parts[:, 1, :2].max(axis=0)
-    at = (one.middle - other.middle + other.middle[0])[:, :2]
-    return np.asarray(((at >= low) & (at <= high)).all(axis=1))
-
-
-def _changes_sides(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it ends in the other, or of sign 1 begins there, and comes from, or goes, outside.
-
-    What is inside by the wall is farther out at the other end of its way.
-    """
-    is_amid = _is_amid(one, other)[::-sign]
-    return np.asarray(is_amid[-1:] & (_recedes(one, other, sign, 2)[-1:] | ~is_amid[:1]))
-
-
-def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it is in one line with another vehicle, before it (1) or behind it (-1)."""
-    off, ahead = (one.middle - other.middle)[:, :2], other.ahead
-    aside = np.abs(off[:, 0] * ahead[:, 1] - off[:, 1] * ahead[:, 0])
-    return np.asarray((sign * (off * ahead).sum(axis=1) > 0.0) & (aside <= _LANE_M))
-
-
-def _is_stopped(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it comes to rest short of the other, near it."""
-    off = (other.middle - one.middle)[-1, :2]
-    gap = np.abs(off) - 0.5 * (one.size + other.size)[-1, :2]
-    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= max(_STOPPED * one.size[-1].max(), _LANE_M)
-    return np.array([is_near and off @ one.ahead[-1] > 0.0])
-
-
-def _is_contained(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it is between the sides of a container, above its floor and partly below its rim."""
-    room = np.maximum(0.5 * (other.size - one.size), 0.0) + _PROTRUDING * one.size
-    is_amid = (np.abs(one.middle - other.middle) <= room)[:, :2].all(axis=1)
-    is_below = _clears(one, other, 0.5) <= -_SUNKEN * np.minimum(one.size, other.size)[:, 2]
-    is_above_floor = _clears(one, other, -0.5) >= -_PROTRUDING * one.size[:, 2] - 0.01
-    return np.asarray(is_amid & is_below & is_above_floor)
-
-
-def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
-    """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
-    level = other.middle[:, 2] + share * other.size[:, 2]
-    return np.asarray(one.middle[:, 2] - 0.5 * one.size[:, 2] - level)
-
-
-def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether parts of the other are below most of its foot, and none of it above."""
-    tall = one.size[:, 2]
-    room = 0.2 * tall + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
-    foot_m = one.middle[:, 2] - 0.5 * tall
-    low, high = (one[:, None] for one in (foot_m - room, foot_m + _SEATED * tall + 0.05))
-    gone = (other.middle - other.middle[0])[:, None]
-    parts = other.parts[None] + gone[:, :, None] if _stay(other) else _own_box(other)
-    bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
-    is_larger = one.size > other.size  # such as a person on a chair, a bird on a fence
-    reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
-    found = np.zeros(len(tall))
-    for way in _AROUND:
-        spot = (one.middle[:, :2] + way * reach)[:, None]
-        is_below = ((parts[..., 0, :2] <= spot) & (parts[..., 1, :2] >= spot)).all(axis=-1)
-        found += (is_below & bears).any(axis=1)
-    return np.asarray((found >= _BORNE) & (_clears(one, other, 0.5) <= room))
-
-
-def _own_box(one: BodyBoxes) -> Float64Array:
-    """[t, 1, 2, 3] its box as its only part, of a body that may turn."""
-    half = 0.5 * one.size + 0.02
-    return np.stack([one.middle - half, one.middle + half], axis=1)[:, None]
-
-
-def _is_hung(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it touches a side of the other, no higher than that and no lower."""
-    gap = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
-    is_beside = (gap[:, :2] <= 0.05).all(axis=1)
-    return np.asarray(is_beside & (gap[:, 2] <= -0.98 * one.size[:, 2]))
-
-
-def _is_under(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether a part of the other is above it, and none where it is itself."""
-    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
-    slim = 0.4 * one.size[:, None]
-    is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2)
-    is_over = ((low < middle) & (high > middle))[..., :2].all(axis=2)
-    is_roof = is_over & np.asarray(low[:, 2] >= middle[..., 2])
-    return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
-
-
-def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
-    """[t] how far it is to the other's right in the image, in half widths of both."""
-    half = sum(0.5 * body.size[:, :2].max(axis=1) / np.maximum(body.seen[:, 2], 1e-3)
-               for body in (one, other))  # fmt: skip
-    return np.asarray((one.seen - other.seen)[:, 0] / half)
-
-
-def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    is_near = np.abs(_aside(one, other)) <= _BEFORE
-    return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
-
-
-def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
-    """Whether it has come so much nearer or gone away along `axes`, and not mostly past it."""
-    off = (one.middle - other.middle)[:, :axes]
-    away, way = np.linalg.norm(off, axis=1), off - off[0]
-    gone = sign * (away - away[0])
-    is_direct = gone >= _DIRECT * np.linalg.norm(way, axis=1)
-    return np.asarray((gone > _LEAST_DISPLACEMENT * one.size.max()) & is_direct)
-
-
-def _touches_top(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether its foot is at the top of the other, give or take some of its height."""
-    is_level = np.abs(_clears(one, other, 0.5)) < 2.0 * _LEAST_DISPLACEMENT * one.size[:, 2] + 0.02
-    return np.asarray(_within(one, other, 2) & is_level)
-
-
-def _climbs(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
-    """Whether it gets higher, or of sign -1 lower, where the other is."""
-    risen = sign * (one.middle[-1] - one.middle[0])[2]
-    is_high = risen > _LEAST_DISPLACEMENT * one.size[0, 2]
-    return np.asarray(_within(one, other, 2, 1.0)[[0, -1]] & is_high)
-
-
-def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
-    """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
-    off = (one.middle - other.middle)[:, :2]
-    displacement = off[-1] - off[0]
-    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
-    return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
-
-
-def _is_through(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it goes in before the middle and out behind it, meets no part, and one is above."""
-    (low, high), middle = other.parts.swapaxes(0, 1), _refined(one.middle)[:, None]
-    slim = 0.3 * _refined(one.size)[:, None]
-    is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2).any(axis=1)
-    is_under = ((low < middle) & (high > middle))[..., :2].all(axis=2)
-    is_roofed = (is_under & (low[:, 2] > middle[..., 2])).any(axis=1)
-    return np.asarray(_is_passing(one, other) & ~is_met.any() & is_roofed)
-
-
-def _refined(values: Float64Array) -> Float64Array:
-    """[t, 3] values at many instants between these: a door is thinner than a step is long."""
-    at = np.linspace(0.0, len(values) - 1.0, _BETWEEN * (len(values) - 1) + 1)
-    columns = (np.interp(at, np.arange(len(values)), one) for one in values.T)
-    return np.stack([*columns], axis=1)
-
-
-def _is_around(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it goes half of the way around, or on an arc about it, or stays, as in a ring."""
-    x, y = (one.middle - other.middle)[:, :2].T
-    turned, far = np.ptp(np.unwrap(np.arctan2(y, x))), np.hypot(x, y)
-    is_arc = turned >= _LEAST_ARC and np.ptp(far) <= _ROUND * far.mean()
-    return np.array([turned >= 1.05 * np.pi or is_arc or _stay(one)])
-
-
-def _is_near(one: BodyBoxes, other: BodyBoxes, share: float) -> _Flags:
-    """Whether the gap on the ground is at most a share of the greater one's extent."""
-    gap = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
-    extent = np.maximum(one.size.max(axis=1), other.size.max(axis=1))
-    return np.asarray(np.linalg.norm(np.maximum(gap[:, :2], 0.0), axis=1) <= share * extent)
-
-
-def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it is near, and as high: not on a desk under which the other one lies.
-
-    The gap is at most 1.5 times the geometric mean of both extents: a ball 8 m from a house is not
-    next to it, a car that far is.
-    """
-    apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
-    gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
-    extent = np.sqrt(one.size.max(axis=1) * other.size.max(axis=1))
-    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.5 * one.size.max(axis=1)))
-
-
-def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
-    """Whether its middle lies on the way from one to the other, or near that."""
-    way = (second.middle - first.middle)[:, :2]
-    off = (one.middle - first.middle)[:, :2]
-    length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
-    along = (off * way).sum(axis=1) / length**2
-    aside = np.abs(off[:, 0] * way[:, 1] - off[:, 1] * way[:, 0]) / length
-    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= _ON_THE_WAY * length))
-
-
-def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it heads for another one, which moves."""
-    off = (other.middle - one.middle)[:, :2]
-    return np.asarray(((off * one.ahead).sum(axis=1) > 0.0) & ~np.asarray(_stay(other)))
-
-
-_RULES: Mapping[str, _Rule] = {
-    "follow": _is_following,
-    "on": _is_on, "under": _is_under, "around": _is_around,
-    "overtake": _is_passing,
-    "past": lambda one, other: _is_passing(one, other, 0.5 * _stay(other)),
-    "in": lambda one, other: _within(one, other, 3),
-    "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
-    "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,
-    "on a seat": lambda one, other: _within(one, other, 2) & (_clears(one, other, 0.0) < 0.0),
-    "push": lambda one, other: _is_near(one, other, 0.5),
-    "contained": _is_contained, "hung": _is_hung,
-    "never": lambda one, other: np.zeros(1, dtype=np.bool_),
-    "through an opening": _is_through,
-    "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),
-    "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
-    "behind": lambda one, other: _deeper(one, other, 1),
-    "front": lambda one, other: _deeper(one, other, -1),
-    "left of": lambda one, other: _aside(one, other) <= -0.5,
-    "right of": lambda one, other: _aside(one, other) >= 0.5,
-    "beside": _is_beside,
-    "at": lambda one, other: _is_near(one, other, 0.4),
-    "with": lambda one, other: _is_near(one, other, 1.0),
-    "towards": lambda one, other: _recedes(one, other, -1),
-    "away from": lambda one, other: _recedes(one, other, 1),
-    "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
-    "into": lambda one, other: _changes_sides(one, other, -1),
-    "out of": lambda one, other: _changes_sides(one, other, 1),
-    "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
-    "up": lambda one, other: _climbs(one, other, 1),
-    "down": lambda one, other: _climbs(one, other, -1),
-    "from": lambda one, other: _recedes(one, other, 1) & _is_near(one, other, _AT_START)[:1],
-}  # fmt: skip
-"""Kind of relation → whether a body is so to another; acts have none."""

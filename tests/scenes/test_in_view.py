@@ -17,7 +17,8 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.in_view import LEAST_PIXELS, MOST_POINTS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.relation_check import _RULES, _holds
+from texvent_scenes.relation_check import holds
+from texvent_scenes.relation_rules import RULES
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
@@ -178,7 +179,7 @@ def test_room_and_way_are_counted_in_sizes_of_who_is_said_to_be_so(kind, x, held
     """A small block and a large one, and the large one and the small one."""
     small, large = block(x, 0.5), block((0.0, 0.0), 8.0)
     pairs = (small, large), (large, small)
-    assert tuple(_RULES[kind](*pair).any() for pair in pairs) == held
+    assert tuple(RULES[kind](*pair).any() for pair in pairs) == held
 
 
 def drawn_body(rng):
@@ -211,18 +212,18 @@ def mirrored_body(body):
 @examples(60)
 def test_relations_hold_however_the_world_is_turned_and_left_is_right_in_a_mirror(seed):
     one, *others = (drawn_body(np.random.default_rng([seed, number])) for number in range(3))
-    for kind in (*_RULES, "between"):
-        held = _holds(kind, one, others)
-        assert _holds(kind, turned_body(one), list(map(turned_body, others))) == held, kind
+    for kind in (*RULES, "between"):
+        held = holds(kind, one, others)
+        assert holds(kind, turned_body(one), list(map(turned_body, others))) == held, kind
         swapped = {"left of": "right of", "right of": "left of"}.get(kind, kind)
-        assert _holds(swapped, mirrored_body(one), list(map(mirrored_body, others))) == held, kind
+        assert holds(swapped, mirrored_body(one), list(map(mirrored_body, others))) == held, kind
     # As complex numbers in which the way is from 0 to 1.
     one_m, first, second = (body.middle[:, 0] + 1j * body.middle[:, 1] for body in (one, *others))
     off = (one_m - first) / (second - first)
     is_between = (off.real > 0.0) & (off.real < 1.0) & (np.abs(off.imag) <= 0.3)
     is_still = not any(np.ptp(body.middle, axis=0).any() for body in (one, *others))
     stays = np.mean(is_between) >= 0.5 if is_still else is_between.any()
-    assert _holds("between", one, others) == stays
+    assert holds("between", one, others) == stays
 
 
 @pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])
@@ -289,3 +290,13 @@ def test_a_note_tells_how_long_something_else_hides_a_body(y, found):
     view = {"position": (0.0, -30.0, 2.0), "target": (0.0, 0.0, 1.0)}
     notes = unseen_from(house, car, **view).notes
     assert any(one.startswith("the car is hidden for ") for one in notes) == found
+
+
+def test_boxes_at_the_end_of_a_way_have_the_parts_and_the_heading_of_that_instant():
+    rider, bus = block((0.0, 5.0), 1.0), block((0.0, 5.0), 8.0)
+    last = bus.cut(slice(-1, None))
+    assert last.parts[0].tolist() == [[1.0, -4.0, 0.0], [9.0, 4.0, 8.0]]
+    assert last.ahead.tolist() == [[1.0, 0.0]]
+    above = rider._replace(middle=rider.middle + np.array([0.0, 0.0, 8.0]))
+    assert RULES["on"](above.cut(slice(-1, None)), last).all()
+    assert not RULES["on"](above.cut(slice(-1, None)), block((0.0, 0.0), 8.0).cut(slice(1))).any()

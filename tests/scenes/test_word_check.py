@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
+from texvent_scenes.act_check import is_arc
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.rendered_scene import Shape
-from texvent_scenes.rows_and_arcs import is_arc, is_in_line
+from texvent_scenes.word_check import is_in_line
 
 
 @cache
@@ -251,3 +252,9 @@ def test_a_colour_is_that_of_enough_of_the_surface():
     assert not has_colour([large, small], SURFACES["black"])
     assert has_colour([large, small, small], SURFACES["black"])
     assert not has_colour([large], SURFACES["red"])
+
+
+@pytest.mark.parametrize("noun", ["square", "lamp"])
+@pytest.mark.parametrize(("rate_hz", "is_shown"), [("0.1", False), ("1", True)])
+def test_what_flashes_goes_off_in_the_clip(noun, rate_hz, is_shown):
+    check(f"a {noun} flashes at {rate_hz} Hz", "flashes", is_shown)

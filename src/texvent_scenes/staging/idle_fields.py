@@ -239,10 +239,7 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
     for number, motion in enumerate(one.motions):
         path = f"{where}.motions[{number}]"
         if not body.does(one, number):
-            kinds = _name_kinds(body, lambda other: body.does(other, 0))
-            why = f"a {one.noun} does not do that, it shows: {kinds}"
-            yield Idle(f"{path}.kind", why if motion.kind not in RESTS else
-                       f"a {one.noun} goes on with what it did")  # fmt: skip
+            yield Idle(f"{path}.kind", _why_not_done(body, one, motion.kind))
             continue
         for each in fields(Motion):
             given, usual = getattr(motion, each.name), each.default
@@ -255,6 +252,16 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
         turned = (replace(one, heading_deg=angle) for angle in (one.heading_deg, 17.0, 101.0))
         if not any(body.differ(each, bare) for each in turned):
             yield Idle(f"{where}.heading_deg", f"a {one.noun} shows its front to the camera then")
+
+
+def _why_not_done(body: _Body, one: SceneObject, kind: str) -> str:
+    """Why a motion of an object has no effect, and which have one."""
+    if kind in RESTS:
+        return f"a {one.noun} goes on with what it did"
+    if len(one.motions) > 1 and body.does(replace(one, motions=(Motion(kind),)), 0):
+        return f"a {one.noun} has done that before, or has no time for it; leave it out"
+    kinds = _name_kinds(body, lambda other: body.does(other, 0))
+    return f"a {one.noun} does not do that, it shows: {kinds}"
 
 
 def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:

@@ -14,7 +14,9 @@ from texvent.errors import ConfigError
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene, read, understand
+from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import (
     Camera,
     CameraMove,
@@ -302,3 +304,14 @@ def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
         ends = to_world[:, 3] + np.outer((-1.0, 1.0), to_world[:, 2])
         assert np.allclose(ends[:, :2], middle[:2], atol=1e-6)
         assert middle[2] < ends[:, 2].min() < body[:, 2].max() < ends[:, 2].max() - 10.0
+
+
+@pytest.mark.parametrize(
+    ("noun", "kinds", "why"),
+    [("door", ("open", "open"), "has done that before"),
+     ("ball", ("roll", "open"), "does not do that")],
+)  # fmt: skip
+def test_a_motion_that_is_done_already_is_told_from_one_that_is_never_done(noun, kinds, why):
+    scene = scene_from_data({"objects": [{"noun": noun, "motions": [{"kind": k} for k in kinds]}]})
+    with pytest.raises(ConfigError, match=why):
+        ProceduralGenerator(ProceduralConfig(duration=2.0)).report(scene)

@@ -1,9 +1,8 @@
-"""Things in containers: sizes that fit, places below the rim, ways inside."""
+"""Things in containers: places below the rim, ways inside."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,13 +16,6 @@ from texvent_scenes.staging.tracks.phase_keys import arc
 from texvent_scenes.staging.tracks.phases import activity_of
 from texvent_scenes.staging.tracks.track import Track, centred
 
-Hollow = tuple[float, float, float, float, float]
-"""Inner length and width as shares of a box, floor as a share of its height, least and greatest
-scale."""
-_ROOM, _LEAST_SHARE = 1.1, 0.25
-"""Room over the size of what is in it; least scale of a thing."""
-_OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
-"""Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
 _TURN_SHARE = 0.16
 """Share of the clip in which what goes to and fro in a container turns round."""
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
@@ -31,37 +23,10 @@ _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 above its head."""
 
 
-def fit_in(
-    container: Model, hollow: Hollow, inside: Sequence[tuple[Model, int]]
-) -> tuple[float, float]:
-    """Scale of a container, and of what is in it, with which that fits.
-
-    Args:
-        container: at the size that is said.
-        hollow: its trait.
-        inside: models at the size that is said, and how many of each.
-    """
-    across_m, along_m = hollow[0] * container.length, hollow[1] * container.width
-    if container.length >= container.width:  # the side along which they are lined up
-        across_m, along_m = along_m, across_m
-    count = sum(number for _, number in inside)
-    longest = max(max(one.length, one.width) for one, _ in inside)
-    row_m = sum(reach_of(one, count) * number for one, number in inside)
-    share = _ROOM * max(row_m / along_m, longest / across_m)
-    scale = min(max(share, hollow[3]), hollow[4])
-    return scale, max(min(scale / share, 1.0), _LEAST_SHARE)
-
-
 def reach_of(model: Model, count: int) -> float:
     """Extent along a row, in which several stand side by side, m."""
     sides = model.length, model.width
     return min(sides) if count > 1 else max(sides)
-
-
-def fit_passage(goers: Sequence[Model]) -> float:
-    """Scale of a tunnel for those who go through it."""
-    widest = max(max(one.width, _UPRIGHT * one.height) for one in goers)
-    return min(max(_OPENING * widest, _LEAST_TUNNEL), 1.0)
 
 
 def hollow_of(target: ObjectGroup) -> Support:

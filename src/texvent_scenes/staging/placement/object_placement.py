@@ -14,7 +14,6 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
-from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -22,7 +21,6 @@ from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seede
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
-from texvent_scenes.staging.placement.containers import fit_in, fit_passage
 from texvent_scenes.staging.placement.object_groups import (
     Goal,
     ObjectGroup,
@@ -42,6 +40,7 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.tracks.choose_track import (
@@ -60,13 +59,8 @@ _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
 """Approach for each metre to the side."""
-_ROOMY, _LEAST_SHARE = 0.85, 0.3
-"""Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
-"""
 _PASSED = 1.2
 """Room between what is passed one after the other, in their half extents."""
-_NOTED = 0.1
-"""Change of a size that the report names."""
 _PACE = 0.4
 """From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
@@ -88,6 +82,7 @@ class ObjectPlacer:
     ) -> None:
         self._description = settle_motions(description, nouns, seed)
         self._nouns = nouns
+        self._sizes = Sizes(self._description, nouns, is_trip=travel is not None)
         self._seed = seed
         self._duration_s = duration_s
         self._level_m = level_m
@@ -123,8 +118,9 @@ class ObjectPlacer:
         scene_object = self._description.objects[index]
         noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
-        size = scene_object.size * self._fit_on(index, noun) * self._fit_in(index)
-        size *= self._fit_through(index)
+        share, notes = self._sizes.share(index)
+        size = scene_object.size * share
+        self.notes.extend(notes)
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
@@ -143,53 +139,6 @@ class ObjectPlacer:
         offsets = stagger(models, plan, noun, rng, is_row=is_row)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
-
-    def _fit_on(self, index: int, noun: Noun) -> float:
-        """Share of its size at which several small things find room on what they are put on."""
-        said, objects = self._description.objects[index], self._description.objects
-        targets = [one.targets[0] for one in self._description.relations
-                   if one.subject == index and one.kind == "on"]  # fmt: skip
-        below = [self._nouns[objects[n].noun] for n in targets if n != index]
-        if said.count < 2 or noun.habitat != "fixed" or not below or below[0].habitat != "fixed":
-            return 1.0
-        own = noun.build(colour=None, scale=said.size, seed=0)
-        top = below[0].build(colour=None, scale=objects[targets[0]].size, seed=0)
-        room_m = _ROOMY * max(top.length, top.width) * objects[targets[0]].count
-        share = room_m / (said.count * max(own.length, own.width))
-        if share < 1.0:
-            self.notes.append(f"the {said.noun} is drawn at {max(share, _LEAST_SHARE):.0%} of its "
-                              f"size, for which the {below[0].name} has room")  # fmt: skip
-        return min(max(share, _LEAST_SHARE), 1.0)
-
-    def _fit_in(self, index: int) -> float:
-        """Scale of a container that holds what is in it, or of what it has no room for."""
-        objects, own = self._description.objects, 1.0
-        for one in self._description.relations if self._travel is None else ():
-            hollow = trait_value("container", objects[one.targets[0]].noun)
-            if one.kind != "in" or hollow is None or index not in (one.subject, *one.targets):
-                continue
-            inside = [r.subject for r in self._description.relations
-                      if r.kind == "in" and r.targets[0] == one.targets[0]]  # fmt: skip
-            models = [(self._size_up(n), objects[n].count) for n in inside]
-            whole, share = fit_in(self._size_up(one.targets[0]), hollow, models)
-            own = whole if index == one.targets[0] else share
-            if abs(own - 1.0) > _NOTED:
-                self.notes.append(f"the {objects[index].noun} is drawn at {own:.0%} of its usual "
-                                  "size, as one is in the other")  # fmt: skip
-            break
-        return own
-
-    def _fit_through(self, index: int) -> float:
-        """Scale of a passage: a foot tunnel for those who are small."""
-        goers = [self._size_up(one.subject) for one in self._description.relations
-                 if one.kind == "through" and index in one.targets]  # fmt: skip
-        is_fitted = self._description.objects[index].noun in nouns_with("fits who goes through")
-        return fit_passage(goers) if is_fitted and goers else 1.0
-
-    def _size_up(self, index: int) -> Model:
-        """A copy of an object at the size that is said."""
-        noun = dressed(self._description, index, self._nouns)
-        return noun.build(colour=None, scale=self._description.objects[index].size, seed=0)
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""

@@ -1,0 +1,209 @@
+"""Act check: motions and activities that are claimed of bodies or of the camera, over the clip."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staged_clip import StagedClip
+from texvent_scenes.staging.actors import Actor
+
+_OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
+"""Shares of the greatest departure from the first pose at which a repetition is begun and done;
+departure below which a body does not move, in its sizes."""
+_GROUNDED = 0.1
+"""Height, in sizes of a body, up to which it is on the ground."""
+_NEAR_END, _RESTING = 3.0, 0.15
+"""Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
+_STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
+"""Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
+angle of that circle that it covers."""
+
+
+def stops_before(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it comes to rest on its way, before what it stops for."""
+    for one in staged.own_boxes(claim):
+        steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
+        way = one.middle[-1] - one.middle[0]
+        length = float(np.linalg.norm(way))
+        if steps[-1] > _RESTING * steps.mean() or length <= _STILL:
+            return False
+        for other in (body for target in claim.targets for body in staged.boxes[target]):
+            off = other.middle[-1] - one.middle[-1]
+            ahead = float(off @ way) / length
+            aside = float(np.linalg.norm((off - ahead * way / length)[:2]))
+            room = one.size[-1].max()
+            if not (0.0 < ahead <= _NEAR_END * room and aside <= room):
+                return False
+    return True
+
+
+def _count(staged: StagedClip, actor: Actor) -> float:
+    """Times that it leaves its first pose and comes back to it; half a time: it is not back."""
+    departure, count, is_out = staged.departure(actor), 0.0, False
+    most = float(departure.max())
+    if most <= _STILL * actor.size_m:
+        return 0.0
+    for one in departure / most:
+        if not is_out and one >= _OUT:
+            count, is_out = count + 0.5, True
+        elif is_out and one <= _BACK:
+            count, is_out = count + 0.5, False
+    return count
+
+
+def repeats(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it comes back to its first pose so often, or rests after so many repetitions."""
+    said = () if claim.subject is None else staged.description.objects[claim.subject].motions
+    rate_hz = ACTIVITIES[said[0].kind].repeats_hz if said and said[0].kind in ACTIVITIES else 0.0
+    if rate_hz and len(said) == 2 and said[1].start_s is not None:
+        counted = said[1].start_s * rate_hz * said[0].pace
+        return said[1].start_s <= staged.duration_s and abs(counted - float(claim.value)) < 0.01
+    return all(_count(staged, one) == claim.value for one in staged.own(claim))
+
+
+def returns(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is again as it was: at the end, or several times."""
+    counts = [_count(staged, one) for one in staged.own(claim)]
+    return all(one >= 1.0 and (one.is_integer() or one > 2.0) for one in counts)
+
+
+def is_circling(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a body or the camera goes along a circle."""
+    if claim.subject is None:
+        ways = [np.array([staged.scene.camera(one).position[:2] for one in staged.times])]
+    else:
+        ways = [one.middle[:, :2] for one in staged.own_boxes(claim)]
+    return all(map(is_arc, ways))
+
+
+def is_arc(way: Float64Array) -> bool:
+    """Whether a way on the ground, [t, 2] m, lies on a circle, and covers enough of it."""
+    if np.ptp(way, axis=0).max() < _STILL_M:
+        return False
+    terms = np.column_stack([2.0 * way, np.ones(len(way))])
+    x, y, rest = np.linalg.lstsq(terms, (way**2).sum(axis=1), rcond=None)[0]
+    radius = math.sqrt(max(rest + x * x + y * y, 0.0))
+    off = way - [x, y]
+    angles = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
+    strays = np.abs(np.linalg.norm(off, axis=1) - radius).max()
+    return bool(strays <= _ROUND * radius and np.ptp(angles) >= _LEAST_ARC)
+
+
+def swings(staged: StagedClip, claim: Claim) -> bool:
+    """Whether the part that moves most turns back on its way."""
+    for one in staged.own(claim):
+        steps = np.diff(staged.places(one), axis=0)
+        most = steps[:, np.linalg.norm(steps, axis=2).sum(axis=0).argmax()]
+        if not (most[1:] * most[:-1]).sum(axis=1).min() < 0.0:
+            return False
+    return True
+
+
+def rises_from(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is on the ground of a place at first, and above it later."""
+    return all(
+        one.lowest_m(0.0) <= _GROUNDED * one.size_m < max(map(one.lowest_m, staged.times))
+        for one in staged.own(claim)
+    )
+
+
+def stops(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it goes at first, and rests at the end."""
+    for one in staged.own_boxes(claim):
+        steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
+        if steps[-1] > _RESTING * steps.mean() or steps.max() <= _STILL * one.size.max():
+            return False
+    return True
+
+
+def lands(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it comes to the ground of a place, or onto another body."""
+    heights = [[one.lowest_m(time_s) for time_s in staged.times] for one in staged.own(claim)]
+    if all(min(each) <= _GROUNDED * one.size_m
+           for one, each in zip(staged.own(claim), heights, strict=True)):  # fmt: skip
+        return True
+    low = int(np.argmin(heights[0]))
+    others = [n for n, own in enumerate(staged.boxes) if own and n != claim.subject]
+    return any(staged.relates(replace(claim, targets=(one,)), "on", slice(low, low + 1))
+               for one in others)  # fmt: skip
+
+
+def descends(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is lower at some instant than before: what dives."""
+    heights = [one.middle[:, 2] for one in staged.own_boxes(claim)]
+    depths = [float((np.maximum.accumulate(each) - each).max()) for each in heights]
+    return all(one > 0.1 * body.size_m for one, body in zip(depths, staged.own(claim), strict=True))
+
+
+def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip."""
+    own, others = staged.own(claim), [one for one in staged.scene.actors]
+    for one in own:
+        low = np.array([one.lowest_m(time_s) for time_s in staged.times])
+        tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
+        gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)
+        is_near = gaps <= _GROUNDED * one.size_m
+        if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
+            return False
+    return True
+
+
+def goes_back(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it goes against its heading; of one motion, all the time that it goes."""
+    said = () if claim.subject is None else staged.description.objects[claim.subject].motions
+    for one in staged.own_boxes(claim):
+        ahead = (np.diff(one.middle[:, :2], axis=0) * one.ahead[:-1]).sum(axis=1)
+        least = _STILL * one.size.max()
+        if ahead.min() >= -least or (len(said) < 2 and ahead.max() > least):
+            return False
+    return True
+
+
+def is_laid(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is no higher than long at the end: a glass that lies."""
+    sizes = [one.size[-1] for one in staged.own_boxes(claim)]
+    return all(each[2] < max(each[:2]) for each in sizes)
+
+
+def bounces(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it comes down in the image, and then up again."""
+    for one in staged.own(claim):
+        height = [one.lowest_m(at) for at in staged.fine_times if staged.has_in_image(one, at)]
+        if not height:
+            return False
+        low = int(np.argmin(height))
+        if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
+            return False
+    return True
+
+
+def falls(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it comes down by its size from where it is at first, its highest place."""
+    for one in staged.own(claim):
+        height = [one.lowest_m(at) for at in staged.fine_times]
+        if height[0] < max(height) - 1e-6 or height[0] - min(height) < one.size_m:
+            return False
+    return True
+
+
+def is_doing(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a person, a hand or an animal does it at some instant.
+
+    Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground.
+    """
+    first, own = str(claim.value).split()[0], staged.own(claim)
+    done = [
+        {part.split()[0] for time_s in staged.times
+         for part in one.track.at(time_s).activity.split(" and ")}
+        for one in own
+    ]  # fmt: skip
+    is_up = first == "jump" and all(
+        max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
+    )
+    return is_up or all(first in each for each in done)
