@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staged_clip import StagedClip
 from texvent_scenes.staging.actors import Actor
@@ -195,7 +195,8 @@ def falls(staged: StagedClip, claim: Claim) -> bool:
 def is_doing(staged: StagedClip, claim: Claim) -> bool:
     """Whether a person, a hand or an animal does it at some instant.
 
-    Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground.
+    Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground; what
+    opens and closes is closed again.
     """
     first, own = str(claim.value).split()[0], staged.own(claim)
     done = [
@@ -206,4 +207,7 @@ def is_doing(staged: StagedClip, claim: Claim) -> bool:
     is_up = first == "jump" and all(
         max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
     )
+    is_to_and_fro = claim.value in TIMED and " and " in str(claim.value)
+    if is_to_and_fro and not all(_count(staged, one) >= 1.0 for one in own):
+        return False
     return is_up or all(first in each for each in done)

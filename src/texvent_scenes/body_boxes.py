@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.camera import PosedCamera
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -50,3 +51,10 @@ def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]
     yaws = np.array([actor.track.at(time).yaw for time in times])
     ahead = np.stack([np.cos(yaws), np.sin(yaws)], axis=1)
     return BodyBoxes(middle, high - low, seen, displacement, np.array(parts), ahead)
+
+
+def is_any_inside(points: Float64Array, camera: PosedCamera, size: SensorSize) -> bool:
+    """Whether any of some points, [n, 3] m, is in the image."""
+    x, y, depth = project(camera, size, points).T
+    is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height) & (depth > 0.0)
+    return bool(is_in.any())

@@ -10,8 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from texvent.camera import PosedCamera, project
+from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
+from texvent_scenes.body_boxes import is_any_inside
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
@@ -113,7 +114,8 @@ def list_departures(
     told = {one.noun.name for one in scene.actors for note in scene.camera_path.notes
             if note.startswith(f"the {one.noun.name} is fast")}  # fmt: skip
     for one in scene.actors:
-        inside = [_is_inside(one, *each, size) for each in zip(times, cameras, strict=True)]
+        inside = [is_any_inside(one.corners(time_s), camera, size)
+                  for time_s, camera in zip(times, cameras, strict=True)]  # fmt: skip
         if inside[0] and not inside[-1] and one.noun.name not in told:
             last_s = times[len(inside) - 1 - inside[::-1].index(True)]
             yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
@@ -129,14 +131,7 @@ def list_hidden(
     flashing = {one.actor.instance for one in scene.lamps.lit if one.flashes}
     for one in (each for each in scene.actors if each.instance not in flashing):
         counts = seen[one.instance]
-        gone = [not count and _is_inside(one, time_s, camera, size)
+        gone = [not count and is_any_inside(one.corners(time_s), camera, size)
                 for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
         if max(counts) >= _TOLD and sum(gone) > 1:
             yield f"the {one.noun.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
-
-
-def _is_inside(actor: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> bool:
-    """Whether a corner of its box is in the image."""
-    x, y, depth = project(camera, size, actor.corners(time_s)).T
-    is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height) & (depth > 0.0)
-    return bool(is_in.any())

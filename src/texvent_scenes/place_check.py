@@ -8,9 +8,10 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
+from texvent_scenes.body_boxes import is_any_inside
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.relation_check import Violation
-from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import ComposedScene
 
@@ -37,7 +38,8 @@ def find_unseen_place(
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
     crossings = scene.animated_environment.base.road_crossings
-    if said.road and not any(_has_crossing(one, crossings) for one in cameras):
+    points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
+    if said.road and not any(is_any_inside(points, one, _SIZE) for one in cameras):
         yield Violation("road", "", f"the {said.road}: it is out of view")
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
@@ -51,14 +53,6 @@ def has_horizon(camera: PosedCamera) -> bool:
     ahead = camera.rotation[2] * [1.0, 1.0, 0.0]
     far = camera.position + _FAR_M * ahead / max(float(np.linalg.norm(ahead)), 1e-6)
     return bool(project(camera, _SIZE, far[None])[0, 1] > 0.0)
-
-
-def _has_crossing(camera: PosedCamera, crossings: Float64Array) -> bool:
-    """Whether a point where roads cross is in the image."""
-    points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
-    x, y, depth = project(camera, _SIZE, points).T
-    is_in = (x > 0.0) & (x < _SIZE.width) & (y > 0.0) & (y < _SIZE.height) & (depth > 0.0)
-    return bool(is_in.any())
 
 
 def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:

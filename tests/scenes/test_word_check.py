@@ -258,3 +258,10 @@ def test_a_colour_is_that_of_enough_of_the_surface():
 @pytest.mark.parametrize(("rate_hz", "is_shown"), [("0.1", False), ("1", True)])
 def test_what_flashes_goes_off_in_the_clip(noun, rate_hz, is_shown):
     check(f"a {noun} flashes at {rate_hz} Hz", "flashes", is_shown)
+
+
+@pytest.mark.parametrize(("duration_s", "is_shown"), [(1.2, False), (2.5, True)])
+def test_what_opens_and_closes_is_closed_in_the_clip(duration_s, is_shown):
+    made = ProceduralGenerator(ProceduralConfig(duration=duration_s), size=SensorSize(173, 130))
+    said = made.report("the doors open and close again and again")
+    assert ("open and close" in said.shown) == is_shown
