@@ -113,3 +113,47 @@ def test_the_head_of_a_compound_is_not_its_first_noun():
 def test_a_cyclist_has_one_bicycle():
     assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
     assert "bike" in report("a cyclist falls off his bike").shown
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a duck swims and then walks", "walks", False),  # on a sea without a shore
+        ("a dog swims and then walks onto the beach", "walks", False),
+        ("a man swims, then walks along the beach", "walks", False),
+        ("a man swims, then walks along the beach", "swims", True),
+        ("a bird eats", "eats", True),  # on grass, not in the sky
+        ("a bird eats in the sky", "eats", False),
+        ("a cow eats", "eats", True),
+        ("a chicken eats", "eats", True),
+    ],
+)
+def test_an_act_is_shown_where_its_body_can_do_it(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a man walks in the distance", "in the distance", False),  # he fills the image
+        ("a distant house", "distant", False),
+        ("a boat sails far away", "far away", True),
+    ],
+)
+def test_what_is_large_in_the_image_is_not_far(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a car without wheels", False),
+        ("a tree without leaves", False),
+        ("a house with no windows", False),
+        ("a street without cars", True),
+        ("a man without a hat walks", True),
+    ],
+)
+def test_what_a_body_has_is_not_said_to_be_absent(text, is_shown):
+    word = text.split(" ")[-1] if "hat" not in text else "hat"
+    check(text, word, is_shown)
