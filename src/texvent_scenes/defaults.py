@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, MOUTH_ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
@@ -395,6 +395,8 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
         )
         if not is_wrong:
             return str(place)
+    if "water" in habitats and kinds & {"swim", "jump"}:  # "a dolphin jumps through a hoop"
+        return "sea"
     is_fast = all(noun.speed_m_s >= _FAST_FLYER_M_S for noun in members)
-    rests = kinds <= {"stand", "sit", "lie", "rise", "sink"}
+    rests = kinds <= {"stand", "sit", "lie", "rise", "sink"} | MOUTH_ACTIVITIES
     return "sky" if habitats == {"air"} and is_fast and not rests else "grass"

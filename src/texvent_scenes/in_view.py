@@ -23,8 +23,13 @@ from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
-from texvent_scenes.phase_check import find_undone, list_departures, list_hidden
-from texvent_scenes.place_check import find_unseen_place
+from texvent_scenes.phase_check import (
+    find_airborne_meals,
+    find_undone,
+    list_departures,
+    list_hidden,
+)
+from texvent_scenes.place_check import find_near, find_unseen_place
 from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
@@ -37,6 +42,7 @@ from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.particles.choose import FALLING
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
+from texvent_scenes.water_check import find_wet_and_dry
 
 INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
@@ -152,6 +158,9 @@ def find_unseen(
     violations += _find_unrealised(scene, description, bodies, times)
     seen = {number: view.at for number, view in views.items()}
     violations += find_undone(description, scene.actors, seen, times)
+    violations += find_airborne_meals(description, scene, times)
+    violations += find_wet_and_dry(scene, description, times[-1])
+    violations += find_near(scene, description, cameras, times)
     notes = [*list_hidden(scene, seen, cameras, times, size)]
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(

@@ -14,9 +14,10 @@ from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.body_boxes import is_any_inside
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import MOUTH_ACTIVITIES
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.relation_check import Violation
-from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
@@ -64,6 +65,28 @@ def find_undone(
             elif not any(_keeps_direction(one, phase) for one in own):
                 direction = str(phase.motion.direction)
                 yield Violation("direction", direction, f"{line} {direction}")
+
+
+def find_airborne_meals(
+    description: SceneDescription, scene: ComposedScene, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Meals of what stays in the air: its mouth is at nothing."""
+    placed = {one.subject for one in description.relations}
+    for index, said in enumerate(description.objects):
+        own = [one for one in scene.actors if one.object_index == index]
+        own = [one for one in own if one.noun.habitat == "air"]
+        has_ground = scene.place.ground is not Ground.NONE
+        kinds = {one.kind for one in said.motions} & MOUTH_ACTIVITIES
+        is_loose = bool(own) and index not in placed
+        is_fed = has_ground and any(_reaches_ground(one, times) for one in own)
+        if kinds and is_loose and not is_fed:
+            for kind in sorted(kinds):
+                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is in the air")
+
+
+def _reaches_ground(one: Actor, times: Sequence[float]) -> bool:
+    """Whether a body is on the ground at some instant."""
+    return min(map(one.lowest_m, times)) <= _LEAST_GONE * one.size_m
 
 
 def _is_done(one: Actor, said: SceneObject, phase: Phase, *, is_loose: bool) -> bool:

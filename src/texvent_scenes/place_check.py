@@ -9,6 +9,7 @@ import numpy as np
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.body_boxes import is_any_inside
+from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Ground
@@ -20,6 +21,8 @@ _SIZE, _FAR_M = SensorSize(40, 30), 1e4
 _LEVEL_M, _ROUNDING, _LEAST_SHARE = 0.05, 1e-3, 0.005
 """Height up to which a point is of the ground, m, and more of it per metre of distance; least share
 of an image that the ground takes."""
+_MOST_FAR = 0.4
+"""Share of the image's height up to which something may be in the distance."""
 
 
 def find_unseen_place(
@@ -46,6 +49,26 @@ def find_unseen_place(
     instants = zip(times, cameras, strict=True) if has_ground else ()
     if has_ground and not any(_has_ground(scene, *each) for each in instants):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+
+
+def find_near(
+    scene: ComposedScene, description: SceneDescription, cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+) -> Iterator[Violation]:  # fmt: skip
+    """What is said to be in the distance, and is large in the image all the time."""
+    for index, said in enumerate(description.objects):
+        own = [one for one in scene.actors if one.object_index == index]
+        if own and said.placement == "far" and not any(
+            _share_of_image(one.corners(time_s), camera) <= _MOST_FAR
+            for one in own for time_s, camera in zip(times, cameras, strict=True)
+        ):  # fmt: skip
+            yield Violation("placement", "far", f"the {said.noun} in the distance: it is near")
+
+
+def _share_of_image(corners: Float64Array, camera: PosedCamera) -> float:
+    """Share of the image's height that a box takes, 1 where some of it is behind the camera."""
+    y, depth = project(camera, _SIZE, corners)[:, 1:].T
+    return float(np.ptp(y)) / _SIZE.height if depth.min() > 0.0 else 1.0
 
 
 def has_horizon(camera: PosedCamera) -> bool:

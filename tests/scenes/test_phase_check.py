@@ -119,3 +119,47 @@ def test_what_flashes_is_hidden_by_nothing():
     text = "a square flashes at 2 Hz"
     assert "flashes" in report(text).shown
     assert not any("hidden" in note for note in report(text).notes)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a duck swims and then walks", "walks", False),  # on a sea without a shore
+        ("a dog swims and then walks onto the beach", "walks", False),
+        ("a man swims, then walks along the beach", "walks", False),
+        ("a man swims, then walks along the beach", "swims", True),
+        ("a bird eats", "eats", True),  # on grass, not in the sky
+        ("a bird eats in the sky", "eats", False),
+        ("a cow eats", "eats", True),
+        ("a chicken eats", "eats", True),
+    ],
+)
+def test_an_act_is_shown_where_its_body_can_do_it(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a man walks in the distance", "in the distance", False),  # he fills the image
+        ("a distant house", "distant", False),
+        ("a boat sails far away", "far away", True),
+    ],
+)
+def test_what_is_large_in_the_image_is_not_far(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a car without wheels", False),
+        ("a tree without leaves", False),
+        ("a house with no windows", False),
+        ("a street without cars", True),
+        ("a man without a hat walks", True),
+    ],
+)
+def test_what_a_body_has_is_not_said_to_be_absent(text, is_shown):
+    word = text.split(" ")[-1] if "hat" not in text else "hat"
+    check(text, word, is_shown)

@@ -79,7 +79,7 @@ class _SentenceReader(ThingReader):
         self._goes_on = clause.about in ("meanwhile", "company") or bool(clause.subjects)
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
-            if head is not None and head.has("noun"):
+            if head is not None and head.has("noun") and not self._is_built_in(head, clause):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
@@ -92,6 +92,15 @@ class _SentenceReader(ThingReader):
             self._apply_to_camera(clause, is_own=is_own)
         else:
             self._apply_to_things(clause)
+
+    def _is_built_in(self, head: Token, clause: Clause) -> bool:
+        """Whether a body has what it is said to be without: "a car without wheels"."""
+        before = self._draft.tokens[: clause.negation[-1].at] if clause.negation else ()
+        words = [one for one in before if one.text != "with"][-1:]
+        inner = word_set("things", "built_in")
+        return any(one.has("noun") and not one.has("place") for one in words) and any(
+            one.value.noun in inner for one in head.all("noun")
+        )
 
     def _says_of_parts(self, clause: Clause) -> bool:
         """Whether a clause is about parts that a thing has: "its second hand moving"."""

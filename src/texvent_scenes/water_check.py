@@ -1,0 +1,58 @@
+"""Water check: who swims and walks swims in water and walks out of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.relation_check import Violation
+from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.tracks.phases import schedule
+
+_INSTANTS, _HALF, _LEAST_CLIP_S = 9, 0.5, 1.0
+"""Instants of a phase at which it is looked; share of them that tells, since it may come ashore on
+the way; length of a clip in which motions get so far that they are judged, s."""
+_ON_FOOT = frozenset({"walk", "run", "crawl"})
+
+
+def wet_share(scene: ComposedScene, ground_m: Float64Array) -> float:
+    """Share of ground points [n, 2], m, that are in the water of a scene's place."""
+    place = scene.place
+    if not place.has_shore:
+        return float(place.ground in (Ground.SEA, Ground.UNDERWATER))
+    base = scene.animated_environment.base
+    x, y = map(float, base.road_offset)
+    half_m = float(base.road_half_width) if place.ground is not Ground.LAKE else 0.0
+    across_m = RoadLine(base.road_angle, (x, y)).across(ground_m)
+    return float(((across_m > -half_m) & (across_m < (half_m or math.inf))).mean())
+
+
+def find_wet_and_dry(
+    scene: ComposedScene, description: SceneDescription, duration_s: float
+) -> Iterator[Violation]:
+    """Swims on land and ways on foot in water, of who is said to do both.
+
+    Args:
+        scene: the staged scene.
+        description: the scene before it was staged.
+        duration_s: length of the clip, s.
+    """
+    placed = {one.subject for one in description.relations if one.kind in ("on", "in", "ride")}
+    for index, said in enumerate(description.objects):
+        kinds = {one.kind for one in said.motions}
+        is_both = "swim" in kinds and kinds & _ON_FOOT and duration_s >= _LEAST_CLIP_S
+        own = [one for one in scene.actors if one.object_index == index and index not in placed]
+        for phase in schedule(said.motions, duration_s) if is_both and own else ():
+            at = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
+            wet = [wet_share(scene, np.array([one.middle(float(t))[:2] for t in at]))
+                   for one in own]  # fmt: skip
+            kind = phase.motion.kind
+            if kind == "swim" and max(wet) < _HALF:
+                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is on land")
+            elif kind in _ON_FOOT and min(wet) > _HALF:
+                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is in the water")
