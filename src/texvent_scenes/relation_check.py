@@ -21,7 +21,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on
-from texvent_scenes.staging.tracks.phases import ends_at_rest
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, STEERED, ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
@@ -33,10 +33,10 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
-            "on a seat")  # fmt: skip
+            "on a seat", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_TOGETHER, _PASSED_ALL = ("behind", "front", "beside"), ("past", "overtake")
+_TOGETHER, _PASSED_ALL = ("behind", "front", "beside", "going beside"), ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
@@ -58,6 +58,10 @@ _BEFORE = 1.5
 """Half widths of both by which what is before or behind something may be aside of it."""
 _LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
 """Least angle of an arc around something, and how much its radius may differ, by its mean."""
+_OBLIQUE = 0.5
+"""Cosine of the angle up to which two go the same way."""
+_SENT = 0.5
+"""Share of the way that what is sent to something has left at most."""
 _BETWEEN = 24
 """Instants from one to the next at which a body is compared with what it goes through."""
 _PROTRUDING, _SUNKEN = 0.12, 0.2
@@ -90,10 +94,15 @@ def find_violations(
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
+        kind = "sent" if who != one.subject else kind
         if kind not in (*_RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
         held = [_holds(kind, body, others, at_end=goes_on) for body in own]
+        if kind == "sent" and not all(
+            _holds("facing", each, others) for each in copies[one.subject]
+        ):
+            held = []
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
@@ -120,6 +129,10 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     noun, target = who.noun, what.noun
     if kind in ("front", "behind", "beside") and ends_at_rest(who.motions):
         return "stopped"
+    if kind == "beside" and _go_on_foot(who) and _go_on_foot(what):
+        return "going beside"
+    if kind == "towards" and _is_walker(who) and not {m.kind for m in who.motions} & STEERED:
+        return "facing"
     is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
     if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
         return f"{kind} in a lane"
@@ -137,6 +150,16 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
         return "in"
     return kind
+
+
+def _go_on_foot(one: SceneObject) -> bool:
+    """Whether a person or an animal goes somewhere all the time."""
+    return _is_walker(one) and len(one.motions) == 1 and one.motions[0].kind in PATH_KINDS
+
+
+def _is_walker(one: SceneObject) -> bool:
+    """Whether it is a person or an animal on feet."""
+    return one.noun in NOUNS and NOUNS[one.noun].motion == "walk"
 
 
 def _holds(
@@ -365,15 +388,46 @@ def _is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
 
 
 def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it heads for another one, which moves."""
+    """Whether it heads for another one, which moves and does not come towards it."""
     off = (other.middle - one.middle)[:, :2]
-    return np.asarray(((off * one.ahead).sum(axis=1) > 0.0) & ~np.asarray(_stay(other)))
+    gone = (np.gradient(other.middle[:, :2], axis=0) * one.ahead).sum(axis=1)
+    is_led = gone > -_OBLIQUE * np.linalg.norm(np.gradient(other.middle[:, :2], axis=0), axis=1)
+    return np.asarray(((off * one.ahead).sum(axis=1) > 0.0) & is_led & ~np.asarray(_stay(other)))
+
+
+def _faces(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its heading is that of the nearest point of another one, or it is in its box."""
+    near = np.clip(one.middle, other.middle - 0.5 * other.size, other.middle + 0.5 * other.size)
+    off = (near - one.middle)[:, :2]
+    return np.asarray((off * one.ahead).sum(axis=1) >= _OBLIQUE * np.linalg.norm(off, axis=1))
+
+
+def _is_sent(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether what is thrown or kicked comes at least half of the way to another one."""
+    apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
+    gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
+    return np.array([gap[0] > 0.0 and gap.min() <= _SENT * gap[0]])
+
+
+def _overtakes(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it goes the same way as the other, from behind it to before it."""
+    way, led = ((body.middle[-1] - body.middle[0])[:2] for body in (one, other))
+    along = (one.middle - other.middle)[:, :2] @ way
+    return np.array([along[0] < 0.0 < along[-1] and (_stay(other) or bool(led @ way > 0.0))])
+
+
+def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is beside another one that goes the same way."""
+    way, led = ((body.middle[-1] - body.middle[0])[:2] for body in (one, other))
+    is_along = led @ way > _OBLIQUE * np.linalg.norm(led) * np.linalg.norm(way)
+    return np.asarray(_is_beside(one, other) & np.asarray(is_along))
 
 
 _RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
     "on": _is_on, "under": _is_under, "around": _is_around,
-    "overtake": _is_passing,
+    "overtake": _overtakes, "going beside": _goes_beside,
+    "facing": _faces, "sent": _is_sent,
     "past": lambda one, other: _is_passing(one, other, 0.5 * _stay(other)),
     "in": lambda one, other: _within(one, other, 3),
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),

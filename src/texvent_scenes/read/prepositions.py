@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import AIMED, PERSON_NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
@@ -288,6 +288,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS else ""
+    acts = {one["kind"] for one in thing["relations"]}
+    if kind == "at" and (acts & {*SENT} or {*does} & AIMED):
+        return "towards"
     if kind == "at" and noun not in word_set("things", "tables"):
         return "beside"
     if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
