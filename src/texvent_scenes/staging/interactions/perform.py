@@ -215,9 +215,7 @@ def perform_acts(
         the rider of a bicycle, and what that rider has; a piano that comes with an activity.
     """
     cast = dict(enumerate(actors))
-    for each in description.relations:
-        if each.kind == "towards" and description.objects[each.subject].motion:
-            _turn_to(cast, each)
+    _turn_to_goals(cast, description.relations)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
@@ -241,12 +239,13 @@ def perform_acts(
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _turn_to(cast: dict[int, Actor], relation: IndexedRelation) -> None:
+def _turn_to_goals(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
     """Turn those who point or wave, and stay where they are, to what it is for."""
-    goals = [one for one in cast.values() if one.object_index == relation.targets[0]]
-    for number, one in cast.items() if goals else ():
-        is_aiming = one.track.at(0.0).activity.split()[0] in AIMED and one.track.is_resting
-        if one.object_index == relation.subject and is_aiming:
+    aims = {one.subject: one.targets[0] for one in relations if one.kind == "towards"}
+    for number, one in cast.items():
+        goal = aims.get(one.object_index, -1)
+        goals = [each for each in cast.values() if each.object_index == goal]
+        if goals and one.track.is_resting and one.track.at(0.0).activity.split()[0] in AIMED:
             x, y = (goals[0].middle(0.0) - one.middle(0.0))[:2]
             cast[number] = replace(one, track=replace(one.track, yaw=float(np.arctan2(y, x))))
 
