@@ -419,6 +419,18 @@ def _is_doing(staged: _Staged, claim: Claim) -> bool:
     return is_up or all(first in each for each in done)
 
 
+def _sits_at(staged: _Staged, claim: Claim) -> bool:
+    """Whether each is on a seat, turned to the thing and within reach of it."""
+    goals = [(n, one) for n in claim.targets for one in staged.boxes[n]]
+    about = [n for n in (claim.subject,) if n is not None]
+    return not any(one.pose(0.5 * staged.duration_s).activity.endswith("on ground")
+                   for one in staged.own(claim)) and all(
+        any(_holds(staged, "facing", (about[0], n), [[body], [goal]])
+            and _holds(staged, "at", (about[0], n), [[body], [goal]]) for n, goal in goals)
+        for body in staged.own_boxes(claim)
+    )  # fmt: skip
+
+
 CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
     "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
@@ -429,6 +441,6 @@ CHECKS: Mapping[str, Callable[[_Staged, Claim], bool]] = {
     "activity": _is_doing, "direction": _swings, "rise": _rises_from, "ground": _keeps_to_ground,
     "mutual": _are_mutual, "bounce": _bounces, SEEN: lambda *_: True,
     "reverse": _goes_back, "fall": _falls, "water": _is_in_water, "descend": _descends,
-    "land": _lands, "stop": _stops,
+    "land": _lands, "stop": _stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""
