@@ -20,7 +20,7 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
-from texvent_scenes.staging.placement.zones import are_driven, hangs_on
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, STEERED, ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
@@ -143,13 +143,18 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
         is_seen = target in nouns_with("see-through")
         is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
         return "never" if is_out else "contained"
-    if kind == "on" and target in nouns_with("swings"):
+    return _rule_on(who, what) if kind == "on" else kind
+
+
+def _rule_on(who: SceneObject, what: SceneObject) -> str:
+    """Name of the rule for what is on another thing."""
+    if what.noun in nouns_with("swings"):
         return "on a seat"
-    if kind == "on" and hangs_on(noun, target):
+    if is_before_face(who, what):
+        return "never"  # who writes there has a pad in hand
+    if hangs_on(who.noun, what.noun):
         return "hung"
-    if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
-        return "in"
-    return kind
+    return "in" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
 
 
 def _go_on_foot(one: SceneObject) -> bool:

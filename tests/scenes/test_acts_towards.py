@@ -1,9 +1,9 @@
-"""Acts that have a direction: who overtakes, follows, throws at, sits at or enters something."""
+"""Acts on other things: who overtakes, throws at, sits at, writes on or enters something."""
 
 import numpy as np
 import pytest
-
 from tests.scenes.test_word_check import check, report, told
+
 from texvent_scenes.body_boxes import BodyBoxes
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.relation_check import find_violations
@@ -80,3 +80,28 @@ def test_what_is_thrown_behind_the_thrower_is_not_thrown_at_something(yaw):
     assert "towards" in violations(-way, -3.0), "it faces away"
     assert "towards" in violations(way, -3.0), "it flies away"
     assert "towards" in violations(way, 1.0), "it falls short"
+
+
+@pytest.mark.parametrize(
+    ("text", "is_shown"),
+    [
+        ("a woman sits at a piano", False),
+        ("a boy sits at a drum", False),
+        ("a man sits at a keyboard", False),
+        ("a man sits at a desk", True),
+        ("a girl sits at a table", True),
+        ("two men sit at a table", True),
+        ("a woman sits at a fire", True),
+    ],
+)
+def test_who_sits_at_a_thing_that_has_a_seat_is_on_one(text, is_shown):
+    check(text, "at", is_shown)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a man writes on a whiteboard", "a woman writes on a sign", "a man claps on a fence"],
+)
+def test_nobody_stands_on_what_is_upright_to_do_something_on_it(text):
+    assert "on" not in report(text).shown
+    assert "on the" in told(text)
