@@ -243,6 +243,12 @@ def _rest_of(
     if kind not in _RESTING:
         return {}
     members = {n: nouns[objects[n].noun] for n in (relation.subject, *relation.targets)}
+    motion, are_walkers = (
+        objects[relation.subject].motion,
+        {"walk"} == {one.motion for one in members.values()},
+    )
+    if kind == "beside" and motion and motion.kind in ("walk", "run", "move") and are_walkers:
+        return dict.fromkeys(relation.targets, Motion(motion.kind, motion.direction))
     rests = (n for n, one in members.items() if one.habitat == "ground" or one.motion in _AFLOAT)
     return dict.fromkeys(rests, STANDING)
 

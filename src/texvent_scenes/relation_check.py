@@ -18,8 +18,8 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.relation_rules import RULES, are_still, is_between
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
-from texvent_scenes.staging.placement.zones import are_driven, hangs_on
-from texvent_scenes.staging.tracks.phases import ends_at_rest
+from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, STEERED, ends_at_rest
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
@@ -31,10 +31,10 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
-            "on a seat")  # fmt: skip
+            "on a seat", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_TOGETHER, _PASSED_ALL = ("behind", "front", "beside"), ("past", "overtake")
+_TOGETHER, _PASSED_ALL = ("behind", "front", "beside", "going beside"), ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
@@ -67,10 +67,15 @@ def find_violations(
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
+        kind = "sent" if who != one.subject else kind
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
         held = [holds(kind, body, others, at_end=goes_on) for body in own]
+        if kind == "sent" and not all(
+            holds("facing", each, others) for each in copies[one.subject]
+        ):
+            held = []
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
@@ -97,6 +102,10 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     noun, target = who.noun, what.noun
     if kind in ("front", "behind", "beside") and ends_at_rest(who.motions):
         return "stopped"
+    if kind == "beside" and _go_on_foot(who) and _go_on_foot(what):
+        return "going beside"
+    if kind == "towards" and _is_walker(who) and not {m.kind for m in who.motions} & STEERED:
+        return "facing"
     is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
     if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
         return f"{kind} in a lane"
@@ -107,13 +116,28 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
         is_seen = target in nouns_with("see-through")
         is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
         return "never" if is_out else "contained"
-    if kind == "on" and target in nouns_with("swings"):
+    return _rule_on(who, what) if kind == "on" else kind
+
+
+def _rule_on(who: SceneObject, what: SceneObject) -> str:
+    """Name of the rule for what is on another thing."""
+    if what.noun in nouns_with("swings"):
         return "on a seat"
-    if kind == "on" and hangs_on(noun, target):
+    if is_before_face(who, what):
+        return "never"  # who writes there has a pad in hand
+    if hangs_on(who.noun, what.noun):
         return "hung"
-    if kind == "on" and {noun, target} <= nouns_with("flat pattern"):
-        return "in"
-    return kind
+    return "in" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
+
+
+def _go_on_foot(one: SceneObject) -> bool:
+    """Whether a person or an animal goes somewhere all the time."""
+    return _is_walker(one) and len(one.motions) == 1 and one.motions[0].kind in PATH_KINDS
+
+
+def _is_walker(one: SceneObject) -> bool:
+    """Whether it is a person or an animal on feet."""
+    return one.noun in NOUNS and NOUNS[one.noun].motion == "walk"
 
 
 def holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes], *, at_end: bool = False) -> bool:

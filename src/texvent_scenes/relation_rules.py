@@ -31,6 +31,10 @@ _BEFORE = 1.5
 """Half widths of both by which what is before or behind something may be aside of it."""
 _LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
 """Least angle of an arc around something, and how much its radius may differ, by its mean."""
+_OBLIQUE = 0.5
+"""Cosine of the angle up to which two go the same way."""
+_SENT = 0.5
+"""Share of the way that what is sent to something has left at most."""
 _BETWEEN = 24
 """Instants from one to the next at which a body is compared with what it goes through."""
 _PROTRUDING, _SUNKEN = 0.12, 0.2
@@ -236,15 +240,48 @@ def is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
 
 
 def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:
-    """Whether it heads for another one, which moves."""
+    """Whether it heads for another one, which moves and does not come towards it."""
     off = (other.middle - one.middle)[:, :2]
-    return np.asarray(((off * one.ahead).sum(axis=1) > 0.0) & ~np.asarray(are_still(other)))
+    gone = (np.gradient(other.middle[:, :2], axis=0) * one.ahead).sum(axis=1)
+    is_led = gone > -_OBLIQUE * np.linalg.norm(np.gradient(other.middle[:, :2], axis=0), axis=1)
+    return np.asarray(
+        ((off * one.ahead).sum(axis=1) > 0.0) & is_led & ~np.asarray(are_still(other))
+    )
+
+
+def _faces(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether its heading is that of the nearest point of another one, or it is in its box."""
+    near = np.clip(one.middle, other.middle - 0.5 * other.size, other.middle + 0.5 * other.size)
+    off = (near - one.middle)[:, :2]
+    return np.asarray((off * one.ahead).sum(axis=1) >= _OBLIQUE * np.linalg.norm(off, axis=1))
+
+
+def _is_sent(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether what is thrown or kicked comes at least half of the way to another one."""
+    apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
+    gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
+    return np.array([gap[0] > 0.0 and gap.min() <= _SENT * gap[0]])
+
+
+def _overtakes(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it goes the same way as the other, from behind it to before it."""
+    way, led = ((body.middle[-1] - body.middle[0])[:2] for body in (one, other))
+    along = (one.middle - other.middle)[:, :2] @ way
+    return np.array([along[0] < 0.0 < along[-1] and (are_still(other) or bool(led @ way > 0.0))])
+
+
+def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is beside another one that goes the same way."""
+    way, led = ((body.middle[-1] - body.middle[0])[:2] for body in (one, other))
+    is_along = led @ way > _OBLIQUE * np.linalg.norm(led) * np.linalg.norm(way)
+    return np.asarray(_is_beside(one, other) & np.asarray(is_along))
 
 
 RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
     "on": _is_on, "under": _is_under, "around": _is_around,
-    "overtake": _is_passing,
+    "overtake": _overtakes, "going beside": _goes_beside,
+    "facing": _faces, "sent": _is_sent,
     "past": lambda one, other: _is_passing(one, other, 0.5 * are_still(other)),
     "in": lambda one, other: _within(one, other, 3),
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),

@@ -191,6 +191,18 @@ def _shines(staged: StagedClip, claim: Claim) -> bool:
     return all(one.instance in lit for one in staged.own(claim))
 
 
+def _sits_at(staged: StagedClip, claim: Claim) -> bool:
+    """Whether each is on a seat, turned to the thing and within reach of it."""
+    goals = [(n, one) for n in claim.targets for one in staged.boxes[n]]
+    about = [n for n in (claim.subject,) if n is not None]
+    return not any(one.pose(0.5 * staged.duration_s).activity.endswith("on ground")
+                   for one in staged.own(claim)) and all(
+        any(staged.holds("facing", (about[0], n), [[body], [goal]])
+            and staged.holds("at", (about[0], n), [[body], [goal]]) for n, goal in goals)
+        for body in staged.own_boxes(claim)
+    )  # fmt: skip
+
+
 CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
     "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
@@ -201,6 +213,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "stop": stops,
+    "land": lands, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
@@ -22,6 +22,8 @@ _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
 SENT = ("kick", "throw", "roll")
 """Acts after which the object goes a way, not who does it."""
+SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
+"""Motions of who is on a seat or on the ground."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _SMALL = nouns_with("in hand or on something")
@@ -203,6 +205,10 @@ def claim_relation(
     motions = [draft.things[one]["motions"] for one in subjects]
     stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
         len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
+    nouns = {draft.things[one]["noun"] for one in targets}
+    does = {each["kind"] for one in motions for each in one}
+    if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
+        draft.claim(token, "sit at", "", subjects, targets)
     if is_shown and kind in ("up", "down"):
         draft.claim(token, "relation", kind, subjects, targets)
     elif is_shown and kind == "front" and any(stops):
@@ -288,6 +294,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS else ""
+    acts = {one["kind"] for one in thing["relations"]}
+    if kind == "at" and (acts & {*SENT} or {*does} & AIMED):
+        return "towards"
     if kind == "at" and noun not in word_set("things", "tables"):
         return "beside"
     if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"

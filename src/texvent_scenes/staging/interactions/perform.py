@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import AIMED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
@@ -36,6 +36,10 @@ ACTS: Mapping[str, _Act] = {
 moves bodies comes before what hangs on them."""
 
 
+_ASIDE_DEG = (-20.0, 200.0)
+"""Headings of who points at something: to the right or left, and a little to the camera."""
+_SAME_WAY = ("follow", "overtake", "with")
+"""Relations of two that go the same way, which one of them may say."""
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
 """Motions of people that leave it open whether they ride."""
 
@@ -69,6 +73,17 @@ def settle_motions(
             each.kind == "through" and objects[each.targets[0]].noun in nouns_with("passage")
         ):
             objects[each.subject] = _directed(objects[each.subject], "towards")
+    for each in relations:
+        who = objects[each.subject]
+        is_aimed = bool({one.kind for one in who.motions} & AIMED) and each.kind == "towards"
+        if is_aimed and who.heading_deg is None and len(who.motions) == 1:
+            side = seeded(seed, "act", each.subject).random() < 0.5
+            objects[each.subject] = replace(who, heading_deg=_ASIDE_DEG[side])
+        pair = (each.subject, each.targets[0])
+        ways = [one.motions[0].direction for one in (objects[n] for n in pair) if one.motions]
+        said = [one for one in ways if one is not None] if each.kind in _SAME_WAY else []
+        for number in pair if said else ():
+            objects[number] = _directed(objects[number], said[0])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
@@ -200,6 +215,7 @@ def perform_acts(
         the rider of a bicycle, and what that rider has; a piano that comes with an activity.
     """
     cast = dict(enumerate(actors))
+    _turn_to_goals(cast, description.relations)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
@@ -221,6 +237,17 @@ def perform_acts(
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 del cast[number]
     return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
+
+
+def _turn_to_goals(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
+    """Turn those who point or wave, and stay where they are, to what it is for."""
+    aims = {one.subject: one.targets[0] for one in relations if one.kind == "towards"}
+    for number, one in cast.items():
+        goal = aims.get(one.object_index, -1)
+        goals = [each for each in cast.values() if each.object_index == goal]
+        if goals and one.track.is_resting and one.track.at(0.0).activity.split()[0] in AIMED:
+            x, y = (goals[0].middle(0.0) - one.middle(0.0))[:2]
+            cast[number] = replace(one, track=replace(one.track, yaw=float(np.arctan2(y, x))))
 
 
 def _send_to(

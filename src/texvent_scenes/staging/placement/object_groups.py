@@ -158,7 +158,8 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     motion, other = group.plan.motion, partner.plan
     if not (other.is_path and group.plan.is_path):
         return
-    if kind in ("follow", "with"):
+    own_m_s, is_along = group.plan.speed_m_s, math.cos(group.plan.yaw - other.yaw) > 0.5
+    if kind in ("follow", "with", "beside"):
         if kind == "follow" and other.motion.speed_m_s is None:
             other = replace(other, speed_m_s=max(other.speed_m_s, group.plan.speed_m_s))
         partner.plan, group.plan = other, replace(other, motion=motion)
@@ -166,6 +167,8 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     elif motion.direction is None and motion.speed_m_s is None:
         speed = OVERTAKEN * other.speed_m_s
         group.plan = replace(group.plan, yaw=other.yaw, speed_m_s=speed)
+    elif kind == "overtake" and motion.speed_m_s is None and is_along:
+        group.plan = replace(group.plan, speed_m_s=min(OVERTAKEN * other.speed_m_s, own_m_s))
     group.fit()
 
 

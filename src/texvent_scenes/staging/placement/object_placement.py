@@ -177,7 +177,9 @@ class ObjectPlacer:
         """Give a follower, a companion or what is overtaken the pace of its partner."""
         for one in self._description.relations:
             is_follower = one.kind == "follow" and one.subject == group.index
-            is_led = one.kind in ("with", "overtake", "past") and group.index in one.targets
+            is_led = (
+                one.kind in ("with", "beside", "overtake", "past") and group.index in one.targets
+            )
             partner = self.groups.get(one.targets[0] if is_follower else one.subject)
             if partner is not None and (is_follower or is_led):
                 match_pace(group, partner, one.kind)

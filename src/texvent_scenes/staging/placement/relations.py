@@ -43,7 +43,7 @@ from texvent_scenes.staging.placement.object_groups import (
 )
 from texvent_scenes.staging.placement.on_way import place_on_way
 from texvent_scenes.staging.placement.rings import STANDING_M, stand_before, stand_in_ring
-from texvent_scenes.staging.placement.zones import hangs_on
+from texvent_scenes.staging.placement.zones import hangs_on, is_before_face
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
@@ -87,6 +87,8 @@ def place_on_targets(
     origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
     if kind == "at" and targets[0].noun.acts & TIMED and group.noun.name in PERSON_NOUNS:
+        return Goal(stand_before(group, targets[0]), _FIXED)
+    if kind == "on" and is_before_face(group.scene_object, targets[0].scene_object):
         return Goal(stand_before(group, targets[0]), _FIXED)
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)

@@ -20,8 +20,10 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.data import ACTED, WAYS
+from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, is_centred
 from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 _CLEAR_M, _RAILS_M = 0.6, 1.3
 """From the edge of a road or of rails to what stands beside it; half the width of rails."""
@@ -36,6 +38,8 @@ _CARRYING = frozenset(
      "through", "around", *WAYS}
 )  # fmt: skip
 """Relations that hang on how a body is turned."""
+_ON_TOP = PATH_KINDS | {"stand", "sit", "sit down", "stand up", "lie", "jump", "climb", "spin"}
+"""Motions of a person for which a thing is stood or sat upon."""
 _LOOSE = frozenset({"beside", "front", "behind", "left of", "right of", "past", "towards", "with",
                     "away from", "at"})  # fmt: skip
 """Relations that hold as well where one of the two is moved to its zone."""
@@ -59,6 +63,13 @@ def are_driven(*nouns: str) -> bool:
 def hangs_on(noun: str, target: str) -> bool:
     """Whether what is on another thing hangs on its face, as a clock does on a wall."""
     return noun in nouns_with("hangs on a wall") and target in nouns_with("only a background")
+
+
+def is_before_face(who: SceneObject, what: SceneObject) -> bool:
+    """Whether a person does something at the face of a thing: nobody stands on a board for it."""
+    does = {motion.kind for motion in who.motions}
+    is_person = who.noun in PERSON_NOUNS and what.noun in nouns_with("upright")
+    return is_person and bool(does) and not does & _ON_TOP
 
 
 def list_orphans(description: SceneDescription) -> Iterator[int]:
