@@ -105,3 +105,21 @@ def test_who_sits_at_a_thing_that_has_a_seat_is_on_one(text, is_shown):
 def test_nobody_stands_on_what_is_upright_to_do_something_on_it(text):
     assert "on" not in report(text).shown
     assert "on the" in told(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a woman gets in a taxi", "gets in", True),
+        ("a cat enters a building", "enters", True),
+        ("a man gets into a van", "gets into", True),
+        ("a man enters a room", "enters", False),
+        ("a dog enters a forest", "enters", False),
+        ("a car enters a city", "enters", False),
+        ("a man gets into an airplane", "gets into", False),  # which is out of view
+        ("a woman gets on a horse", "gets on", False),
+        ("a man gets in a glorp", "gets in", False),
+    ],
+)
+def test_who_enters_something_goes_into_a_thing_in_view(text, word, is_shown):
+    check(text, word, is_shown)

@@ -160,6 +160,8 @@ class _SentenceReader(ThingReader):
         ways = {one.value.relation for one in verb.all("verb")} & {*WAYS}
         is_open = bool(ways) and " " in verb.text and not (clause.objects or clause.is_back)
         is_known &= not is_open  # "passengers get on"
+        is_within = bool(clause.objects) and not objects and bool(ways & {"into", "out of"})
+        is_known &= not is_within  # "enters a room", where it is already
         is_lost = clause.is_back and not objects  # "throws a wug and catches it"
         found = None if is_lost else self._act(verb, subjects, objects, has_object=not is_known)
         kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
