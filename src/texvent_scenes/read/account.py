@@ -85,7 +85,7 @@ def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
 
 
 def _choose_gender(draft: SceneDraft) -> None:
-    """Draw the only person as the one that a pronoun means: "a chef chops her carrots"."""
+    """Draw the only person as the one that a pronoun means: "a teacher chops her carrots"."""
     persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
     words = {one.text for one in draft.tokens if [each["noun"] for each in persons] == ["person"]}
     for noun, pronouns in read_table("words", "read")["people"].items():

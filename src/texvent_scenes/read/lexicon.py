@@ -56,6 +56,8 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
+    members: tuple[tuple[str, int], ...] = ()
+    """Nouns of a group of people, and how many of each: "couple"; the first is `noun`."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +144,10 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
             yield plural, Sense("noun", replace(one, is_plural=True))
     for name, sense in plurals.items():
         yield name, Sense("noun", sense)
+    for name, members in read_table("words", "read")["groups"].items():
+        if all(one in nouns for one in members):
+            whole = NounSense(next(iter(members)), members=tuple(members.items()))
+            yield name, Sense("noun", whole)
 
 
 def _list_verbs() -> Iterator[tuple[str, Sense]]:

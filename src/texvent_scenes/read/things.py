@@ -112,6 +112,9 @@ class ThingReader:
         is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
+        members = noun.members if noun is not None else ()
+        if members:
+            return self._name_members(group, head, members)
         draft.show(head)
         is_plain = not group.modifiers and not group.unknown
         is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
@@ -134,6 +137,21 @@ class ThingReader:
                 self._draft.set_place(Group(token), token, "")
         self._nearest = [index]
         return [index]
+
+    def _name_members(
+        self, group: Group, head: Token, members: Sequence[tuple[str, int]]
+    ) -> list[int]:
+        """Add those who are a couple, a family or a crowd; a "family of ducks" is not known."""
+        draft = self._draft
+        if group.of is not None or len(draft.things) + len(members) > MAX_BODIES:
+            return []
+        draft.show(head)
+        self._nearest = [len(draft.things) + one for one in range(len(members))]
+        for noun, count in members:
+            draft.things.append({"noun": noun, "motions": [], "count": count, "relations": []})
+        for index in self._nearest:
+            self._say_modifiers(group, index)
+        return self._nearest
 
     def _say_modifiers(self, group: Group, index: int) -> None:
         """Apply adjectives; "a black and white football" has both colours by itself."""
