@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.interpolate.motion.scenes import bar_pair
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
@@ -108,6 +109,17 @@ def test_times_strictly_increase_whatever_the_intervals(steps, count):
     frames = run(video, options, threshold=0.05)
     assert all(a.t_us < b.t_us for a, b in pairwise(frames))
     assert [frame.t_us for frame in frames if frame.is_source] == times_us
+
+
+@pytest.mark.parametrize("name", sorted(set(INTERPOLATORS.builtin) - {"none", "exact", "rife"}))
+def test_frames_that_are_asked_for_together_are_those_of_their_times_alone(name, stream):
+    interpolator = INTERPOLATORS.load(name)(InterpolateConfig(interpolate=name), stream)
+    times_us = list(range(30, 1000, 57))
+    found = list(interpolator.between(*bar_pair(), times_us))
+    assert [(one.t_us, one.is_source) for one in found] == [(t_us, False) for t_us in times_us]
+    for one in found:
+        (alone,) = interpolator.between(*bar_pair(), [one.t_us])
+        np.testing.assert_array_equal(one.pixels, alone.pixels)
 
 
 def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):

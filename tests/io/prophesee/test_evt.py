@@ -138,7 +138,7 @@ def test_a_header_without_end_is_not_read_into_memory(
     for content in (b"% key value\n" * 20, b"% key " + b"v" * 200):
         path = tmp_path / "e.raw"
         path.write_bytes(content)
-        with pytest.raises(FileFormatError):
+        with pytest.raises(FileFormatError, match="has a header of more than 100 bytes"):
             load(path)
 
 

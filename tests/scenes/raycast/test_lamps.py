@@ -8,7 +8,9 @@ from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.lamps.light import (
+    LONGITUDES,
     MOST_SHADOW_LAMPS,
+    find_cells,
     lamp_light,
     lamps_reach,
     order_lamps,
@@ -87,6 +89,21 @@ def test_shadows_are_those_of_all_shapes_tested_one_by_one():
         wrong += sum((depths < 1.0) == [bool(seen >> number & 1) for number in range(3)])
     assert blocked > 60
     assert wrong <= 2  # a ray that grazes a shape
+
+
+def test_a_box_covers_as_many_cells_wherever_around_the_lamp_it_is():
+    rng = np.random.default_rng(8)
+    axes, middles = rng.normal(0.0, 0.3, (200, 3, 3)), rng.normal(0.0, 3.0, (200, 3, 1))
+    boxes = np.concatenate([axes, middles], axis=2)
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    cells = np.empty((2, 200, 4), np.int64)
+    near = [find_cells(one, found) for one, found in zip((boxes, turn @ boxes), cells, strict=True)]
+    assert near[0] == pytest.approx(near[1])
+    assert (cells[0, :, 2:] == cells[1, :, 2:]).all()
+    sides = cells[:, :, 1] - cells[:, :, 0]
+    assert (sides[0] == sides[1]).all()
+    further = (cells[1] - cells[0])[sides[0] < LONGITUDES - 1, 0]
+    assert (further % LONGITUDES == LONGITUDES // 4).all()
 
 
 def test_no_more_lamps_cast_shadows_than_there_are_bits():

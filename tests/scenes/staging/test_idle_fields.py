@@ -246,6 +246,17 @@ def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():
         assert note in video.metadata["prompt_report"]["notes"]
 
 
+@pytest.mark.parametrize("noun", TRIED)
+def test_what_is_written_before_makes_way_for_what_is_at_a_position_in_metres(noun):
+    own = SceneObject(noun, motions=(Motion("stand"),))
+    (alone,) = place(own)
+    x, y = alone.track.at(0.0).position[:2]
+    other, one = place(own, replace(own, position_m=(x, y)))
+    assert one.track.at(0.0).position[:2] == pytest.approx([x, y])
+    room_m = min(one.model.width, one.model.length)
+    assert math.hypot(*(other.track.at(0.0).position[:2] - np.array([x, y]))) > 0.9 * room_m
+
+
 @pytest.mark.parametrize("pace", [1.0, 4.0])
 def test_a_belt_carries_what_is_on_it_up_to_its_end(pace):
     belt = SceneObject("conveyor belt", motions=(Motion("work", pace=pace),))
