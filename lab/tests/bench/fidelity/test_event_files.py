@@ -100,7 +100,7 @@ def test_of_several_thresholds_that_one_is_scored_whose_count_is_nearest(runs, t
         row.packets(CLIPS[0], SIZE, (0, LAST_US))
 
 
-@pytest.mark.parametrize("fault", ["size", "late", "missing", "beside", "damaged"])
+@pytest.mark.parametrize("fault", ["size", "late", "ms", "missing", "beside", "damaged"])
 def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     runs, tmp_path, monkeypatch, capsys, fault
 ):
@@ -116,6 +116,10 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     path.unlink()
     if fault != "missing":
         EventStream.from_columns([1], [2], [t_us], [1], size=size).save(path)
+    if fault == "ms":
+        t_ms = np.linspace(0, LAST_US / 1000, 10).astype(np.int64)
+        events = EventStream.from_columns([1] * 10, [2] * 10, t_ms, [1] * 10, size=SIZE)
+        events.save(path, overwrite=True)
     if fault == "beside":
         (folder / "0.2").mkdir()
     if fault == "damaged":
@@ -126,10 +130,34 @@ def test_files_that_are_not_of_these_frames_are_named_before_any_work(
     assert {
         "size": "8x6",
         "late": f"at {LAST_US + 1_001} µs; the frames of translate-54 are from 0 to {LAST_US} µs",
+        "ms": f"all its events within {LAST_US // 1000} µs; the frames of translate-54 are from 0",
         "missing": "not one event file each of translate-54",
         "beside": "event files beside folders of thresholds (0.2 ...)",
         "damaged": "translate-54.h5",
     }[fault] in line
+
+
+@pytest.mark.parametrize("is_part", [False, True])
+def test_a_program_that_saw_half_of_the_frames_is_refused_and_one_that_saw_little_is_not(
+    tmp_path, is_part
+):
+    def save(name, *t_us):
+        ones = [1] * len(t_us)
+        EventStream.from_columns(ones, ones, list(t_us), ones, size=SIZE).save(
+            tmp_path / f"{name}.h5", overwrite=True
+        )
+
+    row = {one: (100_000, 500_000) for one in ("a", "b")}
+    save("a", 100_001)
+    save("b", 100_000, 299_999)
+    found = FileEntry.find("Mine", tmp_path, list(row))
+    with pytest.raises(InputError, match=r"b\.h5 has no event in the second half of its frames"):
+        found.check(SIZE, row, is_part=is_part)
+    save("a", 300_000)  # one clip that is at rest later does no harm
+    found.check(SIZE, row, is_part=is_part)
+    for name in row:  # nor do thresholds that nothing reaches
+        save(name)
+    found.check(SIZE, row, is_part=is_part)
 
 
 def test_rows_that_tables_could_not_tell_apart_are_refused(runs, tmp_path, monkeypatch):

@@ -19,6 +19,8 @@ from texvent_lab.bench.kept_results import digest_of, digest_of_file
 
 TOLERANCE_US = 1_000
 """Jitter of event times that is no other clock; what lies outside the frames is not scored."""
+CROWDED, SHORTEST = 10, 1 / 500
+"""Events of a file that never lie in so small a share of its frames, where times are in µs."""
 
 
 def named_folders(texts: Iterable[str], known: Sequence[str] = ()) -> dict[str, Path]:
@@ -119,11 +121,20 @@ class FileEntry(Entry):
             is_part: whether there are other frames, so that some events suffice inside a span.
 
         Raises:
-            InputError, FileFormatError: a file is damaged, of another size or another clock.
+            InputError, FileFormatError: a file is damaged, of another size or another clock, or
+                all end in the first half of their frames.
         """
-        for files in self.files.values():
-            for recording, span_us in spans_us.items():
-                _check_file(files[recording], recording, size, span_us, is_part=is_part)
+        ends = [
+            (_check_file(files[one], one, size, span_us, is_part=is_part), files[one], span_us[1])
+            for files in self.files.values()
+            for one, span_us in spans_us.items()
+        ]
+        share, path, last_us = max(ends, key=lambda one: one[0])
+        if 0 <= share < 0.5:
+            raise InputError(
+                f"{path} has no event in the second half of its frames, which end at {last_us} µs, "
+                f"and no other file of {self.program} has; events must be of all frames"
+            )
 
     def packets(
         self,
@@ -147,13 +158,17 @@ class FileEntry(Entry):
 
 def _check_file(
     path: Path, recording: str, size: SensorSize, span_us: tuple[int, int], *, is_part: bool
-) -> None:
-    """See `FileEntry.check`."""
+) -> float:
+    """See `FileEntry.check`; the share of the frames after which the last event is, or -1."""
     first_us, last_us = span_us
     count = inside = 0
+    share = -1.0
     for packet in open_events(path, size=size):
+        used = packet.cut(first_us - TOLERANCE_US, last_us + TOLERANCE_US + 1)
         count += len(packet)
-        inside += len(packet.cut(first_us - TOLERANCE_US, last_us + TOLERANCE_US + 1))
+        inside += len(used)
+        if len(used):
+            share = max(0.0, (int(used.t[-1]) - first_us) / (last_us - first_us))
         if inside < count and not is_part:
             t_us = packet.t[0] if packet.t[0] < first_us - TOLERANCE_US else packet.t[-1]
             raise InputError(
@@ -165,6 +180,12 @@ def _check_file(
             f"{path} has no event from {first_us} to {last_us} µs; times must be on the clock of "
             f"the frames of {recording}"
         )
+    if inside >= CROWDED and share < SHORTEST:
+        raise InputError(
+            f"{path} has all its events within {share * (last_us - first_us):.0f} µs; the frames "
+            f"of {recording} are from {first_us} to {last_us} µs, and its times must be µs too"
+        )
+    return share
 
 
 def _threshold_of(name: str) -> float | None:
