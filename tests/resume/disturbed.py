@@ -27,8 +27,9 @@ STEPS = ("replace", "rename", "unlink", "remove", "rmdir", "mkdir", "fsync")
 """Functions of `os` that change a folder, or make a change durable."""
 NOBODY = 2**22 + 1
 """A number that no process has."""
-OF_THE_CLOCK = ("seconds", "training_seconds", "seen")
-"""Times of work, and states that hold times of change: no two runs share them."""
+OF_THE_CLOCK = ("seconds", "training_seconds", "seen", "commit")
+"""Times of work, states that hold times of change, and the tree, which may be edited meanwhile: no
+two runs share them."""
 
 
 @dataclass(frozen=True, kw_only=True)
