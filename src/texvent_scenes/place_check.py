@@ -55,7 +55,7 @@ def find_near(
     scene: ComposedScene, description: SceneDescription, cameras: Sequence[PosedCamera],
     times: Sequence[float],
 ) -> Iterator[Violation]:  # fmt: skip
-    """What is said to be in the distance, and is large in the image all the time."""
+    """Things that are said to be in the distance, and are large in the image all the time."""
     for index, said in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
         if own and said.placement == "far" and not any(

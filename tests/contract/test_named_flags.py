@@ -40,7 +40,7 @@ FOREIGN = {
         "--show",
     ),
     *("--local-dir", "--save-dir", "--dataset", "--standalone", "--draw", "--real-size"),
-    *("--only", "--whole", "--names", "--randomize"),
+    *("--only", "--whole", "--names", "--randomize", "--noise-hz", "--path", "--published"),
 }
 """Flags of pip, git, Docker, ROS, Slurm and the like, of CSS, of tools/ and measure."""
 PARTS = [*map(SIMULATORS.load, SIMULATORS.names()), *map(GENERATORS.load, GENERATORS.shipped())]
