@@ -14,7 +14,16 @@ from texvent_lab.bench.page import page_files
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results"
 PAGES = Path(__file__).with_name("stored_pages.json")
-OTHER = ("codecs", "detection", "gpu", "images-davis346", "images-slider_depth", "speed", "stream")
+OTHER = (
+    "codecs",
+    "detection",
+    "gpu",
+    "images-davis346",
+    "images-slider_depth",
+    "speed",
+    "stream",
+    "street",
+)
 """Results that pages of docs show themselves."""
 NAMES = sorted(
     name for path in RESULTS.glob("*.json*") if (name := path.name.split(".")[0]) not in OTHER
