@@ -31,6 +31,7 @@ TEACHING = {
     "one prompt": ("", "", "1 scene"),
     "three prompts": ("", "", "3 scenes"),
     "ten prompts": ("", "", "10 scenes"),
+    "thirty prompts": ("", "", "30 scenes"),
     "a third of the clips": ("a third of the clips", "", ""),
     "three times the clips": ("three times the clips", "", ""),
     "films": ("", "", "films"),
