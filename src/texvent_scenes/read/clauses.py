@@ -212,7 +212,8 @@ class _Parser(GroupReader):
         if not forms or (forms == {"base"} and not is_open):  # "starts to spin"
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
-            return clause.has_subject
+            is_plural = bool(clause.subjects) and all(one.is_plural for one in clause.subjects)
+            return clause.has_subject and not (forms == {"s"} and is_plural)  # "cars and trucks"
         is_ego = "ing" in forms and not self._token(1).has("noun")
         return clause.has_subject or is_ego
 

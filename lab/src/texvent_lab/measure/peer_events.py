@@ -75,7 +75,7 @@ def _load_evlib() -> Simulate:
 
 
 NOISY = {"sigma_thres": 0.05, "cutoff_hz": 30.0, "leak_rate_hz": 0.1}
-"""What v2e's own preset `noisy` sets beside thresholds and its rate of noise."""
+"""Values that v2e's own preset `noisy` sets beside thresholds and its rate of noise."""
 
 
 def load_v2e(noise_hz: float | None = None) -> Simulate:

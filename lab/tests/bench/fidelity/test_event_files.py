@@ -151,7 +151,7 @@ def test_a_program_that_saw_half_of_the_frames_is_refused_and_one_that_saw_littl
     save("a", 100_001)
     save("b", 100_000, 299_999)
     found = FileEntry.find("Mine", tmp_path, list(row))
-    with pytest.raises(InputError, match=r"b\.h5 has no event in the second half of its frames"):
+    with pytest.raises(InputError, match=r"b\.h5 has no event after 50% of its frames"):
         found.check(SIZE, row, is_part=is_part)
     save("a", 300_000)  # one clip that is at rest later does no harm
     found.check(SIZE, row, is_part=is_part)

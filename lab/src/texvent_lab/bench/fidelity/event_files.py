@@ -122,7 +122,7 @@ class FileEntry(Entry):
 
         Raises:
             InputError, FileFormatError: a file is damaged, of another size or another clock, or
-                all end in the first half of their frames.
+                all end in the first half of their frames, or a single one in the first tenth.
         """
         ends = [
             (_check_file(files[one], one, size, span_us, is_part=is_part), files[one], span_us[1])
@@ -130,9 +130,10 @@ class FileEntry(Entry):
             for one, span_us in spans_us.items()
         ]
         share, path, last_us = max(ends, key=lambda one: one[0])
-        if 0 <= share < 0.5:
+        least = 0.5 if len(spans_us) > 1 else 0.1  # one scene alone may be still from then on
+        if 0 <= share < least:
             raise InputError(
-                f"{path} has no event in the second half of its frames, which end at {last_us} µs, "
+                f"{path} has no event after {least:.0%} of its frames, which end at {last_us} µs, "
                 f"and no other file of {self.program} has; events must be of all frames"
             )
 
