@@ -332,3 +332,15 @@ def test_what_is_said_of_words_that_are_not_known_is_lost(text, word):
                                   "the camera chases a dog"])  # fmt: skip
 def test_what_a_camera_follows_goes(text):
     assert [one.kind for one in scene(text).objects[0].motions] == ["move"]
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [
+        ("cars and trucks drive along a street", ["car", "truck"]),
+        ("two buses and trucks wait", ["bus", "truck"]),
+        ("dogs, cats and ducks run", ["dog", "cat", "duck"]),
+    ],
+)
+def test_plural_nouns_after_a_plural_are_no_verbs(text, nouns):
+    assert [one.noun for one in scene(text).objects] == nouns
