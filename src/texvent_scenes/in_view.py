@@ -109,57 +109,33 @@ def find_unseen(
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
     cameras = [scene.camera(time_s) for time_s in times]
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
-    pixels = {one: view.pixels for one, view in views.items()}
+    clip = _Clip(cameras, times, size, description.camera.is_moving)
     related = {i for one in description.relations for i in one.targets}
-    climbed = {
-        i for one in description.relations for i in one.targets if one.kind in ("up", "down")
-    }
-    least_pixels = max(LEAST_PIXELS, _LEAST_AREA * size.width * size.height)
+    climbed = {i for one in description.relations for i in one.targets
+               if one.kind in ("up", "down")}  # fmt: skip
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     unseen, partly = {*scene.missing}, set[int]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
-        counts = [pixels[one.instance] for one in own]
-        bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
-        if not own:
-            continue
-        most = max(counts)
-        lost = sum(views[one.instance].share < LEAST_SEEN or
-                   (len(own) > 1 and _is_cut_off(one, cameras, times, size, LEAST_SEEN))
-                   for one in own)  # fmt: skip
-        inside = _rank_inside(own, cameras, times, size)
-        filled = _FILLED[inside == 0] * size.width * size.height
-        least = math.inf if index not in related else filled
-        if most == 0:
-            outside.append(thing.noun)
-        elif max(views[one.instance].share for one in own) < LEAST_SEEN:
-            outside.append(f"{thing.noun} (hidden)")
-        elif most < least_pixels:
-            small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif _is_brief([views[one.instance] for one in own]) and not description.camera.is_moving:
-            outside.append(f"{thing.noun} (most of the clip)")
-        elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
-            outside.append(f"{thing.noun} ({lost} of {len(counts)})")
-            if 2 * lost <= len(counts):
-                continue
-        elif most < least and inside < 2:
-            outside.append(f"{thing.noun} (cut off)")
-            is_large = index in climbed and most >= _PART * size.width * size.height
-            partly |= {index} if inside or is_large else set()
-        else:
-            continue
-        unseen.add(index)
+        seen_own = [views[one.instance] for one in own]
+        bodies.append([body_of(one, cameras, times) for one, view in zip(own, seen_own, strict=True)
+                       if view.pixels])  # fmt: skip
+        if own:
+            part = _PART if index in climbed else math.inf
+            found = _judge(own, seen_own, clip, is_related=index in related, part=part)
+            lines = small if found.is_small else outside
+            lines += [f"{thing.noun}{found.words}"] if found.words is not None else []
+            unseen |= {index} if found.is_unseen else set()
+            partly |= {index} if found.is_partly else set()
     inside_one = _list_inside(description, scene.actors)
     outside += [f"{description.objects[index].noun} (hidden)" for index in sorted(inside_one)]
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
+    seen = {number: view.at for number, view in views.items()}
     violations = [*_list_words_of(description, unseen, partly)]
     violations += _find_unrealised(scene, description, bodies, times)
-    seen = {number: view.at for number, view in views.items()}
     violations += find_undone(description, scene.actors, seen, times)
-    violations += find_airborne_meals(description, scene, times)
-    violations += find_wet_and_dry(scene, description, times[-1])
     violations += find_near(scene, description, cameras, times)
     notes = [*list_hidden(scene, seen, cameras, times, size)]
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
@@ -168,6 +144,54 @@ def find_unseen(
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
         frozenset(unseen - partly - scene.missing),
     )  # fmt: skip
+
+
+class _Clip(NamedTuple):
+    """Cameras at the instants of a clip, and what holds for all of its objects."""
+
+    cameras: Sequence[PosedCamera]
+    times: Sequence[float]
+    size: SensorSize
+    is_camera_moving: bool
+
+
+class _Judged(NamedTuple):
+    """Words behind the noun of an object in a report, None without a report."""
+
+    words: str | None = None
+    is_small: bool = False
+    is_unseen: bool = True
+    is_partly: bool = False
+    """Whether enough is in the image to show its acts."""
+
+
+def _judge(
+    own: Sequence[Actor], views: Sequence[View], clip: _Clip, *, is_related: bool, part: float
+) -> _Judged:
+    """Visibility of an object's bodies over the clip.
+
+    `part`: share of the image from which on what is cut off shows acts.
+    """
+    cameras, times, size, _ = clip
+    area = size.width * size.height
+    most, count = max(view.pixels for view in views), len(own)
+    lost = sum(view.share < LEAST_SEEN or
+               (count > 1 and _is_cut_off(one, cameras, times, size, LEAST_SEEN))
+               for one, view in zip(own, views, strict=True))  # fmt: skip
+    inside = _rank_inside(own, cameras, times, size)
+    if most == 0:
+        return _Judged("")
+    if max(view.share for view in views) < LEAST_SEEN:
+        return _Judged(" (hidden)")
+    if most < max(LEAST_PIXELS, _LEAST_AREA * area):
+        return _Judged(f" ({most} pixel{'s' if most > 1 else ''})", is_small=True)
+    if _is_brief(views) and not clip.is_camera_moving:
+        return _Judged(" (most of the clip)")
+    if lost and count <= max(2 * lost, MOST_COUNTED):
+        return _Judged(f" ({lost} of {count})", is_unseen=2 * lost > count)
+    if inside < 2 and (not is_related or most < _FILLED[inside == 0] * area):
+        return _Judged(" (cut off)", is_partly=bool(inside) or most >= part * area)
+    return _Judged(is_unseen=False)
 
 
 def _find_unrealised(
@@ -183,6 +207,8 @@ def _find_unrealised(
         if duration_s >= _LEAST_CLIP_S or one.value in PLACING:
             yield one
     yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
+    yield from find_airborne_meals(description, scene, times)
+    yield from find_wet_and_dry(scene, description, duration_s)
     yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 
 

@@ -39,11 +39,11 @@ from texvent_scenes.part_check import (
     is_moving_inside,
     is_of_material,
 )
-from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staged_clip import StagedClip
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.water_check import wet_share
 
 _LEAST_CLIP_S = 1.0
 _DONE = ("bounce", "ground", "activity", "stop before", "stop", "land", "descend")
@@ -158,17 +158,10 @@ def is_in_line(places: Float64Array) -> bool:
 
 def _is_in_water(staged: StagedClip, claim: Claim) -> bool:
     """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
-    place, said = staged.scene.place, staged.description.relations
+    said = staged.description.relations
     is_inside = any(one.kind == "in" and one.subject == claim.subject for one in said)
-    if is_inside or not place.has_shore:
-        return is_inside or place.ground in (Ground.SEA, Ground.UNDERWATER)
-    base = staged.scene.animated_environment.base
-    x, y = map(float, base.road_offset)
-    half_m = float(base.road_half_width) if place.ground is not Ground.LAKE else 0.0
-    line, ways = RoadLine(base.road_angle, (x, y)), staged.own_boxes(claim)
-    across_m = np.array([line.across(one.middle[:, :2]) for one in ways])
-    is_wet = (across_m > -half_m) & (across_m < (half_m or math.inf))
-    return bool(is_wet.mean() >= _MOSTLY)
+    ways = np.concatenate([one.middle[:, :2] for one in staged.own_boxes(claim)])
+    return is_inside or wet_share(staged.scene, ways) >= _MOSTLY
 
 
 def _each_holds(staged: StagedClip, claim: Claim) -> bool:

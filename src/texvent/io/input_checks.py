@@ -237,6 +237,7 @@ def stored_or_given_size(
         raise FileFormatError(f"{path} states an impossible {error}") from error
     if given is not None and tuple(given) != tuple(size):
         raise InputError(
-            f"{path} was recorded at {size}, not {given[0]}x{given[1]}, which it was to have"
+            f"{path} was recorded at {size}, not {given[0]}x{given[1]}; "
+            "leave the size out, or name a file of that size"
         )
     return size

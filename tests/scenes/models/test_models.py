@@ -93,7 +93,7 @@ def test_parts_keep_their_number_order_and_handedness(noun):
         posed = [model.parts(pose) for pose in poses]
         shapes = [[part.shape for part in parts] for parts in posed]
         assert all(row == shapes[0] for row in shapes)
-        assert 1 <= len(shapes[0]) <= 80
+        assert 1 <= len(shapes[0]) <= 60
         parts = [part for each in posed for part in each]
         maps = np.array([part.to_body for part in parts])
         assert maps.shape == (len(parts), 3, 4)
