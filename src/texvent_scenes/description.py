@@ -40,7 +40,7 @@ class Claim:
     word: str
     """As the report has it, such as "row of"."""
     kind: str
-    """Check that decides: a key of `word_check.CHECKS`, such as "colour" or "relation"."""
+    """Check that decides: a key of `checks.words.CHECKS`, such as "colour" or "relation"."""
     value: str | float = ""
     """As "black" of colours, "behind" of relations, 3 of repetitions."""
     subject: int | None = None

@@ -10,13 +10,13 @@ from functools import lru_cache
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.assets.nouns import list_files
+from texvent_scenes.checks.in_view import Unseen, find_unseen, without_words
+from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.words import find_held
 from texvent_scenes.description import STANDING, SceneDescription
-from texvent_scenes.in_view import Unseen, find_unseen, without_words
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.relation_check import Violation
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
-from texvent_scenes.word_check import find_held
 
 
 def stage(

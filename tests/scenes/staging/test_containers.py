@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, SIZE
 
-from texvent_scenes.body_boxes import body_of
-from texvent_scenes.in_view import find_unseen
+from texvent_scenes.checks.body_boxes import body_of
+from texvent_scenes.checks.in_view import find_unseen
+from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_values
-from texvent_scenes.relation_check import find_violations
 from texvent_scenes.scene_input import understand
 from texvent_scenes.staging.compose import compose_scene
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, stage, thing
 
-from texvent_scenes.body_boxes import body_of
+from texvent_scenes.checks.body_boxes import body_of
+from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.postures import find_track
 from texvent_scenes.models.tables import nouns_with, trait_values
-from texvent_scenes.relation_check import find_violations
 from texvent_scenes.spec.scene import Motion, SceneObject
 
 TIMES = np.linspace(0.0, DURATION_S, 21)

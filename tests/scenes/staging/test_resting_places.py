@@ -7,7 +7,7 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE
 from tests.scenes.staging.test_containers import lost_relations, staged
 
-from texvent_scenes.in_view import find_unseen
+from texvent_scenes.checks.in_view import find_unseen
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_values
 

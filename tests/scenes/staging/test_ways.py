@@ -6,7 +6,7 @@ from tests.scenes.staged import DURATION_S, SIZE, in_image
 from tests.scenes.staging.test_containers import lost_relations, staged
 from tests.scenes.staging.test_resting_places import box, moved
 
-from texvent_scenes.in_view import find_unseen
+from texvent_scenes.checks.in_view import find_unseen
 
 TIMES_S = np.linspace(0.0, DURATION_S, 9)
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.relation_rules import RULES
 from texvent_scenes.description import Claim
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
-from texvent_scenes.relation_rules import RULES
 from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.staged_prompt import stage
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
+from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import compose_scene

@@ -16,24 +16,25 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.phases import (
+    find_airborne_meals,
+    find_undone,
+    list_departures,
+    list_hidden,
+)
+from texvent_scenes.checks.placement import find_misplaced
+from texvent_scenes.checks.places import find_near, find_unseen_place
+from texvent_scenes.checks.relations import Violation, find_violations
+from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
-from texvent_scenes.phase_check import (
-    find_airborne_meals,
-    find_undone,
-    list_departures,
-    list_hidden,
-)
-from texvent_scenes.place_check import find_near, find_unseen_place
-from texvent_scenes.placement_check import find_misplaced
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.relation_check import Violation, find_violations
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place
@@ -42,7 +43,6 @@ from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.particles.choose import FALLING
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
-from texvent_scenes.water_check import find_wet_and_dry
 
 INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""

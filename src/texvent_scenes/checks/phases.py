@@ -12,11 +12,11 @@ import numpy as np
 
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import is_any_inside
+from texvent_scenes.checks.body_boxes import is_any_inside
+from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import MOUTH_ACTIVITIES
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent_scenes.act_check import is_arc
+from texvent_scenes.checks.acts import is_arc
+from texvent_scenes.checks.words import is_in_line
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.rendered_scene import Shape
-from texvent_scenes.word_check import is_in_line
 
 
 @cache

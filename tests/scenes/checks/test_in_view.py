@@ -12,13 +12,19 @@ from tests.examples import examples
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.in_view import (
+    LEAST_PIXELS,
+    MOST_POINTS,
+    Unseen,
+    count_pixels,
+    find_unseen,
+)
+from texvent_scenes.checks.relation_rules import RULES
+from texvent_scenes.checks.relations import holds
 from texvent_scenes.description import IndexedRelation, SceneDescription
-from texvent_scenes.in_view import LEAST_PIXELS, MOST_POINTS, Unseen, count_pixels, find_unseen
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.relation_check import holds
-from texvent_scenes.relation_rules import RULES
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose

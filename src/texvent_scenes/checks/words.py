@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from texvent.sensor import SensorSize
-from texvent_scenes.act_check import (
+from texvent_scenes.checks.acts import (
     bounces,
     descends,
     falls,
@@ -30,8 +30,7 @@ from texvent_scenes.act_check import (
     stops_before,
     swings,
 )
-from texvent_scenes.description import SEEN, Claim, SceneDescription
-from texvent_scenes.part_check import (
+from texvent_scenes.checks.parts import (
     Place,
     has_colour,
     is_blinking,
@@ -39,11 +38,12 @@ from texvent_scenes.part_check import (
     is_moving_inside,
     is_of_material,
 )
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.water import wet_share
+from texvent_scenes.description import SEEN, Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staged_clip import StagedClip
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
-from texvent_scenes.water_check import wet_share
 
 _LEAST_CLIP_S = 1.0
 _DONE = ("bounce", "ground", "activity", "stop before", "stop", "land", "descend")

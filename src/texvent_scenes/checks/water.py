@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.surroundings.environment import RoadLine

@@ -8,10 +8,10 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import is_any_inside
+from texvent_scenes.checks.body_boxes import is_any_inside
+from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
-from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import ComposedScene

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from tests.scenes.test_word_check import check, report, told
+from tests.scenes.checks.test_words import check, report, told
 
-from texvent_scenes.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.relation_check import find_violations
 from texvent_scenes.scene_input import understand
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staged_clip import StagedClip
 from texvent_scenes.staging.actors import Actor
 
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3

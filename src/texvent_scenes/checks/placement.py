@@ -13,13 +13,13 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.relation_check import Violation
 from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
 from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor

@@ -1,7 +1,7 @@
 """What a clip shows of several acts and of a place: each check in unrelated sentences."""
 
 import pytest
-from tests.scenes.test_word_check import check, report, told
+from tests.scenes.checks.test_words import check, report, told
 
 
 @pytest.mark.parametrize(

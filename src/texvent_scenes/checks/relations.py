@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent_scenes.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.relation_rules import RULES, are_still, is_between
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face

@@ -10,9 +10,9 @@ import numpy as np
 
 from texvent.camera import project
 from texvent.sensor import SensorSize
-from texvent_scenes.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
-from texvent_scenes.relation_check import find_violations
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene

@@ -1,0 +1,1 @@
+"""Checks: a staged scene compared with the words of its sentence."""
