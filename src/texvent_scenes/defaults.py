@@ -27,7 +27,8 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "wear"})
 _GOING = {"stand": "slide", "float": "fly"}
-_AFLOAT, _ROCKING = ("sail", "paddle"), 0.5
+_AFLOAT = ("sail", "paddle")
+_ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
@@ -243,10 +244,8 @@ def _rest_of(
     if kind not in _RESTING:
         return {}
     members = {n: nouns[objects[n].noun] for n in (relation.subject, *relation.targets)}
-    motion, are_walkers = (
-        objects[relation.subject].motion,
-        {"walk"} == {one.motion for one in members.values()},
-    )
+    motion = objects[relation.subject].motion
+    are_walkers = {one.motion for one in members.values()} == {"walk"}
     if kind == "beside" and motion and motion.kind in ("walk", "run", "move") and are_walkers:
         return dict.fromkeys(relation.targets, Motion(motion.kind, motion.direction))
     rests = (n for n, one in members.items() if one.habitat == "ground" or one.motion in _AFLOAT)

@@ -71,10 +71,10 @@ _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
 _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
-_TURNS, _RESTS = ("spin", "work", "rotate"), (
-    "stand", "stand open", "stand closed", "hang", "work", "sit", "lie",
-)  # fmt: skip
-"""Motions that only a picture tells, and those that nothing needs to show."""
+_TURNS = ("spin", "work", "rotate")
+"""Motions that only a picture tells."""
+_RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie")
+"""Motions that nothing needs to show."""
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
 """Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
 both, no usual rate makes whole turns."""
@@ -213,7 +213,7 @@ def _find_unrealised(
 
 
 def _list_inside(description: SceneDescription, actors: Sequence[Actor]) -> set[int]:
-    """Objects that ride in a closed vehicle, which shows nobody."""
+    """Objects that ride in a closed vehicle, which hides them."""
     closed = {one.object_index for one in actors if hides_riders(one.noun)}
     bodied = {one.object_index for one in actors}
     return {one.subject for one in description.relations

@@ -69,9 +69,8 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int
 
 def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int]) -> None:
     """Account for a word about a part; whether it moves, shines or has a colour is to be seen."""
-    is_lamp, fields = part in word_set("things", "lamps"), dict(
-        one.value for one in word.all("field")
-    )  # fmt: skip
+    is_lamp = part in word_set("things", "lamps")
+    fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
     elif "colour" in fields:

@@ -27,7 +27,7 @@ _SIGNS = str.maketrans("−⁄", "-/")
 def read_height(words: Sequence[str], at: int) -> Found | None:
     """A height of what is in the air: "2 m above the ground", "5 m over" the sea.
 
-    Above what stands there it is another one.
+    Above another thing it is another height.
     """
     unit, over, *rest = ([one.casefold() for one in words[at + 1 : at + 5]] + ["", ""])[:4]
     factor = read_table("words", "read")["said_after"]["from"]["units"].get(unit)

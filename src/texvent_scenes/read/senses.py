@@ -47,9 +47,9 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
 
 
 def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> Token:
-    like, (before, following) = read_table("words", "read")["like"], (
-        tokens[one] if 0 <= one < len(tokens) else NO_TOKEN for one in (token.at - 1, token.at + 1)
-    )  # fmt: skip
+    like = read_table("words", "read")["like"]
+    before = tokens[token.at - 1] if token.at else NO_TOKEN
+    following = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
     if token.text in like and following.has("articles") and not before.has("articles"):
         return replace(token, senses=(Sense("relation", like[token.text]),))  # "round a fire"
     found = find_nouns(token.text, nouns)

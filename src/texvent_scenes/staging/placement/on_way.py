@@ -14,7 +14,7 @@ from texvent_scenes.staging.tracks.phases import ends_at_rest
 
 _FIXED, _AWAY = np.zeros(3), np.array([0.0, 1.0, 0.0])
 _AT_START = ("from", "away from")
-"""Relations to what somebody leaves."""
+"""Relations to the thing that a body leaves."""
 _EDGE_M, _AHEAD_M = 0.2, 2.0
 """Gap between a train and its platform, whose middle is so far ahead of that of the train, m."""
 _AT_DOOR_M, _QUEUE_M = 0.3, 1.2
