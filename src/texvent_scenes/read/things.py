@@ -227,7 +227,7 @@ class ThingReader:
         draft.show(*([token] if able == [*subjects] else []))
 
     def _is_open(self, field: str, things: Sequence[Mapping[str, Any]]) -> bool:
-        """Whether a field of things cannot be set: a second colour, a height of something at rest."""
+        """Whether a field of things cannot be set: a second colour, a height at rest."""
         motions = [one for thing in things for one in thing["motions"]]
         if field == "rate_hz":
             works = any(self._nouns[one["noun"]].is_working for one in things)

@@ -66,7 +66,7 @@ def hangs_on(noun: str, target: str) -> bool:
 
 
 def is_before_face(who: SceneObject, what: SceneObject) -> bool:
-    """Whether a person does something at the face of a thing, such as a board, and not on top of it."""
+    """Whether a person does something at the face of a thing, such as a board, not on top of it."""
     does = {motion.kind for motion in who.motions}
     is_person = who.noun in PERSON_NOUNS and what.noun in nouns_with("upright")
     return is_person and bool(does) and not does & _ON_TOP
