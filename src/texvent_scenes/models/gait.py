@@ -11,6 +11,10 @@ from texvent_scenes.models.channel_track import ChannelTrack, read_track
 from texvent_scenes.models.protocol import Pose, fraction
 from texvent_scenes.models.tables import read_table
 
+TROT_FROUDE = 2.5
+"""Froude number, speed² / (g · height of the hips), up to which four-footed animals trot, and from
+which on they gallop (R. McN. Alexander and A. S. Jayes 1983, Journal of Zoology 201)."""
+
 
 @dataclass(frozen=True)
 class Gait:
@@ -37,7 +41,8 @@ class Steps:
     strides: float
     amount: float
     """Amplitude of its steps, 0 to 1."""
-    runs: bool = False
+    name: str = "walk"
+    """Activity whose gait it is, such as "run"."""
 
 
 def foot_path(steps: Steps, lead: float) -> tuple[float, float]:
@@ -88,16 +93,17 @@ class Walk:
     def steps(self, pose: Pose, seed: int) -> Steps:
         """Its steps at that pose."""
         name = self.usual if self.usual and pose.activity == "move" else pose.activity
+        name = "run" if name == "trot" and name not in self.gaits else name
         name = name if name in self.gaits else next(iter(self.gaits))
         gait = self.gaits[name]
         begun = fraction(seed, "step") if self.starts_by_seed else 0.0
         full_m_s = self.full_m_s if gait.full_share else 0.0
         amount = step_amount(pose.activity, pose.speed_m_s, full_m_s)
-        return Steps(gait, pose.distance_m / gait.stride + begun, amount, name == "run")
+        return Steps(gait, pose.distance_m / gait.stride + begun, amount, name)
 
 
 def read_walk(table: Mapping[str, Any]) -> Walk | None:
-    """The gaits of a noun's table, if it walks: `gait`, and `run` where that differs.
+    """The gaits of a noun's table, if it walks: `gait`, and `run` and `trot` where those differ.
 
     One that `runs` does so whatever it does.
     """
@@ -106,6 +112,7 @@ def read_walk(table: Mapping[str, Any]) -> Walk | None:
     walk = Gait(**table["gait"])
     run = Gait(**table["run"]) if "run" in table else walk
     gaits = {"run": run} if table.get("runs", False) else {"walk": walk, "run": run}
+    gaits |= {"trot": Gait(**table["trot"])} if "trot" in table else {}
     return Walk(gaits, walk.full_share * walk.stride)
 
 

@@ -230,8 +230,8 @@ class Legs:
     """Part lines around the ankle."""
     apart: float = 0.5
     """Lead of the right legs over the left ones, cycles: 0 = it hops."""
-    running: tuple[float, float] | None = None
-    """Lead of the left legs, and of the right ones over them, while it runs; None = the same."""
+    leads: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Gait → lead of the left legs, and of the right ones over them; of others it is as above."""
     feet_by: Mapping[str, Point] = field(default_factory=dict)
     """Channel → displacement of the feet at 1."""
     knees_by: Mapping[str, Point] = field(default_factory=dict)
@@ -246,7 +246,7 @@ class Legs:
             far_x, far_y, far_z = _blend((0.0, 0.0, 0.0), self.feet_by, channels)
             knee_x, knee_y, knee_z = _blend(self.towards, self.knees_by, channels)
             for (x, y, z, foot_x, foot_y, lead), side in product(self.pairs, (1.0, -1.0)):
-                lead, apart = self.running if self.running and steps.runs else (lead, self.apart)
+                lead, apart = self.leads.get(steps.name, (lead, self.apart))
                 ahead = lead + (0.0 if side > 0.0 else apart)
                 step, lift = foot_path(steps, ahead)
                 root = point(body @ np.array([x, side * y, z, 1.0]))

@@ -54,7 +54,8 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
     "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
     "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,),
-    "clumps": (list,), "legs": (list,), "gait": (dict,), "run": (dict,), "runs": (bool,),
+    "clumps": (list,), "legs": (list,), "gait": (dict,), "run": (dict,), "trot": (dict,),
+    "runs": (bool,),
     "body": (str,), "sizes": (dict,), "acts": (str,), "anchors": (dict,), "options": (dict,),
     "with": (list,), "usual_more": (str,),
 }  # fmt: skip

@@ -280,7 +280,7 @@ class Body:
         if self.walk is None:
             return Instant(pose, self.seed, channels), None
         steps = self.walk.steps(pose, self.seed)
-        sizes = {"step": steps.amount, "run" if steps.runs else "walk": steps.amount}
+        sizes = {"step": steps.amount, "run" if steps.name == "run" else "walk": steps.amount}
         channels = {**channels, **sizes}
         return Instant(pose, self.seed, channels, steps.strides), steps
 

@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 
 from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.anchors import has_places, locate
+from texvent_scenes.models.gait import TROT_FROUDE
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.people.outfit import Prop
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import bounds, compose, moved
 from texvent_scenes.rendered_scene import Float64Array, Primitives
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 from texvent_scenes.staging.tracks.track import Track
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
@@ -53,6 +55,8 @@ class PlacedModel:
 
 CHANGE_S = 0.35
 """Duration of a body's transition from one activity to the next, s."""
+_HIPS = 0.6
+"""Height of the hips of a four-footed animal, as a share of its own with the head."""
 _HALVINGS = 24
 
 
@@ -106,6 +110,13 @@ class Actor:
         return 0.5 * self.model.height if self.is_centred else 0.0
 
     @cached_property
+    def _is_trotting(self) -> bool:
+        """Whether what it runs at most is a trot, if it has one; the same for the whole clip."""
+        most_m_s = max((abs(one.speed_m_s) for one in self.track.keys if one.activity == "run"),
+                       default=0.0)  # fmt: skip
+        return most_m_s**2 <= TROT_FROUDE * GRAVITY_M_S2 * _HIPS * self.model.height
+
+    @cached_property
     def _has_limbs(self) -> bool:
         return has_places(self.model)
 
@@ -125,11 +136,12 @@ class Actor:
         """State of its limbs at that instant."""
         state = self.track.at(time_s)
         is_timed = state.activity in TIMED
+        activity = "trot" if state.activity == "run" and self._is_trotting else state.activity
         return Pose(
             state.tempo * time_s + 0.37 * self.lead_m,
             state.distance_m + self.lead_m,
             state.speed_m_s,
-            state.activity,
+            activity,
             *self._change_over(time_s, state.activity),
             act_s=state.tempo * state.act_s if is_timed and state.act_s else state.act_s,
             grips=state.grips,

@@ -13,6 +13,8 @@ from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.rendered_scene import Shape
+from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.staged_prompt import stage
 
 
 @cache
@@ -265,3 +267,20 @@ def test_what_opens_and_closes_is_closed_in_the_clip(duration_s, is_shown):
     made = ProceduralGenerator(ProceduralConfig(duration=duration_s), size=SensorSize(173, 130))
     said = made.report("the doors open and close again and again")
     assert ("open and close" in said.shown) == is_shown
+
+
+@pytest.mark.parametrize(
+    ("text", "gait"),
+    [
+        ("a horse trots on grass", "trot"),
+        ("a dog trots along a road", "trot"),
+        ("a deer runs at 4 m/s", "trot"),
+        ("a horse gallops on grass", "run"),
+        ("a dog runs along a road", "run"),
+    ],
+)
+def test_four_footed_animals_gallop_above_the_speed_of_a_trot(text, gait):
+    nouns = list_nouns()
+    scene = understand(text, nouns)
+    staged, *_ = stage(scene, scene.words, nouns, seed=0, size=SensorSize(173, 130), duration_s=1.0)
+    assert {one.pose(0.5).activity for one in staged.actors if one.is_mover} == {gait}

@@ -177,3 +177,16 @@ def test_four_legged_animals_eat_low_and_sit_with_their_heads_up():
         )
         assert eats[2, 3] < 0.9 * stands[2, 3], noun.name
         assert sits[2, 3] > eats[2, 3], noun.name
+
+
+@pytest.mark.parametrize("noun", ["horse", "dog", "zebra"])
+def test_diagonal_legs_step_together_in_a_trot_alone(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    for activity in ("trot", "run", "walk"):
+        poses = [Pose(0.0, 0.13 * one, 4.0, activity) for one in range(40)]
+        feet = np.array([[part.to_body[2, 3] for part in model.parts(one)[-10::3]]
+                         for one in poses])  # fmt: skip
+        left, right, rear_left, rear_right = feet.T
+        is_together = np.allclose(left, rear_right) and np.allclose(right, rear_left)
+        assert is_together == (activity == "trot")
+        assert not np.allclose(left, right)
