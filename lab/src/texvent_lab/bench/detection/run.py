@@ -25,7 +25,8 @@ from texvent.dataset.export import LEDGER_FILE, export
 from texvent.dataset.layouts.rvt import WINDOW_US
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.stored.folder import StoredDataset
-from texvent.errors import ConfigError, TexventError, shown
+from texvent.dataset.verify import verify
+from texvent.errors import ConfigError, InputError, TexventError, shown
 from texvent.extending import require, suggest
 from texvent.io.atomic import atomic_file
 from texvent.io.files import open_events
@@ -149,12 +150,20 @@ def run_detection(
 
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
-    """Make the same clips in every arm, and export what RVT reads."""
+    """Make the same clips in every arm, and export what RVT reads.
+
+    Raises:
+        InputError: a shard is not what was made.
+        TexventError: a clip could not be made.
+    """
     folder, whole = plan.work / "clips", read_specification(plan.specification)
     work = dataset.make(with_count(whole, plan.clips), folder, workers=jobs)
     if work.failures:
         raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
     stored = StoredDataset.open(folder)
+    changed = verify(stored, workers=jobs, contents=False).changed
+    if changed:
+        raise InputError(f"{folder}: {changed[0]}; delete that shard, and it is made again")
     for arm in arms:
         done = export(stored, "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES)
         progress(f"{arm}: {done.samples} clips")
