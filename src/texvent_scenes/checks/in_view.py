@@ -26,6 +26,7 @@ from texvent_scenes.checks.phases import (
 from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.checks.places import find_near, find_unseen_place
 from texvent_scenes.checks.relations import Violation, find_violations
+from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
@@ -137,6 +138,7 @@ def find_unseen(
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
     violations += find_near(scene, description, cameras, times)
+    violations += find_misframed(scene, description, cameras, times, size)
     notes = [*list_hidden(scene, seen, cameras, times, size)]
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
