@@ -142,9 +142,14 @@ def descends(staged: StagedClip, claim: Claim) -> bool:
 
 
 def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip."""
+    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip.
+
+    Of what goes up something, that relation tells.
+    """
     own, others = staged.own(claim), [one for one in staged.scene.actors]
-    for one in own:
+    climbs = any(one.kind in ("up", "down") and one.subject == claim.subject
+                 for one in staged.description.relations)  # fmt: skip
+    for one in () if climbs else own:
         low = np.array([one.lowest_m(time_s) for time_s in staged.times])
         tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
         gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)

@@ -12,7 +12,9 @@ from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.materials import mix
+from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import (
     LAMP_RECORD,
@@ -46,8 +48,9 @@ _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
 _AFLOAT = ("swim", "surf")
 """Motions of people in water, or on it."""
-_BANK, _LEAST_BANK_M = 0.22, 1.0
-"""Land between what the camera looks at and the water: a share of the camera's distance, and m."""
+_BANK, _LEAST_BANK_M, _STRAND_M = 0.22, 1.0, 6.0
+"""Land between what the camera looks at and the water: a share of the camera's distance, and m, on
+a beach too."""
 _NEARER = 0.45
 """Distance of a lake's shore before things afloat, as a share of the camera's distance."""
 
@@ -182,9 +185,15 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
 
 
 def is_afloat(actor: Actor) -> bool:
-    """Whether it is in water or on it, by itself."""
+    """Whether it is in water or on it, by itself; a boat that lies is ashore."""
+    doing = actor.track.at(0.0).activity
     is_of_water = actor.noun.habitat == "water" and actor.track.anchor is None
-    return is_of_water or actor.track.at(0.0).activity in _AFLOAT
+    return (is_of_water and not lies_ashore(actor.noun, doing)) or doing in _AFLOAT
+
+
+def lies_ashore(noun: Noun, doing: str) -> bool:
+    """Whether what floats lies on land."""
+    return doing == "lie" and noun.name in AFLOAT
 
 
 def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) -> RoadLine:
@@ -197,9 +206,10 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
     swimmers = [one for one in actors if is_afloat(one)]
-    on_land = [one for one in actors if one.noun.habitat == "ground" and one.track.anchor is None
-               and one not in swimmers]  # fmt: skip
-    gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
+    on_land = [one for one in actors if one.track.anchor is None and one not in swimmers
+               and (one.noun.habitat == "ground" or one.noun.name in AFLOAT)]  # fmt: skip
+    bank_m = _STRAND_M if place.surface is Texture.SAND else _LEAST_BANK_M
+    gap = half + _BANK * path.framing.distance_m + bank_m
     if not actors:
         gap = half
     elif swimmers and place.ground is Ground.RIVER:
@@ -209,7 +219,7 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     elif not swimmers:
         away = np.array([-math.sin(angle), math.cos(angle)])
         corners = np.vstack([one.corners(time) for one in actors for time in (0.0, _USUAL_S)])
-        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + _LEAST_BANK_M)
+        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + bank_m)
     else:
         gap = -_NEARER * path.framing.distance_m
         away = np.array([-math.sin(angle), math.cos(angle)])
