@@ -110,7 +110,7 @@ def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
 
 def is_stranded(one: Actor, place: PlaceModel) -> bool:
     """Whether what floats or swims is where no water is."""
-    has_water = place.has_shore or place.ground in (Ground.SEA, Ground.UNDERWATER, Ground.NONE)
+    has_water = place.has_surface or place.ground in (Ground.UNDERWATER, Ground.NONE)
     is_open = not (place.is_room or place.is_backdrop)
     if lies_ashore(one.noun, one.track.at(0.0).activity):
         return False
@@ -168,7 +168,7 @@ class _Bodies:
                 if one.object_index in relation.targets}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
         is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
-        is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
+        is_body = one.noun.speed_m_s > 0.0 or one.noun.habitat == "fixed"
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip
         return (

@@ -294,6 +294,8 @@ class ObjectPlacer:
         lifts = kind in ("rise", "sink", "fall") and air > 0.0
         if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
             return -lowest_point(group.models[0])
+        if kind == "float" and "afloat" in levels:
+            return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
         if name in levels:
             return levels[name] * group.models[0].height
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)

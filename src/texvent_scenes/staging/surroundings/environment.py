@@ -46,13 +46,16 @@ _ROADSIDE = 1.4
 """Distance of walkers from the middle of a road without pavement, in lanes."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
-_AFLOAT = ("swim", "surf")
-"""Motions of people in water, or on it."""
+_AFLOAT = ("swim", "surf", "float")
+"""Motions of people and things in water, or on it."""
+_CALM_M = 3.0
+"""Distance of the camera below which usual waves are lower, as it is shorter."""
 _BANK, _LEAST_BANK_M, _STRAND_M = 0.22, 1.0, 6.0
 """Land between what the camera looks at and the water: a share of the camera's distance, and m, on
 a beach too."""
-_NEARER = 0.45
-"""Distance of a lake's shore before things afloat, as a share of the camera's distance."""
+_NEARER, _LEAST_NEARER_M = 0.45, 2.5
+"""Distance of a lake's shore before things afloat, as a share of the camera's distance, and m: it
+is no straight line."""
 
 
 @dataclass(frozen=True)
@@ -221,7 +224,7 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
         corners = np.vstack([one.corners(time) for one in actors for time in (0.0, _USUAL_S)])
         gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + bank_m)
     else:
-        gap = -_NEARER * path.framing.distance_m
+        gap = -max(_NEARER * path.framing.distance_m, _LEAST_NEARER_M)
         away = np.array([-math.sin(angle), math.cos(angle)])
         ways = [
             [(one.middle(0.0)[:2] - (x, y)) @ away for one in each] for each in (on_land, swimmers)
@@ -318,7 +321,7 @@ def build_environment(
     sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
-    is_dim = said.weather in ("rain", "snow")
+    is_dim, is_usual = said.weather in ("rain", "snow"), said.wave_height == Place.wave_height
     base = Environment(
         ground=_ground_under(description, place),
         ground_colour=_array(colour),
@@ -330,7 +333,7 @@ def build_environment(
         sky_horizon=_array(horizon),
         clouds=_cloud_share(description, place, lighting),
         wetness=_WET if said.weather == "rain" or said.is_wet else 0.0,
-        wave_height=said.wave_height,
+        wave_height=said.wave_height * (min(distance_m / _CALM_M, 1.0) if is_usual else 1.0),
         sun_direction=_unit(lighting.sun_direction),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
         ambient=_array(lighting.ambient),
