@@ -12,7 +12,7 @@ from dataclasses import replace
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, MOUTH_ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import is_room
+from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.data import ACTED, SPACED
@@ -55,6 +55,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    if PLACES[place].has_surface:
+        description = _set_afloat(description, nouns)
     for note in _list_floored(description, place):
         description = _note(description, note)
     for one in description.objects:
@@ -64,6 +66,18 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Things of no air that hover over water float on it."""
+    new = {
+        n: replace(one, motions=tuple(
+            replace(each, kind="float") if each.kind == "hover" else each for each in one.motions
+        ))
+        for n, one in enumerate(description.objects)
+        if nouns[one.noun].habitat in ("ground", "fixed") and one.height_m is None
+    }  # fmt: skip
+    return _change(description, new)
 
 
 def _set_down(description: SceneDescription) -> SceneDescription:
@@ -374,7 +388,7 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
     if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
-        return "sea" if kinds.intersection(_IN_WATER) else "beach"
+        return "sea" if kinds.intersection((*_IN_WATER, "hover", "float")) else "beach"
     travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):

@@ -43,6 +43,8 @@ def meanings_of(senses: Senses) -> Iterator[tuple[str, object]]:
                 yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
                 said = (("direction", value.direction), ("relation", value.relation))
                 yield from (one for one in said if one[1] is not None)
+            case "shot":  # such as "pan left"
+                yield "move", str(value).split()[0]
             case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
                 part, field, each = value
                 yield part if field in ("kind", "name") else field, each

@@ -12,6 +12,7 @@ from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.surroundings.environment import is_afloat
 
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
@@ -142,9 +143,16 @@ def descends(staged: StagedClip, claim: Claim) -> bool:
 
 
 def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip."""
+    """Whether it goes on the ground, or on another body, or in the air, for a part of the clip.
+
+    Of what goes up something, that relation tells.
+    """
     own, others = staged.own(claim), [one for one in staged.scene.actors]
-    for one in own:
+    climbs = any(one.kind in ("up", "down") and one.subject == claim.subject
+                 for one in staged.description.relations)  # fmt: skip
+    for one in () if climbs else own:
+        if not claim.value and is_afloat(one):
+            continue
         low = np.array([one.lowest_m(time_s) for time_s in staged.times])
         tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
         gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)

@@ -26,12 +26,13 @@ from texvent_scenes.checks.phases import (
 from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.checks.places import find_near, find_unseen_place
 from texvent_scenes.checks.relations import Violation, find_violations
+from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
@@ -69,6 +70,8 @@ _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
+_LEAST_HUE = 0.4
+"""Difference of a channel, of the greatest, from which on two grounds are of different colours."""
 _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
 _TURNS = ("spin", "work", "rotate")
@@ -78,6 +81,8 @@ _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie")
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
 """Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
 both, no usual rate makes whole turns."""
+_FINE = 13
+"""Instants at which it is looked for motion: of fewer, one who hops may be on the ground at all."""
 _ADJECTIVES = ("count", "size", "colour", "material", "placement")
 """Fields of an object that adjectives say."""
 _SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
@@ -137,6 +142,7 @@ def find_unseen(
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
     violations += find_near(scene, description, cameras, times)
+    violations += find_misframed(scene, description, cameras, times, size)
     notes = [*list_hidden(scene, seen, cameras, times, size)]
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
@@ -275,8 +281,8 @@ def _find_unshown(
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
-    is_common = place.surface in _FLOORS or place is not next(
-        one for one in alike if one.surface is place.surface)  # fmt: skip
+    first = next(one for one in alike if one.surface is place.surface)
+    is_common = place.surface in _FLOORS or (place is not first and not _has_own_colour(place, first))
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
@@ -288,14 +294,21 @@ def _find_unshown(
     yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
 
 
+def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:
+    """Whether the ground of a place is told from that of another one by its hue."""
+    own, other = (np.array(one.colours[0]) / max(one.colours[0]) for one in (place, usual))
+    return bool(np.abs(own - other).max() >= _LEAST_HUE)
+
+
 def _find_rest(
     scene: ComposedScene, description: SceneDescription, times: Sequence[float]
 ) -> Iterator[Violation]:
     """Motions and activities of bodies that neither move nor take a posture."""
+    fine = [float(one) for one in np.linspace(times[0], times[-1], _FINE)]
     for index, one in enumerate(description.objects):
         own = [actor for actor in scene.actors if actor.object_index == index]
         kind = one.motion.kind if one.motion and not one.motions[1:] else _RESTS[0]
-        if own and kind not in _RESTS and not any(_is_changed(actor, times) for actor in own):
+        if own and kind not in _RESTS and not any(_is_changed(actor, fine) for actor in own):
             yield Violation("motion", kind, f"the {one.noun}'s {kind}: nothing of it moves")
 
 

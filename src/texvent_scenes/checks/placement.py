@@ -24,7 +24,7 @@ from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
 from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.environment import RoadLine, lies_ashore
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
@@ -100,6 +100,8 @@ def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
     if kind == "topple":
         longest = int(np.argmax([one.model.length, one.model.width, one.model.height]))
         return bool(is_tilted and abs(turn[2, longest]) < _TILTED)
+    if lies_ashore(one.noun, kind):
+        return True
     is_vehicle = one.noun.motion in ("drive", "roll", "sail") and one.noun.habitat != "fixed"
     is_flat = (high - low)[2] <= _FLAT * (high - low)[:2].max()
     is_round = one.noun.motion == "roll" and one.model.height <= 1.1 * one.model.width
@@ -108,8 +110,10 @@ def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
 
 def is_stranded(one: Actor, place: PlaceModel) -> bool:
     """Whether what floats or swims is where no water is."""
-    has_water = place.has_shore or place.ground in (Ground.SEA, Ground.UNDERWATER, Ground.NONE)
+    has_water = place.has_surface or place.ground in (Ground.UNDERWATER, Ground.NONE)
     is_open = not (place.is_room or place.is_backdrop)
+    if lies_ashore(one.noun, one.track.at(0.0).activity):
+        return False
     is_wet = one.noun.habitat == "water" or one.noun.name in AFLOAT
     return is_wet and is_open and not has_water and one.noun.motion not in ("walk", "crawl")
 
@@ -164,7 +168,7 @@ class _Bodies:
                 if one.object_index in relation.targets}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
         is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
-        is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
+        is_body = one.noun.speed_m_s > 0.0 or one.noun.habitat == "fixed"
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip
         return (

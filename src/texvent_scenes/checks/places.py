@@ -10,17 +10,18 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
-from texvent_scenes.rendered_scene import Float64Array, Ground
+from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import ComposedScene
 
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
 """Size of a coarse image; distance of a point of the horizon, m."""
-_LEVEL_M, _ROUNDING, _LEAST_SHARE = 0.05, 1e-3, 0.005
-"""Height up to which a point is of the ground, m, and more of it per metre of distance; least share
-of an image that the ground takes."""
+_LEVEL_M, _WAVES_M, _ROUNDING, _LEAST_SHARE, _LEAST_SHORE = 0.05, 0.4, 1e-3, 0.005, 0.03
+"""Height up to which a point is of the ground, and of ground with waves, m, and more of it per metre
+of distance; least shares of an image that the ground takes, and the land or water of a shore."""
 _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
@@ -44,10 +45,13 @@ def find_unseen_place(
     points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
     if said.road and not any(is_any_inside(points, one, _SIZE) for one in cameras):
         yield Violation("road", "", f"the {said.road}: it is out of view")
+    instants = [*zip(times, cameras, strict=True)]
+    if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
+        kind = "water" if _has_water_name(scene) else "land"
+        yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
-    instants = zip(times, cameras, strict=True) if has_ground else ()
-    if has_ground and not any(_has_ground(scene, *each) for each in instants):
+    if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
 
 
@@ -78,15 +82,37 @@ def has_horizon(camera: PosedCamera) -> bool:
     return bool(project(camera, _SIZE, far[None])[0, 1] > 0.0)
 
 
-def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:
-    """Whether enough points of an image are of the ground."""
+def _has_water_name(scene: ComposedScene) -> bool:
+    """Whether a place with a shore is named after its water, not after its land as a beach is."""
+    return scene.place.surface is not Texture.SAND
+
+
+def _has_shore(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:
+    """Whether enough points of an image are of the water, or of the land, that names the place."""
+    ground_m, share = _find_ground(scene, time_s, camera)
+    wet = wet_share(scene, ground_m) if len(ground_m) else 0.0
+    own = wet if _has_water_name(scene) else 1.0 - wet
+    return own * share >= _LEAST_SHORE
+
+
+def _share_of_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:
+    """Share of an image that shows the ground."""
+    return _find_ground(scene, time_s, camera)[1]
+
+
+def _find_ground(
+    scene: ComposedScene, time_s: float, camera: PosedCamera
+) -> tuple[Float64Array, float]:
+    """Points of the ground, [n, 2] m, that the points of a coarse image show, and their share."""
     x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
     points = np.stack([x, y], axis=-1).reshape(-1, 2)
     depth, instance = visible_instances(scene, time_s, _SIZE, points)
     middle = 0.5 * np.array([_SIZE.width, _SIZE.height])
     tangents = (points - middle) / (camera.focal * _SIZE.width)
     rays = np.column_stack([tangents, np.ones(len(points))]) @ camera.rotation
+    depth = np.where(np.isfinite(depth), depth, np.nan)
+    places = camera.position + depth[:, None] * rays
+    room_m = (_WAVES_M if scene.place.has_shore else _LEVEL_M) + _ROUNDING * np.nan_to_num(depth)
     with np.errstate(invalid="ignore"):
-        height_m = camera.position[2] + np.where(np.isfinite(depth), depth, np.nan) * rays[:, 2]
-    room_m = _LEVEL_M + _ROUNDING * np.nan_to_num(depth, posinf=0.0)
-    return bool(((np.abs(height_m) <= room_m) & (instance == 0)).mean() >= _LEAST_SHARE)
+        is_ground = (np.abs(places[:, 2]) <= room_m) & (instance == 0)
+    return places[is_ground, :2], float(is_ground.mean())

@@ -78,6 +78,11 @@ def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     return np.asarray((sign * (off * ahead).sum(axis=1) > 0.0) & (aside <= _LANE_M))
 
 
+def _crosses_before(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is before another one in the image, or ahead of it on its way."""
+    return np.asarray(_deeper(one, other, -1) | _is_in_lane(one, other, 1))
+
+
 def _is_stopped(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it comes to rest short of the other, near it."""
     off = (other.middle - one.middle)[-1, :2]
@@ -284,6 +289,7 @@ RULES: Mapping[str, _Rule] = {
     "facing": _faces, "sent": _is_sent,
     "past": lambda one, other: _is_passing(one, other, 0.5 * are_still(other)),
     "in": lambda one, other: _within(one, other, 3),
+    "front of what drives": _crosses_before,
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
     "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,
     "on a seat": lambda one, other: _within(one, other, 2) & (_clears(one, other, 0.0) < 0.0),

@@ -34,7 +34,8 @@ _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
             "on a seat", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_TOGETHER, _PASSED_ALL = ("behind", "front", "beside", "going beside"), ("past", "overtake")
+_TOGETHER = ("behind", "front", "front of what drives", "beside", "going beside")
+_PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
@@ -109,6 +110,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
     if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
         return f"{kind} in a lane"
+    if kind == "front" and _is_walker(who) and are_driven(target, target):
+        return "front of what drives"
     if kind == "through" and target in nouns_with("passage"):
         return "through an opening"
     if kind == "in" and trait_value("container", target) is not None:

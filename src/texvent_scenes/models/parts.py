@@ -107,8 +107,8 @@ class PartsBuilder:
                  for one in groups]  # fmt: skip
         drawn += [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
         extras = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
-        if "rider" in table:
-            rider = read_rider(table["rider"])
+        rider = read_rider(table["rider"]) if "rider" in table else None
+        if rider is not None:
             extras.append(lambda now, _: rider.draw(seed, now.pose.distance_m))
         acts, joints = table.get("acts", _ACTS[0]), read_joints(table.get("body", ""))
         _check_channels((*joints, *(one for group in groups for one in group.joints)), acts)
@@ -124,11 +124,14 @@ class PartsBuilder:
             walk=read_walk(table),
             legs=read_legs(table, painted),
         )
+        locate = body.locate if self._anchors else None
+        if rider is not None:
+            locate = lambda name, pose: rider.locate(seed, name, pose.distance_m)  # noqa: E731
         return ArticulatedModel(
             [] if body.moves_all else rigid,
             articulate=body.articulate if body.moves_all or drawn or extras else None,
             is_centred=_is_centred(table),
-            anchor=body.locate if self._anchors else None,
+            anchor=locate,
             poses=SAMPLE_POSES if body.rests else STANDING_POSES,
             is_wheeled=any(one.rolls for group, _ in drawn for one in group.joints[:1]),
         )

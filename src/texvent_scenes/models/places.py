@@ -83,6 +83,11 @@ class PlaceModel:
         """Whether water lies beside land."""
         return self.ground in (Ground.RIVER, Ground.LAKE)
 
+    @property
+    def has_surface(self) -> bool:
+        """Whether there is water on which something may float."""
+        return self.has_shore or self.ground is Ground.SEA
+
 
 def _place_of(fields: dict[str, Any]) -> PlaceModel:
     ground, walls = fields.pop("ground"), fields.pop("walls", None)

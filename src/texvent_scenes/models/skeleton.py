@@ -265,10 +265,12 @@ class Body:
 
     def locate(self, name: str, pose: Pose) -> Affine | None:
         """Axes [3, 4] at a named place; "other" is the one that a name without its own means."""
+        return self.locate_at(name, self._observe(pose)[0])
+
+    def locate_at(self, name: str, now: Instant) -> Affine | None:
+        """The same at an instant."""
         anchor = self.anchors.get(name, self.anchors.get("other"))
-        if anchor is None:
-            return None
-        return anchor.locate(self.map_groups(pose))
+        return None if anchor is None else anchor.locate(self._locate_groups(now)[2])
 
     def map_groups(self, pose: Pose) -> Maps:
         """Maps to body coordinates of all that has a name: groups, bones, ends of limbs."""

@@ -365,6 +365,8 @@ class SceneDraft:
         if has_object:
             swings = nouns_with("swings")
             needs_hands = verb.relation in word_set("things", "of_people")
+            is_rider = names <= nouns_with("person on a vehicle") and verb.relation == "wear"
+            needs_hands &= not is_rider
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings

@@ -164,6 +164,10 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    worn = [one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")]
+    if kind == "with" and 0 < len(worn) < len(targets):  # "with glasses and a boy"
+        parts = worn, [one for one in targets if one not in worn]
+        return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with":
         is_table = thing["noun"] in word_set("things", "tables")
         if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
@@ -292,7 +296,7 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if noun in trait_values("belt speed") and kind in ("past", "down"):
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
-        return "wear" if thing["noun"] in PERSON_NOUNS else ""
+        return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
     acts = {one["kind"] for one in thing["relations"]}
     if kind == "at" and (acts & {*SENT} or {*does} & AIMED):
         return "towards"

@@ -53,8 +53,9 @@ _THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
 """Thread on which hangs what is in the air until it falls; its length, m."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
-_SUNK, _WADING, _AWASH = -0.18, -0.55, -0.4
-"""Height of the origin of swimmers at the surface, in their sizes; of those with legs; of rocks."""
+_SUNK, _WADING, _AWASH, _DRAUGHT = -0.18, -0.55, -0.4, -0.3
+"""Height of the origin of swimmers at the surface, in their sizes; of those with legs; of rocks;
+of the foot of things afloat."""
 
 
 @dataclass(frozen=True)
@@ -280,7 +281,7 @@ def _choose_levels(
         swimming = [one for one in description.objects if one.motion and one.motion.kind == "swim"]
         divers = [one.noun for one in swimming if nouns[one.noun].habitat == "ground"]
         return {**levels, "water": 0.9, **dict.fromkeys(divers, _OFF_THE_BED)}
-    if place.ground is Ground.SEA or place.has_shore:
+    if place.has_surface:
         swimmers = {noun.name: _SUNK for noun in nouns.values() if noun.habitat == "water"}
         wading = {
             one.noun for one in description.objects if one.motion and one.motion.kind == "swim"
@@ -288,5 +289,5 @@ def _choose_levels(
         swimmers |= dict.fromkeys(wading, _WADING)
         if place.ground is Ground.SEA:
             swimmers |= dict.fromkeys(nouns_with("awash"), _AWASH)
-        return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
+        return {**levels, "afloat": _DRAUGHT, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
     return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

@@ -18,7 +18,7 @@ from texvent_scenes.models.materials import STEEL, Material
 from texvent_scenes.models.people.outfit import ADULT, KINDS, PersonKind, dress_person, put_on
 from texvent_scenes.models.postures import Postures
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
-from texvent_scenes.models.shapes import ArticulatedModel, Point, point, rod, spike
+from texvent_scenes.models.shapes import Affine, ArticulatedModel, Point, point, rod, spike
 from texvent_scenes.models.skeleton import Anchor, Body, Maps, PartGroup, read_anchor, read_skeleton
 from texvent_scenes.models.tables import fill_in, read_table
 from texvent_scenes.rendered_scene import Colour
@@ -116,6 +116,15 @@ class Rider:
 
     def draw(self, seed: int, distance_m: float) -> list[ModelPart]:
         """The rider and the pedals after a distance."""
+        now, pedals = self._pose(seed, distance_m)
+        return [*pedals, *build_body(ADULT, None, seed).draw(now)]
+
+    def locate(self, seed: int, name: str, distance_m: float) -> Affine | None:
+        """Axes [3, 4] at a named place of the rider after a distance."""
+        return build_body(ADULT, None, seed).locate_at(name, self._pose(seed, distance_m)[0])
+
+    def _pose(self, seed: int, distance_m: float) -> tuple[Instant, list[ModelPart]]:
+        """State of the rider, and the pedals."""
         turn, pedals = _GEAR * distance_m / self.wheel, []
         lean = math.atan2(self.neck[0] - self.hips[0], self.neck[2] - self.hips[2])
         postures = _read_figure(ADULT)[1]
@@ -136,8 +145,7 @@ class Rider:
             foot = (pedal[0] - 0.04, self.crank[1], pedal[2] + 0.10)
             posture |= limbs[f"{word} foot"].at(foot, (1.0, 0.0, 0.35), pitch=0.15)
             posture |= limbs[f"{word} hand"].at((x, y, z + 0.02), (-0.3, 0.5, -1.0))
-        now = Instant(Pose(0.0, distance_m, 0.0), seed, flattened(posture))
-        return [*pedals, *build_body(ADULT, None, seed).draw(now)]
+        return Instant(Pose(0.0, distance_m, 0.0), seed, flattened(posture)), pedals
 
 
 def read_rider(table: Mapping[str, Any]) -> Rider:

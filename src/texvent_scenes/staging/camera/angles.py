@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,10 +10,9 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.camera.camera_track import TimedMove
 
-ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
-"""View → elevation of the camera, rad."""
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": -0.25, "first person": 0.05}
+"""View → elevation of the camera, rad; a low one ends at the ground."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP = 0.24, 0.6, 0.16
 """Elevation in rooms, from which one sees into an open container, and a runway as a strip, rad."""
@@ -38,7 +36,6 @@ def is_in_container(description: SceneDescription, index: int) -> bool:
 def choose_angles(
     description: SceneDescription,
     main: Actor,
-    moves: Sequence[TimedMove],
     place: str,
     seed: int,
 ) -> tuple[float, float]:
@@ -47,7 +44,7 @@ def choose_angles(
     yaw, is_in_depth = main.track.at(0.0).yaw, goes_in_depth(main)
     length = main.model.length  # all of a train or a ship from the side would be a thin line
     is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
-    follows = any(one.move.kind == "follow" for one in moves)
+    follows = any(one.kind == "follow" for one in description.camera.moves)
     is_amid = any(one.kind == "between" and one.subject == main.object_index
                   for one in description.relations)  # fmt: skip
     if is_amid:

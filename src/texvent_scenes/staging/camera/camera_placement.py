@@ -214,7 +214,7 @@ def _watch(shooting: _Shooting, main: Actor) -> tuple[CameraTrack, float]:
     """The path with the widest framing that shows a large subject, and its prominence there."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
     moves, times, place = shooting.path.moves, shooting.times, shooting.place
-    azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
+    azimuth, elevation = choose_angles(description, main, place, shooting.seed)
     is_open = shooting.path.has_floor and not is_room(place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
@@ -306,7 +306,7 @@ def _plan_moves(
     timed = time_moves(description.camera.moves, duration_s)
     said = {(one.move.kind, one.begin_s, one.end_s): one for one in timed}
     is_near = description.camera.framing in ("close", "medium")
-    if main is None or said or not (main.is_mover and is_near) or goes_in_depth(main):
+    if main is None or said or not (main.is_mover and is_near):
         return tuple(said.values())
     span = max(main.model.length, main.model.height)
     displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))

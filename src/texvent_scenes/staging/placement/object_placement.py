@@ -43,6 +43,7 @@ from texvent_scenes.staging.placement.relations import (
 from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
+from texvent_scenes.staging.surroundings.environment import lies_ashore
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
     orbit,
@@ -287,10 +288,14 @@ class ObjectPlacer:
             return group.origin_m
         if group.scene_object.height_m is not None:
             return group.scene_object.height_m - lowest_point(group.models[0])
+        if lies_ashore(group.noun, kind):
+            return -lowest_point(group.models[0])
         is_resting = rests(group.noun, kind) and name not in levels
         lifts = kind in ("rise", "sink", "fall") and air > 0.0
         if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
             return -lowest_point(group.models[0])
+        if kind == "float" and "afloat" in levels:
+            return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
         if name in levels:
             return levels[name] * group.models[0].height
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)

@@ -361,22 +361,28 @@ def _line_up(
 ) -> None:
     """Spread the copies along the longer side of the surface; several carriers share them out.
 
-    `reach_m` is the extent of one along that side; None: that of its longer side.
+    Small things for which a row is too long stand in several. `reach_m` is the extent of one along that side; None: that of its longer side.
     """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     first = neighbours.index(group.index)
     axis = 1 if body.width > body.length else 0
-    extent = support.high[axis] - support.low[axis]
+    extent, deep = (support.high[one] - support.low[one] for one in (axis, 1 - axis))
     if extent <= 0.0:
         extent = 0.8 * max(body.width, body.length)
     is_person = group.noun.name in PERSON_NOUNS
     size = _PERSON_M if is_person else max(group.models[0].width, group.models[0].length)
     size = size if reach_m is None else reach_m
     count = math.ceil(len(neighbours) / several)
+    rows = math.ceil(1.05 * size * count / extent) if reach_m is None and not is_person else 1
+    rows = max(min(rows, int(deep / (1.05 * size))), 1)
+    count = math.ceil(count / rows)
     spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
     yaw = target.plan.yaw + 0.5 * math.pi * axis
     group.offsets = []
     for number in range(first, first + own):
         x, y, z = target.offsets[number % several] if several > 1 else (0.0, 0.0, 0.0)
-        along = spacing * (number // several - 0.5 * (count - 1))
-        group.offsets.append((x + along * math.cos(yaw), y + along * math.sin(yaw), z))
+        row, place = divmod(number // several, count)
+        along = spacing * (place - 0.5 * (count - 1))
+        aside = 1.05 * size * (row - 0.5 * (rows - 1))
+        x, y = x + along * math.cos(yaw), y + along * math.sin(yaw)
+        group.offsets.append((x - aside * math.sin(yaw), y + aside * math.cos(yaw), z))

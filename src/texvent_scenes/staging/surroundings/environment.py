@@ -12,7 +12,9 @@ from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.materials import mix
+from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import (
     LAMP_RECORD,
@@ -44,12 +46,16 @@ _ROADSIDE = 1.4
 """Distance of walkers from the middle of a road without pavement, in lanes."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
-_AFLOAT = ("swim", "surf")
-"""Motions of people in water, or on it."""
-_BANK, _LEAST_BANK_M = 0.22, 1.0
-"""Land between what the camera looks at and the water: a share of the camera's distance, and m."""
-_NEARER = 0.45
-"""Distance of a lake's shore before things afloat, as a share of the camera's distance."""
+_AFLOAT = ("swim", "surf", "float")
+"""Motions of people and things in water, or on it."""
+_CALM_M = 3.0
+"""Distance of the camera below which usual waves are lower, as it is shorter."""
+_BANK, _LEAST_BANK_M, _STRAND_M = 0.22, 1.0, 6.0
+"""Land between what the camera looks at and the water: a share of the camera's distance, and m, on
+a beach too."""
+_NEARER, _LEAST_NEARER_M = 0.45, 2.5
+"""Distance of a lake's shore before things afloat, as a share of the camera's distance, and m: it
+is no straight line."""
 
 
 @dataclass(frozen=True)
@@ -182,9 +188,15 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
 
 
 def is_afloat(actor: Actor) -> bool:
-    """Whether it is in water or on it, by itself."""
+    """Whether it is in water or on it, by itself; a boat that lies is ashore."""
+    doing = actor.track.at(0.0).activity
     is_of_water = actor.noun.habitat == "water" and actor.track.anchor is None
-    return is_of_water or actor.track.at(0.0).activity in _AFLOAT
+    return (is_of_water and not lies_ashore(actor.noun, doing)) or doing in _AFLOAT
+
+
+def lies_ashore(noun: Noun, doing: str) -> bool:
+    """Whether what floats lies on land."""
+    return doing == "lie" and noun.name in AFLOAT
 
 
 def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) -> RoadLine:
@@ -197,9 +209,10 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
     swimmers = [one for one in actors if is_afloat(one)]
-    on_land = [one for one in actors if one.noun.habitat == "ground" and one.track.anchor is None
-               and one not in swimmers]  # fmt: skip
-    gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
+    on_land = [one for one in actors if one.track.anchor is None and one not in swimmers
+               and (one.noun.habitat == "ground" or one.noun.name in AFLOAT)]  # fmt: skip
+    bank_m = _STRAND_M if place.surface is Texture.SAND else _LEAST_BANK_M
+    gap = half + _BANK * path.framing.distance_m + bank_m
     if not actors:
         gap = half
     elif swimmers and place.ground is Ground.RIVER:
@@ -209,9 +222,9 @@ def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) ->
     elif not swimmers:
         away = np.array([-math.sin(angle), math.cos(angle)])
         corners = np.vstack([one.corners(time) for one in actors for time in (0.0, _USUAL_S)])
-        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + _LEAST_BANK_M)
+        gap = max(gap, float(((corners[:, :2] - (x, y)) @ away).max()) + half + bank_m)
     else:
-        gap = -_NEARER * path.framing.distance_m
+        gap = -max(_NEARER * path.framing.distance_m, _LEAST_NEARER_M)
         away = np.array([-math.sin(angle), math.cos(angle)])
         ways = [
             [(one.middle(0.0)[:2] - (x, y)) @ away for one in each] for each in (on_land, swimmers)
@@ -308,7 +321,7 @@ def build_environment(
     sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
-    is_dim = said.weather in ("rain", "snow")
+    is_dim, is_usual = said.weather in ("rain", "snow"), said.wave_height == Place.wave_height
     base = Environment(
         ground=_ground_under(description, place),
         ground_colour=_array(colour),
@@ -320,7 +333,7 @@ def build_environment(
         sky_horizon=_array(horizon),
         clouds=_cloud_share(description, place, lighting),
         wetness=_WET if said.weather == "rain" or said.is_wet else 0.0,
-        wave_height=said.wave_height,
+        wave_height=said.wave_height * (min(distance_m / _CALM_M, 1.0) if is_usual else 1.0),
         sun_direction=_unit(lighting.sun_direction),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
         ambient=_array(lighting.ambient),

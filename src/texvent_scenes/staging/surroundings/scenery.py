@@ -37,6 +37,9 @@ _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
 """Along a route: usually from one to the next, and least and most from the free strip."""
+_ASPECT, _STEEP_RAD = 0.75, 0.25
+"""Height over width of an image; angle below the horizon of its upper edge from which on it shows
+the ground around the subject only."""
 _ALONG_ROAD = 0.35
 """Sine of the angle to the road below which a camera looks along it."""
 _LEAST_STEPS, _FINER = 4, 25
@@ -241,7 +244,8 @@ class _Scatterer:
         share = float(self._rng.uniform(-0.62, 0.62))
         reach = self._draw_reach(rule, camera)
         forward, right = _axes(camera)
-        x, y = camera.position[:2] + reach * (forward + share / camera.focal * right)
+        depth = reach if _sees_far(camera) else math.hypot(reach, float(camera.position[2]))
+        x, y = camera.position[:2] + reach * forward + depth * share / camera.focal * right
         if rule.faces:
             yaw = math.atan2(-float(forward[1]), -float(forward[0]))
             yaw += float(self._rng.uniform(-0.2, 0.2))
@@ -250,8 +254,11 @@ class _Scatterer:
         return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
     def _draw_reach(self, rule: Scenery, camera: PosedCamera) -> float:
-        """Metres from the camera."""
+        """Metres from the camera; below one that sees no horizon, on the ground that it sees."""
         near, far = rule.reach
+        if not _sees_far(camera):
+            ends = (float(camera.position[2]) / math.tan(one) for one in _edges(camera)[::-1])
+            return float(self._rng.uniform(*ends))
         if rule.where == "far":
             return float(self._rng.uniform(near, far))
         pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
@@ -339,6 +346,18 @@ def _axes(camera: PosedCamera) -> tuple[Float64Array, Float64Array]:
     forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
     forward = forward / max(float(np.hypot(*forward)), 1e-9)
     return forward, np.array([forward[1], -forward[0]])
+
+
+def _edges(camera: PosedCamera) -> tuple[float, float]:
+    """Angles below the horizon of the upper and the lower edge of an image, radians."""
+    pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
+    half = math.atan(0.5 * _ASPECT / camera.focal)
+    return pitch - half, pitch + half
+
+
+def _sees_far(camera: PosedCamera) -> bool:
+    """Whether the ground in the upper part of an image is far off."""
+    return _edges(camera)[0] < _STEEP_RAD
 
 
 def _is_on_its_side(item: SceneryItem, view: ViewClearance) -> bool:

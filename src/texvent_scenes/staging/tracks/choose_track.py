@@ -129,7 +129,8 @@ def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     motion, waves = plan.motion, oscillations(plan.motion, model, phase)
-    activity = motion.kind if motion.kind in _STAYING else "move"
+    is_afloat = motion.kind == "float" and home[2] < 0.0  # not in the air
+    activity = motion.kind if motion.kind in _STAYING or is_afloat else "move"
     if not waves:
         sign = -1.0 if motion.direction == "clockwise" else 1.0
         waves = _tempo(sign * motion.pace, sign * _gain(plan))

@@ -148,12 +148,15 @@ def oscillations(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]
         offset, drift = _GROWTH[motion.kind]
         end_s = 2.0 / max(motion.pace, 1e-3)
         return (Term("scale", drift=drift * motion.pace, offset=offset, begin_s=0.0, end_s=end_s),)
+    rise = size
     if motion.kind in ("hover", "float"):
         size = min(max(model.length, model.width, size), _MOST_DRIFTING_M) * motion.pace
+        rise = size if motion.kind == "hover" else min(rise * motion.pace, size)
+    sizes = {"x": size, "y": size, "z": rise}
     rate_hz = motion.rate_hz or 0.5 * motion.pace
     return tuple(
         one._replace(
-            amplitude=one.amplitude * (size if one.channel in "xyz" else 1.0),
+            amplitude=one.amplitude * sizes.get(one.channel, 1.0),
             rate_hz=one.rate_hz or rate_hz,
             phase=one.phase * phase,
         )

@@ -1,0 +1,91 @@
+"""Shot check: framing, viewpoint and moves that are said of the camera, over the clip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.checks.relations import Violation
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.camera.subject import choose_main
+from texvent_scenes.staging.compose import ComposedScene
+
+_CLOSE, _HALF = 0.45, 0.5
+"""Share of the image's width or height that the subject of a close shot extends over; share of the
+instants at which a shot is as it is said."""
+_DOWN, _STEEP, _LEVEL = -0.5, -0.9, 0.05
+"""Height of the direction of sight, a unit vector, of a view from the air, and from the top; most of
+one downwards from a low angle."""
+_STILL = 1e-6
+"""Change of position, m, of direction, or of focal length, of a camera that stays."""
+_SAID = {"low": "low angle", "top": "view from the top", "aerial": "view from the air",
+         "close": "close-up"}  # fmt: skip
+
+
+def find_misframed(
+    scene: ComposedScene,
+    description: SceneDescription,
+    cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[Violation]:
+    """Words of the camera that its image does not show.
+
+    Args:
+        scene: the staged scene.
+        description: the scene before it was staged.
+        cameras: of the instants.
+        times: instants, s.
+        size: of the image, pixels.
+    """
+    shot = description.camera
+    main = choose_main(description, scene.actors) if scene.actors else None
+    if shot.framing == "close" and main is not None:
+        shares = [_extent(main, one, at, size) for one, at in zip(cameras, times, strict=True)]
+        if np.mean(np.array(shares) >= _CLOSE) < _HALF:
+            line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
+            yield Violation("framing", "close", line)
+    rule = _VIEWS.get(shot.view or "")
+    if rule is not None and np.mean([rule(*each, main)
+                                     for each in zip(cameras, times, strict=True)]) < _HALF:  # fmt: skip
+        yield Violation("view", str(shot.view), _SAID[str(shot.view)])
+    moves = [one for one in shot.moves if one.kind != "static"]
+    if moves and all(_is_still(cameras[0], one) for one in cameras):
+        for kind in sorted({one.kind for one in moves}):
+            yield Violation("move", kind, f"{kind} of the camera: it stays where it is")
+
+
+def _extent(main: Actor, camera: PosedCamera, time_s: float, size: SensorSize) -> float:
+    """Greater share of the image's width and height that a body extends over."""
+    x, y, depth = project(camera, size, main.corners(time_s)).T
+    if depth.min() <= 0.0:  # so near that some of it is beside the camera
+        return float(depth.max() > 0.0)
+    return float(max(np.ptp(x) / size.width, np.ptp(y) / size.height))
+
+
+def _is_still(one: PosedCamera, other: PosedCamera) -> bool:
+    """Whether two poses of a camera are the same."""
+    return all(
+        float(np.abs(np.subtract(*pair)).max()) <= _STILL
+        for pair in ((one.position, other.position), (one.rotation, other.rotation),
+                     (one.focal, other.focal))
+    )  # fmt: skip
+
+
+def _is_low(camera: PosedCamera, time_s: float, main: Actor | None) -> bool:
+    """Whether it looks up, or is below the middle of the subject and looks level."""
+    up = float(camera.rotation[2, 2])
+    is_below = main is None or camera.position[2] <= main.middle(time_s)[2]
+    return up > 0.0 or (is_below and up >= -_LEVEL)
+
+
+_VIEWS: Mapping[str, Callable[[PosedCamera, float, Actor | None], bool]] = {
+    "low": _is_low,
+    "aerial": lambda camera, time_s, main: bool(camera.rotation[2, 2] <= _DOWN),
+    "top": lambda camera, time_s, main: bool(camera.rotation[2, 2] <= _STEEP),
+}
+"""View → whether a camera has it at an instant."""
