@@ -48,6 +48,15 @@ def states() -> Mapping[str, str]:
     return found
 
 
+@cache
+def deeds() -> Mapping[str, str]:
+    """Words of who does something → what that is: "pianists"."""
+    said = read_table("words", "read")["deeds"].items()
+    return {
+        form: deed for deed, words in said for word in words for form in (word, *list_plurals(word))
+    }
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft import MEANS, SceneDraft
@@ -22,6 +23,8 @@ _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
 SENT = ("kick", "throw", "roll")
 """Acts after which the object goes a way, not who does it."""
+_ALONG = ("along", "down", "up")
+"""Prepositions of ways that lead on."""
 SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
 """Motions of who is on a seat or on the ground."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
@@ -143,7 +146,7 @@ def go_to_place(
         does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
         if token.text == "from" and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
-    is_road = token.text == "on" and place is PLACES["road"]
+    is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for thing in (draft.things[index] for index in subjects if is_road):
         if draft.nouns[thing["noun"]].motion != "drive":
             thing.setdefault("placement", "lane")
@@ -280,6 +283,9 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    if kind in ("in", "into", "from") and any(noun in one.nouns for one in props):
+        return "hold"  # "pours milk into a cup"
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

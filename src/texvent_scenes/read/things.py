@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from texvent_scenes.colours import SURFACES
@@ -20,6 +21,7 @@ from texvent_scenes.read.lexicon import (
     Sense,
     Token,
     VerbSense,
+    deeds,
     owned_parts,
     states,
     word_set,
@@ -27,6 +29,7 @@ from texvent_scenes.read.lexicon import (
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
+from texvent_scenes.words import list_verb_forms
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
@@ -123,6 +126,7 @@ class ThingReader:
             return known[-1:]
         if noun is not None:
             thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
+            thing |= {"deed": deed} if (deed := deeds().get(head.text)) else {}
             if noun.is_kind:
                 draft.mark(head, noun.noun)
         else:
@@ -210,7 +214,8 @@ class ThingReader:
 
     def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
         """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h"."""
-        if subjects and token.text in states():
+        state, nouns = states().get(token.text, ""), [self._draft.things[n]["noun"] for n in subjects]
+        if nouns and state and (not field or all(state in self._nouns[n].acts for n in nouns)):
             self._set_state(token, subjects)
             return True
         is_way = field == "speed_m_s" and not subjects and self._draft.set_journey(field, value)
@@ -247,10 +252,11 @@ class ThingReader:
     ) -> list[int] | None:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        acts = (one.value for one in verb.all("verb") if subjects)
-        act = next(
-            (one for one in acts if self._draft.fits(one, subjects, objects, has_object)), None
-        )
+        acts = [one.value for one in verb.all("verb") if subjects]
+        if verb.text in _list_performing():
+            done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+            acts[:0] = [VerbSense("person", one) for one in done]
+        act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -324,6 +330,13 @@ class ThingReader:
                 thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+@cache
+def _list_performing() -> frozenset[str]:
+    """Forms of verbs for what somebody does anyway: "plays", of a violinist."""
+    verbs = word_set("things", "performing")
+    return frozenset(form for verb in verbs for form, _ in list_verb_forms(verb))
 
 
 def _see_as_thing(head: Token) -> Token:
