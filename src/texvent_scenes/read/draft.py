@@ -345,6 +345,7 @@ class SceneDraft:
             case "person":
                 used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
                 is_used = all(self.things[one]["noun"] in used for one in objects)
+                is_used |= verb.relation is not None
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object

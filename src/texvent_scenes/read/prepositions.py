@@ -15,6 +15,8 @@ from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
+_AT_HOME = {"sky": {"fly", "rise", "float", "hover"}, **dict.fromkeys(_WATERS, {"swim"})}
+"""Places → motions after which one is there: "flies into the sky"."""
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
@@ -138,13 +140,14 @@ def go_to_place(
     on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
     is_in = on_foot and token.text in ("through", "in", "into")
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
-    if is_entered or (token.text == "from" and rises):
+    does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
+    is_home = token.text == "into" and bool(does) and does <= _AT_HOME.get("".join(names), set())
+    if is_entered or is_home or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
-        does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
-        if token.text == "from" and does & word_set("things", "off_ground"):
+        if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for thing in (draft.things[index] for index in subjects if is_road):
