@@ -24,6 +24,8 @@ MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
+BLINK_HZ = 2.0
+"""Frequency of a lamp of which only is said that it blinks."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -109,7 +111,7 @@ class SceneDraft:
     nouns: Mapping[str, Noun]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
-    not known."""
+    not known, "deed" if its word tells what it does."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
     """Phase of moves of the camera: those said after "then" follow."""
@@ -252,7 +254,8 @@ class SceneDraft:
     def keeps_to_ground(self, index: int) -> bool:
         """Whether an object goes on the ground, and does nothing in the air or in water now."""
         thing = self.things[index]
-        free = {one["kind"] for one in thing["motions"]} & word_set("things", "off_ground")
+        does = {*(one["kind"] for one in thing["motions"]), thing.get("deed")}
+        free = does & word_set("things", "off_ground")
         return self.nouns[thing["noun"]].motion in ("walk", "drive") and not free
 
     def say_field(self, token: Token, said: Sense, index: int) -> None:

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.draft import MEANS, SceneDraft
+from texvent_scenes.read.draft import BLINK_HZ, MEANS, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
@@ -78,6 +79,10 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
+        for one in (draft.things[n] for n in owners if is_lamp):
+            if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
+                one |= {"is_lit": True, "blink_hz": BLINK_HZ}
+                one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
     elif "colour" in fields:
         draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):

@@ -14,7 +14,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
+from texvent_scenes.read.draft import BLINK_HZ, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
     NounSense,
@@ -31,12 +31,12 @@ from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
 
+_IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
+"""Motions in which the wind shows."""
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
-BLINK_HZ = 2.0
-"""Frequency of a lamp of which only is said that it blinks."""
 
 
 class ThingReader:
@@ -218,9 +218,23 @@ class ThingReader:
         if nouns and state and (not field or all(state in self._nouns[n].acts for n in nouns)):
             self._set_state(token, subjects)
             return True
+        if field == "wind":
+            draft = self._draft
+            is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
+            draft.show(*([token] if all(is_blown) else []))
+            return True
         is_way = field == "speed_m_s" and not subjects and self._draft.set_journey(field, value)
         self._draft.show(*([token] if is_way else []))
         return is_way
+
+    def _blow(self, index: int) -> bool:
+        """Let what stands there sway in the wind; whether the wind shows in what it does."""
+        thing, noun = self._draft.things[index], self._nouns[self._draft.things[index]["noun"]]
+        if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
+            return True
+        if noun.habitat == "fixed" or noun.motion == "stand":
+            thing["motions"] = [{"kind": "sway"}]
+        return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
 
     def _set_state(self, token: Token, subjects: Sequence[int]) -> None:
         """Apply an adjective of what opens and closes: "an open door"."""
