@@ -7,13 +7,13 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
-from texvent_scenes.description import Claim
+from texvent_scenes.description import SEEN, Claim
 from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.groups import Group
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import ACTED, PLACING
@@ -398,6 +398,13 @@ class SceneDraft:
         self.effects.append({"kind": kind, "source": owners[0] if owners else None})
         self.show(token)
 
+    def _fill_place(self, token: Token) -> None:
+        """Add those of whom a place is full: "a busy street"."""
+        for noun, count in read_table("words", "read")["brings"].get(token.text, {}).items():
+            self.things.append({"noun": noun, "motions": [], "relations": [], "count": count})
+            self.show(token)
+            self.claim(token, SEEN, "", [len(self.things) - 1])
+
     def set_place(self, group: Group, head: Token, relation: str) -> None:
         """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
         place = self.parts["place"]
@@ -417,6 +424,8 @@ class SceneDraft:
         if name == "plain":  # "a plain black background": alone, the word has several senses
             said = (one for one in self.tokens if one.text == name and one.at < head.at)
             self.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
+        for token in group.unknown:
+            self._fill_place(token)
         self.set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
         if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
