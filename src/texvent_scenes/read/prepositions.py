@@ -16,8 +16,12 @@ from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
-_AT_HOME = {"sky": {"fly", "rise", "float", "hover"}, **dict.fromkeys(_WATERS, {"swim"})}
-"""Places → motions after which one is there: "flies into the sky"."""
+_AT_HOME = {
+    ("into", "sky"): {"fly", "rise", "float", "hover"},
+    **{("into", one): {"swim"} for one in _WATERS},
+    **{("from", one): {"drink"} for one in _WATERS},
+}
+"""Prepositions and places → motions that they say no more than: "drinks from the river"."""
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
@@ -146,7 +150,8 @@ def go_to_place(
     is_in = on_foot and token.text in ("through", "in", "into")
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
-    is_home = token.text == "into" and bool(does) and does <= _AT_HOME.get("".join(names), set())
+    at_home = _AT_HOME.get((token.text, "".join(names)), set())
+    is_home = bool(does) and does <= at_home
     if is_entered or is_home or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
@@ -292,8 +297,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
     props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    if kind in ("in", "into", "from") and any(noun in one.nouns for one in props):
-        return "hold"  # "pours milk into a cup"
+    used = [one.anchor for one in props if noun in one.nouns]
+    if used and kind in ("in", "into", "from", "on"):  # "pours milk into a cup"
+        return "beside" if "ground" in used else "hold"
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

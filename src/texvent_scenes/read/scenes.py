@@ -108,12 +108,6 @@ class _SentenceReader(ThingReader):
         if not clause.subjects or any(one.article not in owners for one in clause.subjects):
             return False
         first, *others = clause.subjects
-        things = self._draft.things
-        lit = [one for one in first.unknown if ("is_lit",) in [s.value[:1] for s in one.all("field")]]
-        for token in lit:  # "its headlights are on"
-            self._say(token, [n for n, one in enumerate(things) if one["noun"] in LAMPS][-1:])
-        if lit:
-            return True
         verb = () if clause.verb is None else (clause.verb,)
         said = (replace(first, unknown=(*first.unknown, *verb)), *others)
         return say_parts(self._draft, said, range(len(self._draft.things)))

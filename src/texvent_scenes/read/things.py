@@ -85,6 +85,12 @@ class ThingReader:
             for token in group.unknown if relation not in ("", "with") else ():
                 if names_place(token, relation):  # "in a city centre"
                     self._draft.set_place(Group(token), token, relation)
+            things = self._draft.things
+            own = group.article in word_set("things", "owners")
+            lit = [n for n, one in enumerate(things) if own and one["noun"] in LAMPS][-1:]
+            for token in group.unknown if lit else ():
+                if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
+                    self._say(token, lit)  # "its headlights are on"
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
