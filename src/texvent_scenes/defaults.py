@@ -27,6 +27,7 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "wear"})
 _GOING = {"stand": "slide", "float": "fly"}
+_UPRIGHT = {"up": "rise", "down": "sink"}
 _AFLOAT = ("sail", "paddle")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
@@ -176,6 +177,8 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         return (Motion(noun.motion),) if lives_there else ()
     if motion.kind == "move":
         motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
+    if motion.kind in ("hover", "float") and motion.direction in _UPRIGHT:
+        motion = replace(motion, kind=_UPRIGHT[motion.direction], direction=None)
     if motion.kind in ("hover", "float") and noun.motion in _AFLOAT:
         motion = replace(motion, kind="sway", pace=_ROCKING * motion.pace)
     if motion.kind == "slide" and noun.name in nouns_with("flat pattern"):  # in its own plane

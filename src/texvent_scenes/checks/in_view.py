@@ -76,7 +76,8 @@ _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
 _TURNS = ("spin", "work", "rotate")
 """Motions that only a picture tells."""
-_RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie")
+_RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
+          "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
 _INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
 """Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
@@ -313,13 +314,14 @@ def _find_rest(
 
 
 def _is_changed(actor: Actor, times: Sequence[float]) -> bool:
-    """Whether its parts are in other places at another instant, or than at rest."""
+    """Whether its parts are in other places at another instant, or than at rest, or shine so."""
     first, *others = (actor.place(time_s) for time_s in times)
     rest = PlacedModel(actor.own_parts(Pose(0.0, 0.0, 0.0, "stand")), first.to_world, 0)
-    places = [assemble([one]).to_world for one in (first, *others, rest)]
+    drawn = [assemble([one]) for one in (first, *others, rest)]
+    states = [np.column_stack([one.to_world.reshape(-1, 12), one.emission]) for one in drawn]
     return not all(
-        one.shape == places[0].shape and np.allclose(one, places[0], atol=1e-3)
-        for one in places[1:]
+        one.shape == states[0].shape and np.allclose(one, states[0], atol=1e-3)
+        for one in states[1:]
     )
 
 

@@ -61,14 +61,14 @@ class Joint:
 class LightModulation:
     """Modulation of the light of parts over time."""
 
-    level: Callable[[float, int], float]
-    """Time in seconds and seed → 0..1."""
+    level: Callable[[Instant], float]
+    """Instant → 0..1."""
     dim: float | None = None
     """Share of their colour that is left when they are dark; None = all of it."""
 
     def shine(self, parts: Sequence[ModelPart], now: Instant) -> list[ModelPart]:
         """The parts as bright as they are at that instant."""
-        level = self.level(now.pose.time_s, now.seed)
+        level = self.level(now)
         share = 1.0 if self.dim is None else self.dim + (1.0 - self.dim) * level
         return [
             replace(one, emission=level * one.emission, colour=shade(one.colour, share))
@@ -323,6 +323,8 @@ _RAMP = 0.01
 def read_light(text: str) -> LightModulation:
     """A light from its text, such as "sine at 1hz start blink" or "switched at 2hz between 0 .5".
 
+    With "by signal 2" it is on while that channel is 2, and cycles while it is 0.
+
     Raises:
         ValueError: it cannot be read; the message has the text.
     """
@@ -331,13 +333,17 @@ def read_light(text: str) -> LightModulation:
         cycle = _cycle(options.get("at", [""])[0], options)
         low, high = map(read_number, options.get("between", ["0", "1"]))
         dim = read_number(options["dim"][0]) if "dim" in options else None
+        channel, *on = options.get("by", [""])
+        state = read_number(on[0]) if channel else 0.0
         if kind not in ("sine", "switched"):
             raise ValueError("it must begin with sine or switched")
     except (ValueError, IndexError) as error:
         raise ValueError(f"light {text!r}: {error}") from None
 
-    def level(time_s: float, seed: int) -> float:
-        phase = cycle(Instant(Pose(time_s, 0.0, 0.0), seed)) % 1.0
+    def level(now: Instant) -> float:
+        if told := now.channels.get(channel, 0.0):
+            return max(0.0, 1.0 - 2.0 * abs(told - state))
+        phase = cycle(now) % 1.0
         if kind == "sine":
             return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
         inside = min(phase - low, high - phase)

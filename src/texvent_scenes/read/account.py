@@ -12,7 +12,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
-from texvent_scenes.read.lexicon import NO_TOKEN, word_set
+from texvent_scenes.read.lexicon import NO_TOKEN, deeds, word_set
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
@@ -49,6 +49,7 @@ def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
 def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
+    _do_deeds(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
@@ -92,6 +93,19 @@ def _choose_gender(draft: SceneDraft) -> None:
         if words & {*pronouns} and persons[0]["noun"] == "person":
             persons[0]["noun"] = noun
             draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
+
+
+def _do_deeds(draft: SceneDraft) -> None:
+    """Let those do it who are named by what they do and do nothing else: "a violinist"."""
+    for index, one in enumerate(draft.things):
+        deed = one.pop("deed", None)
+        if deed and not (one["motions"] or "is_lost" in one):
+            one["motions"].append({"kind": deed})
+        is_done = deed in [each["kind"] for each in one["motions"]]
+        for token in draft.tokens if is_done else ():
+            if deeds().get(token.text) == deed:
+                draft.fates[token.at] = "shown"
+                draft.claim(token, "activity", deed, [index])
 
 
 def _limit_counts(draft: SceneDraft) -> None:

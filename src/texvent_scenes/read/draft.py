@@ -7,13 +7,13 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
-from texvent_scenes.description import Claim
+from texvent_scenes.description import SEEN, Claim
 from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.groups import Group
 from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import ACTED, PLACING
@@ -24,6 +24,8 @@ MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
+BLINK_HZ = 2.0
+"""Frequency of a lamp of which only is said that it blinks."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -109,7 +111,7 @@ class SceneDraft:
     nouns: Mapping[str, Noun]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
-    not known."""
+    not known, "deed" if its word tells what it does."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
     """Phase of moves of the camera: those said after "then" follow."""
@@ -252,7 +254,8 @@ class SceneDraft:
     def keeps_to_ground(self, index: int) -> bool:
         """Whether an object goes on the ground, and does nothing in the air or in water now."""
         thing = self.things[index]
-        free = {one["kind"] for one in thing["motions"]} & word_set("things", "off_ground")
+        does = {*(one["kind"] for one in thing["motions"]), thing.get("deed")}
+        free = does & word_set("things", "off_ground")
         return self.nouns[thing["noun"]].motion in ("walk", "drive") and not free
 
     def say_field(self, token: Token, said: Sense, index: int) -> None:
@@ -345,6 +348,7 @@ class SceneDraft:
             case "person":
                 used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
                 is_used = all(self.things[one]["noun"] in used for one in objects)
+                is_used |= verb.relation is not None
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object
@@ -396,6 +400,13 @@ class SceneDraft:
         self.effects.append({"kind": kind, "source": owners[0] if owners else None})
         self.show(token)
 
+    def _fill_place(self, token: Token) -> None:
+        """Add those of whom a place is full: "a busy street"."""
+        for noun, count in read_table("words", "read")["brings"].get(token.text, {}).items():
+            self.things.append({"noun": noun, "motions": [], "relations": [], "count": count})
+            self.show(token)
+            self.claim(token, SEEN, "", [len(self.things) - 1])
+
     def set_place(self, group: Group, head: Token, relation: str) -> None:
         """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
         place = self.parts["place"]
@@ -415,6 +426,8 @@ class SceneDraft:
         if name == "plain":  # "a plain black background": alone, the word has several senses
             said = (one for one in self.tokens if one.text == name and one.at < head.at)
             self.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
+        for token in group.unknown:
+            self._fill_place(token)
         self.set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
         if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):

@@ -68,8 +68,10 @@ class Group:
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
         counts = [count for one in self.modifiers for count in _counts(one)]
+        parts = [one.text for one in self.unknown if one.text in owned_parts()]
         if counts or self.head is None:
-            return any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
+            is_many = any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
+            return is_many or any(one.endswith("s") for one in parts)
         if self.head.has("effect") and not self.head.has("noun"):
             return self.head.text.endswith("s")
         senses = [one.value for one in self.head.all("noun")]

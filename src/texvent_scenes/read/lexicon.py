@@ -48,6 +48,15 @@ def states() -> Mapping[str, str]:
     return found
 
 
+@cache
+def deeds() -> Mapping[str, str]:
+    """Words of who does something → what that is: "pianists"."""
+    said = read_table("words", "read")["deeds"].items()
+    return {
+        form: deed for deed, words in said for word in words for form in (word, *list_plurals(word))
+    }
+
+
 @dataclass(frozen=True)
 class NounSense:
     """Noun that a word names."""
@@ -309,7 +318,7 @@ NO_TOKEN = Token(".", -1)
 
 def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     """Tokens of a prompt, in order."""
-    text = unicodedata.normalize("NFKC", _MIXED.sub(" ", prompt))
+    text = _name_owners(unicodedata.normalize("NFKC", _MIXED.sub(" ", prompt)))
     found: list[Token] = []
     start = 0
     for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
@@ -326,6 +335,22 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     if len(found) > MOST_WORDS:
         found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
+
+
+@cache
+def _owned() -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """Owners before their parts, "a car's headlights", and after them, "the blades of a fan"."""
+    parts = "|".join(owned_parts())
+    owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
+    before = rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b"
+    after = rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b"
+    return re.compile(before, re.I), re.compile(after, re.I)
+
+
+def _name_owners(text: str) -> str:
+    """A text that says "a car, its headlights" for those of a car."""
+    before, after = _owned()
+    return after.sub(r"\2\3, its \1", before.sub(r"\1, its \2", text))
 
 
 def _read_phrase(

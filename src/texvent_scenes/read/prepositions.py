@@ -6,14 +6,22 @@ from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.draft import MEANS, SceneDraft
+from texvent_scenes.read.draft import BLINK_HZ, MEANS, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Token, owned_parts, word_set
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
+_AT_HOME = {
+    ("into", "sky"): {"fly", "rise", "float", "hover"},
+    **{("into", one): {"swim"} for one in _WATERS},
+    **{("from", one): {"drink"} for one in _WATERS},
+}
+"""Prepositions and places → motions that they say no more than: "drinks from the river"."""
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
@@ -22,6 +30,8 @@ _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
 SENT = ("kick", "throw", "roll")
 """Acts after which the object goes a way, not who does it."""
+_ALONG = ("along", "down", "up")
+"""Prepositions of ways that lead on."""
 SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
 """Motions of who is on a seat or on the ground."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
@@ -73,6 +83,10 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
+        for one in (draft.things[n] for n in owners if is_lamp):
+            if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
+                one |= {"is_lit": True, "blink_hz": BLINK_HZ}
+                one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
     elif "colour" in fields:
         draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
@@ -135,15 +149,17 @@ def go_to_place(
     on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
     is_in = on_foot and token.text in ("through", "in", "into")
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
-    if is_entered or (token.text == "from" and rises):
+    does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
+    at_home = _AT_HOME.get((token.text, "".join(names)), set())
+    is_home = bool(does) and does <= at_home
+    if is_entered or is_home or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
     elif is_in or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
-        does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
-        if token.text == "from" and does & word_set("things", "off_ground"):
+        if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
-    is_road = token.text == "on" and place is PLACES["road"]
+    is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for thing in (draft.things[index] for index in subjects if is_road):
         if draft.nouns[thing["noun"]].motion != "drive":
             thing.setdefault("placement", "lane")
@@ -284,6 +300,10 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    used = [one.anchor for one in props if noun in one.nouns]
+    if used and kind in ("in", "into", "from", "on"):  # "pours milk into a cup"
+        return "beside" if "ground" in used else "hold"
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

@@ -55,6 +55,9 @@ def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) ->
     found = find_nouns(token.text, nouns)
     after = tokens[token.at + 1 : token.at + 1 + _NEAR]
     kinds = {one.value.kind for each in after for one in each.all("verb")}
+    led = tokens[max(token.at - 2, 0) : token.at]  # "chases a mouse"
+    is_led = any(one.value.relation == "follow" for each in led for one in each.all("verb"))
+    kinds |= {"move"} if is_led else set()
     places = {one.value for each in tokens for one in each.all("place")}
     places |= {one.value[-1] for each in tokens for one in each.all("scene")}  # "in space"
     others = {one.value.noun for each in tokens for one in each.all("noun")}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from texvent_scenes.colours import SURFACES
@@ -13,13 +14,14 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.draft import SceneDraft, add_motion, names_place
+from texvent_scenes.read.draft import BLINK_HZ, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
     NounSense,
     Sense,
     Token,
     VerbSense,
+    deeds,
     owned_parts,
     states,
     word_set,
@@ -27,13 +29,14 @@ from texvent_scenes.read.lexicon import (
 from texvent_scenes.read.prepositions import ridden_by
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
+from texvent_scenes.words import list_verb_forms
 
+_IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
+"""Motions in which the wind shows."""
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
-BLINK_HZ = 2.0
-"""Frequency of a lamp of which only is said that it blinks."""
 
 
 class ThingReader:
@@ -82,6 +85,12 @@ class ThingReader:
             for token in group.unknown if relation not in ("", "with") else ():
                 if names_place(token, relation):  # "in a city centre"
                     self._draft.set_place(Group(token), token, relation)
+            things = self._draft.things
+            own = group.article in word_set("things", "owners")
+            lit = [n for n, one in enumerate(things) if own and one["noun"] in LAMPS][-1:]
+            for token in group.unknown if lit else ():
+                if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
+                    self._say(token, lit)  # "its headlights are on"
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
@@ -123,6 +132,7 @@ class ThingReader:
             return known[-1:]
         if noun is not None:
             thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
+            thing |= {"deed": deed} if (deed := deeds().get(head.text)) else {}
             if noun.is_kind:
                 draft.mark(head, noun.noun)
         else:
@@ -210,12 +220,27 @@ class ThingReader:
 
     def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
         """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h"."""
-        if subjects and token.text in states():
+        state, nouns = states().get(token.text, ""), [self._draft.things[n]["noun"] for n in subjects]
+        if nouns and state and (not field or all(state in self._nouns[n].acts for n in nouns)):
             self._set_state(token, subjects)
+            return True
+        if field == "wind":
+            draft = self._draft
+            is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
+            draft.show(*([token] if all(is_blown) else []))
             return True
         is_way = field == "speed_m_s" and not subjects and self._draft.set_journey(field, value)
         self._draft.show(*([token] if is_way else []))
         return is_way
+
+    def _blow(self, index: int) -> bool:
+        """Let what stands there sway in the wind; whether the wind shows in what it does."""
+        thing, noun = self._draft.things[index], self._nouns[self._draft.things[index]["noun"]]
+        if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
+            return True
+        if noun.habitat == "fixed" or noun.motion == "stand":
+            thing["motions"] = [{"kind": "sway"}]
+        return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
 
     def _set_state(self, token: Token, subjects: Sequence[int]) -> None:
         """Apply an adjective of what opens and closes: "an open door"."""
@@ -247,10 +272,11 @@ class ThingReader:
     ) -> list[int] | None:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        acts = (one.value for one in verb.all("verb") if subjects)
-        act = next(
-            (one for one in acts if self._draft.fits(one, subjects, objects, has_object)), None
-        )
+        acts = [one.value for one in verb.all("verb") if subjects]
+        if verb.text in _list_performing():
+            done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+            acts[:0] = [VerbSense("person", one) for one in done]
+        act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -324,6 +350,13 @@ class ThingReader:
                 thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+@cache
+def _list_performing() -> frozenset[str]:
+    """Forms of verbs for what somebody does anyway: "plays", of a violinist."""
+    verbs = word_set("things", "performing")
+    return frozenset(form for verb in verbs for form, _ in list_verb_forms(verb))
 
 
 def _see_as_thing(head: Token) -> Token:

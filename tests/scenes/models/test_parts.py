@@ -199,8 +199,10 @@ def test_joints_by_hand():
     assert turned("roll y 0 0 1 1m", Pose(0, math.pi, 1), (0, 0, 0)) == [0, 0, 2]
     spins = {tuple(turned("spin z 0 0 0 1hz start here", AT_REST, (1, 0, 0), k)) for k in range(4)}
     assert len(spins) == 4
-    light = read_light("switched at .5hz between 0 .5")
-    assert [light.level(time_s, 0) for time_s in (0.5, 1.5)] == [1.0, 0.0]
+    light = read_light("switched at .5hz between 0 .5 by signal 3")
+    poses = [Pose(time_s, 0, 0) for time_s in (0.5, 1.5)]
+    assert [light.level(Instant(one, 0)) for one in poses] == [1.0, 0.0]
+    assert [light.level(Instant(poses[1], 0, {"signal": on})) for on in (1, 3)] == [0.0, 1.0]
     for bad in ("spin q 0 0 0 1hz", "whirl x 0 0 0 1hz", "spin x 0 0 0 1", "spin x 0"):
         with pytest.raises(ValueError, match="joint"):
             read_joint(bad)

@@ -32,6 +32,7 @@ _STYLES: dict[str, Vector | None] = {
 """Trait that says how a noun is held → the right hand; None = where the arm hangs."""
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run"})
 """Activities that leave the hands to what they hold."""
+_HANDS = ("left hand", "right hand")
 _STRETCH = 0.60
 """Distance from shoulder to palm of an arm that is nearly straight, m."""
 
@@ -95,12 +96,15 @@ def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
     doing = subject.track.at(0.0).activity
+    props = (one.anchor for one in list_props(doing) if target.noun.name in one.nouns)
+    hand = next((one for one in props if one in _HANDS), "right hand")
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
     hold = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
         subject = replace(subject, track=_gripping(subject.track, hold.grips))
-    held = held_at(subject, hold.anchor, hold.offset, is_upright=hold.is_upright)
+    anchor = hand if hold.anchor in _HANDS else hold.anchor
+    held = held_at(subject, anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
 
 

@@ -330,7 +330,7 @@ def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """As `rest_on`, around a thing and turned to it, the camera's side last.
 
-    People sit on chairs at a table unless what they do is done standing.
+    At a piano, one is at its keys. People sit on chairs at a table unless what they do is done standing.
     """
     kinds = {one.kind for one in group.scene_object.motions}
     scale = size_of(group.models[0])
@@ -342,6 +342,9 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     places = list_around(len(neighbours), float(wide), float(deep))
     first = neighbours.index(group.index)
     chosen = [places[(first + number) % len(places)] for number in range(len(group.models))]
+    if target.noun.name in nouns_with("played from the front"):
+        yaw, far = target.plan.yaw, 0.5 * target.models[0].length + reach
+        chosen = [(far * math.cos(yaw), far * math.sin(yaw), yaw + math.pi)]
     lift = SEAT * (1.0 - min(scale, 1.0)) if group.on_chairs else 0.0
     group.offsets = [(x, y, lift) for x, y, _ in chosen]
     group.yaws = [yaw for _, _, yaw in chosen]
