@@ -32,12 +32,14 @@ from texvent_scenes.raycast.trace import (
     surface_code,
 )
 from texvent_scenes.raycast.vectors import scaled
-from texvent_scenes.rendered_scene import Colour, Float64Array
+from texvent_scenes.rendered_scene import Colour, Float32Array, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
 UNKNOWN = -(1 << 41)
 """Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
+_NEEDED = -(1 << 42)
+"""Value of lattice points that are yet to be probed."""
 Codes = NDArray[np.int64]
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
@@ -252,14 +254,20 @@ def _split_pixel(
 
 
 @jit(error_model="numpy", inner=True)
-def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
-    """Whether a wanted pixel lies at lattice point (j, i) of a tile."""
-    height, width = wanted.shape
-    for row in range(max((j - 1) // samples, 0), min(j // samples + 1, height)):
-        for column in range(max((i - 1) // samples, 0), min(i // samples + 1, width)):
+def _mark_needed(wanted: NDArray[np.bool_], samples: int, probes: NDArray[np.int64]) -> bool:
+    """Write `_NEEDED` to the lattice points of wanted pixels, else `UNKNOWN`; whether there are."""
+    is_any = False
+    for j in range(wanted.shape[0] * samples + 1):
+        for i in range(wanted.shape[1] * samples + 1):
+            probes[j, i] = UNKNOWN
+    for row in range(wanted.shape[0]):
+        for column in range(wanted.shape[1]):
             if wanted[row, column]:
-                return True
-    return False
+                is_any = True
+                for j in range(row * samples, (row + 1) * samples + 1):
+                    for i in range(column * samples, (column + 1) * samples + 1):
+                        probes[j, i] = _NEEDED
+    return is_any
 
 
 @jit(error_model="numpy", inner=True)
@@ -276,10 +284,11 @@ def _probe_tile(
     left neighbour on the same surface, which saves half of the shadow rays.
     """
     left, top = corner
+    if not _mark_needed(wanted, samples, probes):
+        return
     for j in range(wanted.shape[0] * samples + 1):
         for i in range(wanted.shape[1] * samples + 1):
-            if not _is_needed(wanted, j, i, samples):
-                probes[j, i] = UNKNOWN
+            if probes[j, i] != _NEEDED:
                 continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(instant, x, y)
@@ -351,7 +360,7 @@ def render_rows(
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
     codes: Codes,
-    image: Float64Array,
+    image: Float32Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.
 

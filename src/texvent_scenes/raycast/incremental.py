@@ -114,7 +114,7 @@ class IncrementalRenderer:
             wanted = _refined(tiles, TILE, size.shape)
             codes, pixels = np.where(wanted, UNKNOWN, last[1].codes), last[1].pixels.copy()
             light = last[1].light.copy()
-        light[wanted] = self._cast(drawn.world, wanted=wanted, codes=codes)[wanted]
+        self._cast(drawn.world, wanted=wanted, codes=codes, light=light)
         touched = self._optics.touched(wanted)
         pixels[touched] = self._code(self._optics.passed(light, drawn.world, touched))
         kept = pixels.copy()
@@ -166,9 +166,7 @@ class IncrementalRenderer:
             touched = self._optics.touched(wanted)
             exact = self._luma(times_s[number], (wanted, touched), codes, light)
             uneven = np.zeros(self._size.shape, np.bool_)
-            limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
-            uneven[touched] = np.abs(exact - luma[touched]) > limit * (exact + np.float32(DARK))
-            luma[touched] = exact
+            replace_levels(luma, exact, touched, min(EVEN, EVEN_S / (stop - start)), uneven)
             uneven = widened(uneven, round(self._optics.point_spread_px))
             if not beats:
                 blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
@@ -188,14 +186,17 @@ class IncrementalRenderer:
         `codes` are known ones, and those found; `light` is written where it is drawn.
         """
         drawn, (wanted, touched) = self._drawn(time_s), pixels
-        light[wanted] = self._cast(drawn.world, wanted=wanted, codes=codes)[wanted]
+        self._cast(drawn.world, wanted=wanted, codes=codes, light=light)
         levels = self._code(self._optics.passed(light, drawn.world, touched))
         return np.asarray(luma_bt601(levels[None])[0], dtype=np.float32)
 
 
 def _mixed(before: DrawnInstant, after: DrawnInstant, share: np.float32, name: str) -> Float32Array:
     first, last = getattr(before, name), getattr(after, name)
-    return np.asarray(first + share * (last - first))
+    result = np.subtract(last, first)
+    result *= share
+    result += first
+    return np.asarray(result)
 
 
 def _refined(cells: Mask, side: int, shape: tuple[int, ...]) -> Mask:
@@ -224,6 +225,30 @@ def block_speeds(size: SensorSize, *fields: Float32Array | None) -> Float32Array
     for vectors in fields:
         spread_speeds(unknown if vectors is None else vectors, speeds)
     return widen_speeds(speeds)
+
+
+@jit(error_model="numpy")
+def replace_levels(
+    predicted: Float32Array, exact: Float32Array, pixels: Mask, limit: float, uneven: Mask
+) -> None:
+    """Replace predicted levels by exact ones, and mark those that differ.
+
+    Args:
+        predicted: [H, W] levels, are written.
+        exact: [k] levels of `pixels`, row by row.
+        pixels: [H, W].
+        limit: share of a level, from black at -`DARK`, up to which they count as equal.
+        uneven: [H, W] is written.
+    """
+    share, dark = np.float32(limit), np.float32(DARK)
+    number = 0
+    for y in range(pixels.shape[0]):
+        for x in range(pixels.shape[1]):
+            if pixels[y, x]:
+                level = exact[number]
+                uneven[y, x] = abs(level - predicted[y, x]) > share * (level + dark)
+                predicted[y, x] = level
+                number += 1
 
 
 @jit(error_model="numpy")

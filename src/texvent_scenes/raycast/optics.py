@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import run_parts
 from texvent_scenes.raycast.records import Record, World
-from texvent_scenes.raycast.trace import ray_direction
-from texvent_scenes.raycast.vectors import Vector, dot, pixel_steps, triple
+from texvent_scenes.raycast.trace import plane_direction, ray_direction
+from texvent_scenes.raycast.vectors import NO_DISTORTION, Vector, dot, pixel_steps, triple
 from texvent_scenes.rendered_scene import Float32Array, Float64Array
 
 Mask = NDArray[np.bool_]
@@ -62,15 +62,19 @@ class Optics:
         """
         if self == Optics():
             return light[wanted]
-        result = np.empty_like(light)
+        counts = np.count_nonzero(wanted, axis=1)
+        starts = np.cumsum(counts) - counts
+        result = np.empty((int(counts.sum()), 3), np.float32)
         weights, height = self.weights, len(light)
+        rows_of = np.ascontiguousarray(light).reshape(height, -1)
 
         def filter_band(top: int) -> None:
             rows = top, min(top + _BAND, height)
-            pass_rows(world.instant, rows, light, weights, self.vignetting, wanted, result)
+            args = rows_of, weights, self.vignetting, wanted, starts, result
+            pass_rows(world.instant, rows, *args)
 
         run_parts(filter_band, range(0, height, _BAND))
-        return result[wanted]
+        return result
 
 
 PERFECT = Optics()
@@ -113,10 +117,50 @@ def _solid_angle(instant: Record, x: float, y: float) -> tuple[float, float]:
 @jit(error_model="numpy", inner=True)
 def _falloff(instant: Record, x: float, y: float) -> float:
     """Share of the light at (x, y), of that on the axis."""
+    if instant.distortion == NO_DISTORTION:  # rays of length 1 along the axis: cos⁴
+        direction = plane_direction(instant, x, y)
+        return 1.0 / dot(direction, direction) ** 2
     right, down = triple(instant.right), triple(instant.down)
     angle, cosine = _solid_angle(instant, x, y)
     share = angle * cosine / math.sqrt(dot(right, right) * dot(down, down))
     return 1.0 if math.isnan(share) else share
+
+
+@jit(error_model="numpy", inner=True)
+def _bounds(wanted: Mask, rows: tuple[int, int]) -> tuple[int, int, int, int]:
+    """First row and column with a wanted pixel, and one past the last ones, in some rows."""
+    top, bottom, left, right = rows[1], rows[0], wanted.shape[1], 0
+    for row in range(rows[0], rows[1]):
+        for column in range(wanted.shape[1]):
+            if wanted[row, column]:
+                top, bottom = min(top, row), row + 1
+                left, right = min(left, column), max(right, column + 1)
+    return top, bottom, left, right
+
+
+@jit(error_model="numpy", inner=True)
+def _filter_row(
+    row: Float32Array, left: int, weights: Float64Array, padded: Float64Array, result: Float64Array
+) -> None:
+    """Weighted sums along a row of colours, for as many columns from `left` on as `result` holds.
+
+    Args:
+        row: [3 · W] of an image.
+        left: first column.
+        weights: [2 · reach + 1].
+        padded: [more] scratch space, for `result` and 2 · reach columns.
+        result: [3 · k] is written.
+    """
+    reach, count = len(weights) // 2, len(result)
+    for column in range(count // 3 + 2 * reach):
+        at = 3 * _mirrored(left + column - reach, len(row) // 3)
+        for channel in range(3):
+            padded[3 * column + channel] = row[at + channel]
+    result[:] = 0.0
+    for step in range(len(weights)):
+        weight, shifted = weights[step], padded[3 * step : 3 * step + count]
+        for index in range(count):
+            result[index] += weight * shifted[index]
 
 
 @jit(error_model="numpy")
@@ -127,43 +171,40 @@ def pass_rows(
     weights: Float64Array,
     vignetting: bool,
     wanted: Mask,
+    starts: NDArray[np.int64],
     result: Float32Array,
 ) -> None:
-    """Fill the wanted pixels in some rows of `result` with light that passed a lens.
+    """Fill those of `result` that lie in some rows with light that passed a lens.
 
     Args:
         instants: `World.instant` of the scene.
         rows: first row and one past the last one.
-        light: [H, W, 3] without a lens.
+        light: [H, 3 · W] without a lens.
         weights: of `Optics`.
         vignetting: whether the image darkens off the axis.
         wanted: [H, W] pixels.
-        result: [H, W, 3] is written.
+        starts: [H] wanted pixels in the rows above each row.
+        result: [k, 3] of the wanted pixels, row by row, is written.
     """
-    height, width = wanted.shape
     reach = len(weights) // 2
-    across = np.empty((rows[1] - rows[0] + 2 * reach, 3), np.float64)
-    for column in range(width):
-        first, last = rows[1], rows[0]
-        for row in range(rows[0], rows[1]):
+    top, bottom, left, right = _bounds(wanted, rows)
+    if top >= bottom:
+        return
+    across = np.empty((bottom - top + 2 * reach, 3 * (right - left)), np.float64)
+    padded, total = np.empty(3 * (right - left + 2 * reach)), np.empty(3 * (right - left))
+    for line in range(len(across)):
+        source = light[_mirrored(top + line - reach, len(light))]
+        _filter_row(source, left, weights, padded, across[line])
+    for row in range(top, bottom):
+        total[:] = 0.0
+        for step in range(len(weights)):
+            weight, line = weights[step], across[row - top + step]
+            for index in range(len(total)):
+                total[index] += weight * line[index]
+        number = starts[row]
+        for column in range(left, right):
             if wanted[row, column]:
-                first, last = min(first, row), row + 1
-        for row in range(first - reach, last + reach if last > first else first - reach):
-            source = _mirrored(row, height)
-            red, green, blue = 0.0, 0.0, 0.0
-            for step in range(-reach, reach + 1):
-                at, weight = _mirrored(column + step, width), weights[step + reach]
-                red += weight * light[source, at, 0]
-                green += weight * light[source, at, 1]
-                blue += weight * light[source, at, 2]
-            line = row - rows[0] + reach
-            across[line, 0], across[line, 1], across[line, 2] = red, green, blue
-        for row in range(first, last):
-            if not wanted[row, column]:
-                continue
-            share = _falloff(instants[0], column + 0.5, row + 0.5) if vignetting else 1.0
-            for channel in range(3):
-                total = 0.0
-                for step in range(2 * reach + 1):
-                    total += weights[step] * across[row - rows[0] + step, channel]
-                result[row, column, channel] = share * total
+                share = _falloff(instants[0], column + 0.5, row + 0.5) if vignetting else 1.0
+                for channel in range(3):
+                    result[number, channel] = share * total[3 * (column - left) + channel]
+                number += 1

@@ -128,7 +128,7 @@ def render(
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
     light = light_of_rows(world, (0, size.height), size, samples=samples)
     everywhere = np.ones(size.shape, dtype=np.bool_)
-    passed = optics.passed(light.astype(np.float32), world, everywhere)
+    passed = optics.passed(light, world, everywhere)
     return encode_srgb(passed.reshape(light.shape))
 
 
@@ -139,7 +139,7 @@ def render_light(
     *,
     samples: int = 2,
     shadows: bool = True,
-) -> Float64Array:
+) -> Float32Array:
     """The light that a perfect lens passes, which `render` gamma-codes.
 
     Args:
@@ -150,7 +150,7 @@ def render_light(
         shadows: as for `render`.
 
     Returns:
-        [H, W, 3] linear RGB, float64; 1 is white, and the brightest where the scene has no
+        [H, W, 3] linear RGB, float32; 1 is white, and the brightest where the scene has no
         highlights.
     """
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
@@ -165,7 +165,8 @@ def light_of_rows(
     samples: int = 2,
     wanted: NDArray[np.bool_] | None = None,
     codes: Codes | None = None,
-) -> Float64Array:
+    light: Float32Array | None = None,
+) -> Float32Array:
     """Some rows of what `render_light` gives.
 
     Args:
@@ -173,11 +174,12 @@ def light_of_rows(
         rows: first row and one past the last row.
         size: image size, pixels.
         samples: as for `render`.
-        wanted: [H, W] which pixels to draw, the others have any value; None: all.
+        wanted: [H, W] which pixels to draw, the others stay as they are; None: all.
         codes: [H, W] what fills whole pixels, as for `render_rows`; None: nothing is known.
+        light: [H, W, 3] is written; None: a new one.
     """
     first, last = rows
-    image = np.empty((last, size.width, 3), dtype=np.float64)
+    image = np.empty((last, size.width, 3), dtype=np.float32) if light is None else light
     # The kernel is compiled for contiguous masks alone.
     chosen = np.ascontiguousarray(
         np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
