@@ -1,0 +1,55 @@
+"""Fields take what they took: every number up to the same bounds, and the same pairs."""
+
+import importlib
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.bounds.bounds import Record, last_taken, lines_of, stored_table, table
+
+from texvent.errors import ConfigError
+
+
+def test_every_record_takes_what_it_took():
+    """`python -m tests.bounds.bounds` writes the table anew, in an environment with torch."""
+    found, stored = table(), stored_table()
+    for name in {*stored} - {*found}:
+        with pytest.raises(ImportError):
+            importlib.import_module(name.rpartition(".")[0])
+    others = {name: {*lines} ^ {*stored.get(name, ())} for name, lines in found.items()}
+    assert {name: lines for name, lines in others.items() if lines} == {}
+
+
+@given(data=st.data(), kind=st.sampled_from([int, float, Fraction]))
+def test_the_last_that_is_taken_is_found_to_the_last_bit(data, kind):
+    start, bound = sorted(data.draw(st.lists(st.integers(-(10**9), 10**9), min_size=2, max_size=2)))
+    bound, end = kind(bound), kind(10**30)
+    assert last_taken(lambda one: one <= bound, kind(start), end) == bound
+    assert last_taken(lambda one: -one <= bound, kind(-start), -end) == -bound
+    if kind is not int:
+        below = last_taken(lambda one: one < bound, kind(start - 1), end)
+        assert below == math.nextafter(bound, -math.inf)
+
+
+def test_a_record_is_told_by_its_bounds_and_by_what_excludes_each_other():
+    @dataclass
+    class Example:
+        count: int
+        share: float = 0.5
+        is_whole: bool = False
+
+        def __post_init__(self) -> None:
+            if not (1 <= self.count < 9 and 0.0 <= self.share <= 1.0):
+                raise ConfigError("beyond")
+            if self.is_whole and self.share < 1.0:
+                raise ConfigError("a part")
+
+    Example.__annotations__ = {"count": int, "share": float, "is_whole": bool}
+    lines = [*lines_of(Record(Example))]
+    refused = "ConfigError: beyond"
+    assert lines[:2] == [f"count: 1 .. 8 | {refused}", f"share: 0.0 .. 1.0 | {refused}"]
+    assert [one[: one.index("(")] for one in lines[2:]] == ["share, is_whole: 1 "]
+    assert lines[2].endswith("1.0, True: taken")
