@@ -253,11 +253,17 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
-    """Words that are spelt nearly as a noun, each with it."""
-    names = {name for key, noun in nouns.items() for name in (key, *noun.synonyms)}
+    """Unknown words that are spelt nearly as a noun with the same initial, each with it."""
+    from texvent_scenes.read.lexicon import lexicon_of
+
+    known, initials = lexicon_of(nouns), dict[str, set[str]]()
+    for key, noun in nouns.items():
+        for name in (key, *noun.synonyms):
+            initials.setdefault(name[0], set()).add(name)
     for word in words:
-        is_open = len(word) > _SHORT and word.lower() not in names
-        near = get_close_matches(word.lower(), names, 1, _NEAR) if is_open else []
+        is_open = len(word) > _SHORT and (word.lower(),) not in known
+        names = initials.get(word[0].lower(), ()) if is_open else ()
+        near = get_close_matches(word.lower(), names, 1, _NEAR)
         yield from (f"{word}: {name}" for name in near)
 
 

@@ -132,4 +132,5 @@ def test_a_misspelled_noun_is_named_with_the_one_that_is_meant():
     words = understand("a fokrlift and a wug beside two boxes", list_nouns()).words
     assert words.meant == ("fokrlift: forklift",)
     assert "not understood: fokrlift (did you mean 'forklift'?), " in words.faults()[0]
-    assert not understand("a red car drives left past two trees", list_nouns()).words.meant
+    sound = ("a red car drives left past two trees", "a man with three hats flaps in a narrow way")
+    assert not any(understand(one, list_nouns()).words.meant for one in sound)
