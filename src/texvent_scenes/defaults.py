@@ -44,7 +44,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_down(_set_far(description)), nouns)
+    description = _rest(_set_down(_set_far(_ground(description))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
@@ -66,6 +66,15 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _ground(description: SceneDescription) -> SceneDescription:
+    """The place over which things are in the sky: "a plane in the sky above a city"."""
+    said = description.place
+    if said.name != "sky" or not said.backdrops:
+        return description
+    name, *others = said.backdrops
+    return replace(description, place=replace(said, name=name, backdrops=tuple(others)))
 
 
 def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -389,6 +398,8 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
         return "underwater"
     if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection((*_IN_WATER, "hover", "float")) else "beach"
+    if said.name == "sky" and any(noun.habitat == "fixed" for noun in members):
+        return "grass"  # "a kite in the sky over a hill"
     travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):

@@ -14,10 +14,10 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main
 from texvent_scenes.staging.compose import ComposedScene
 
-_CLOSE, _HALF = 0.45, 0.5
+_CLOSE, _HALF = 0.22, 0.5
 """Share of the image's width or height that the subject of a close shot extends over; share of the
 instants at which a shot is as it is said."""
-_DOWN, _STEEP, _LEVEL = -0.5, -0.9, 0.05
+_DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
 """Height of the direction of sight, a unit vector, of a view from the air, and from the top; most of
 one downwards from a low angle."""
 _STILL = 1e-6

@@ -391,6 +391,10 @@ class SceneDraft:
         said = (one for index in subjects for one in self.things[index]["relations"])
         return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
 
+    def has_source(self) -> bool:
+        """Whether it is said of what the last effect comes: "a burning house"."""
+        return self.effects[-1]["source"] is not None
+
     def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
         """Add an effect, which comes from the first of the owners."""
         self.effects.append({"kind": kind, "source": owners[0] if owners else None})
