@@ -112,7 +112,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
     if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
         return f"{kind} in a lane"
-    if kind == "front" and _is_walker(who) and are_driven(target, target):
+    is_driven = are_driven(target, target) and any(one.is_moving for one in what.motions)
+    if kind == "front" and _is_walker(who) and is_driven:
         return "front of what drives"
     if kind == "through" and target in nouns_with("passage"):
         return "through an opening"
