@@ -286,7 +286,7 @@ def _find_unshown(
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     first = next(one for one in alike if one.surface is place.surface)
     is_common = place.surface in _FLOORS or place.ground is Ground.CITY
-    is_common |= (place is not first and not _has_own_colour(place, first))
+    is_common |= place is not first and not _has_own_colour(place, first)
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))

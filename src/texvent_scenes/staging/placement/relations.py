@@ -361,7 +361,8 @@ def _line_up(
 ) -> None:
     """Spread the copies along the longer side of the surface; several carriers share them out.
 
-    Small things for which a row is too long stand in several. `reach_m` is the extent of one along that side; None: that of its longer side.
+    Small things for which a row is too long stand in several. `reach_m` is the extent of one along
+    that side; None: that of its longer side.
     """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     first = neighbours.index(group.index)
