@@ -15,6 +15,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
 from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
@@ -55,6 +56,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    if description.place.has_snow or PLACES[place].ground is Ground.SNOW:
+        description = _snow_over(description)
     if PLACES[place].has_surface:
         description = _set_afloat(description, nouns)
     for note in _list_floored(description, place):
@@ -75,6 +78,13 @@ def _ground(description: SceneDescription) -> SceneDescription:
         return description
     name, *others = said.backdrops
     return replace(description, place=replace(said, name=name, backdrops=tuple(others)))
+
+
+def _snow_over(description: SceneDescription) -> SceneDescription:
+    """Hills without a colour of their own, under the snow that lies on all."""
+    new = {n: replace(one, colour="white") for n, one in enumerate(description.objects)
+           if one.colour is None and one.noun in nouns_with("of ground")}  # fmt: skip
+    return _change(description, new)
 
 
 def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -161,12 +161,17 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
     return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
 
 
+def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
+    """What can be worn, and what cannot: "with glasses and a boy"."""
+    worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
+    parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
+    return [*filter(None, parts)]
+
+
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-    worn = [one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")]
-    if kind == "with" and 0 < len(worn) < len(targets):  # "with glasses and a boy"
-        parts = worn, [one for one in targets if one not in worn]
+    if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with":
         is_table = thing["noun"] in word_set("things", "tables")

@@ -87,7 +87,7 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("tracking shot of a car driving", "tracking shot of", True),
         ("low angle shot of a man walking", "low angle shot", True),
         ("aerial view of a car in a forest", "forest", True),
-        ("a plane flies above a city", "city", False),
+        ("a plane flies above a city", "city", True),
         ("a bus drives in a city", "city", True),
         ("a lion sleeps in the savanna", "savanna", True),
         ("close-up of a man at the beach", "beach", True),
@@ -96,6 +96,7 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("a squirrel runs up a tree", "runs", True),
         ("a leaf floats on the water", "floats", True),
         ("a fishing boat lies on the beach", "lies", True),
+        ("a woman wearing glasses waves", "glasses", True),
         ("a bicycle lies on the beach", "lies", False),
     ],
 )

@@ -32,6 +32,15 @@ def test_riders_have_on_the_head_what_they_wear(text):
 
 
 @pytest.mark.parametrize(
+    ("text", "is_white"),
+    [("a man walks up a snowy hill", True), ("a hill in winter", True), ("a hill", False)],
+)
+def test_a_hill_is_white_under_snow(text, is_white):
+    hill = next(one for one in staged(text)[0].actors if one.noun.name == "hill")
+    assert (min(hill.place(0.0).parts[0].colour) > 0.5) is is_white
+
+
+@pytest.mark.parametrize(
     "text", ["a leaf floats on the water", "a bottle floats on a lake", "a ball floats in the sea"]
 )
 def test_what_floats_on_water_is_in_it_up_to_its_waterline(text):
