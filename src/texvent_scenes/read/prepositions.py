@@ -286,6 +286,16 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     return "towards" if is_led or acts or not draft.goes(index) else kind
 
 
+def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
+    """The relation that "at" means, and "on" of work at a table; "" = none other."""
+    is_table = noun in word_set("things", "tables")
+    if kind != "at":  # "pours water into a glass on a table"
+        return "at" if kind == "on" and is_table and does & word_set("things", "at_tables") else ""
+    if acts & {*SENT} or does & AIMED:
+        return "towards"
+    return "" if is_table else "beside"
+
+
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
@@ -303,10 +313,8 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
     acts = {one["kind"] for one in thing["relations"]}
-    if kind == "at" and (acts & {*SENT} or {*does} & AIMED):
-        return "towards"
-    if kind == "at" and noun not in word_set("things", "tables"):
-        return "beside"
+    if near := _choose_near(kind, noun, {*does}, acts):
+        return near
     if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
         return "on" if noun in nouns_with("way") else ""
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace

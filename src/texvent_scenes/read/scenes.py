@@ -225,7 +225,8 @@ class _SentenceReader(ThingReader):
         if kind in ("on", "in") and before in SPACED:
             like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
             return [*dict.fromkeys((*like, *told))]
-        return told if kind in PLACING and before in word_set("things", "passed") else subjects
+        is_passed = before in word_set("things", "passed") | {"into"}
+        return told if kind in PLACING and is_passed else subjects
 
     def _find_object(self, clause: Clause, subjects: list[int], nearest: list[int]) -> list[int]:
         """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
