@@ -97,6 +97,9 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("a leaf floats on the water", "floats", True),
         ("a fishing boat lies on the beach", "lies", True),
         ("a woman wearing glasses waves", "glasses", True),
+        ("a fan spins above a table", "above", True),
+        ("a dog sleeps under a table", "under", True),
+        ("a cat stands under a table", "under", True),
         ("a bicycle lies on the beach", "lies", False),
     ],
 )
