@@ -233,6 +233,8 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     said = [one.first("field") for one in words if len(words) == len(phrase.groups) == 1]
     colours = [one.value[1] for one in said if one is not None and one.value[0] == "colour"]
     are_persons = all(draft.things[one]["noun"] in PERSON_NOUNS for one in subjects)
+    unknown = {each.text for one in phrase.groups for each in one.unknown}
+    are_persons &= not unknown & word_set("things", "accessories")  # "in green gloves"
     if not (colours and subjects and are_persons and phrase.preposition.text == "in"):
         return False
     for one in subjects:
