@@ -325,7 +325,7 @@ class _SentenceReader(ThingReader):
             elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
-        elif kind == "from" and not subjects and draft.effects and not draft.has_source():
+        elif kind == "from" and not subjects and draft.effects and draft.may_come_from(token):
             is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
             draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)
