@@ -15,6 +15,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
 from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
@@ -45,7 +46,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_down(_set_far(description)), nouns)
+    description = _rest(_set_down(_set_far(_ground(description))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
@@ -56,6 +57,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    if description.place.has_snow or PLACES[place].ground is Ground.SNOW:
+        description = _snow_over(description)
     if PLACES[place].has_surface:
         description = _set_afloat(description, nouns)
     for note in _list_floored(description, place):
@@ -67,6 +70,22 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _ground(description: SceneDescription) -> SceneDescription:
+    """The place over which things are in the sky: "a plane in the sky above a city"."""
+    said = description.place
+    if said.name != "sky" or not said.backdrops:
+        return description
+    name, *others = said.backdrops
+    return replace(description, place=replace(said, name=name, backdrops=tuple(others)))
+
+
+def _snow_over(description: SceneDescription) -> SceneDescription:
+    """Hills without a colour of their own, under the snow that lies on all."""
+    new = {n: replace(one, colour="white") for n, one in enumerate(description.objects)
+           if one.colour is None and one.noun in nouns_with("of ground")}  # fmt: skip
+    return _change(description, new)
 
 
 def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -392,6 +411,8 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
         return "underwater"
     if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection((*_IN_WATER, "hover", "float")) else "beach"
+    if said.name == "sky" and any(noun.habitat == "fixed" for noun in members):
+        return "grass"  # "a kite in the sky over a hill"
     travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):

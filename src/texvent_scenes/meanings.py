@@ -42,7 +42,7 @@ def meanings_of(senses: Senses) -> Iterator[tuple[str, object]]:
             case "verb":
                 yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
                 said = (("direction", value.direction), ("relation", value.relation))
-                yield from (one for one in said if one[1] is not None)
+                yield from (one for one in said if one[1] not in (None, "with"))  # of company
             case "shot":  # such as "pan left"
                 yield "move", str(value).split()[0]
             case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")

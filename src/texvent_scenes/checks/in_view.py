@@ -66,6 +66,8 @@ MOST_COUNTED = 6
 _SMALL, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
+_LEAST_SKY = 0.02
+"""Least share of a small picture that clouds change."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
@@ -266,7 +268,8 @@ def _find_unshown(
     place, said = scene.place, description.place
     for name, value, other in _list_without(scene, description):
         levels = _WHITE if name == "has_snow" else _LEAST_LEVELS
-        if not _differs(scene, other, times, levels=levels):
+        least = _LEAST_SKY if name == "clouds" else _LEAST_SHARE  # no panes that mirror them
+        if not _differs(scene, other, times, least=least, levels=levels):
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
@@ -283,7 +286,8 @@ def _find_unshown(
         yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     first = next(one for one in alike if one.surface is place.surface)
-    is_common = place.surface in _FLOORS or (place is not first and not _has_own_colour(place, first))
+    is_common = place.surface in _FLOORS or place.ground is Ground.CITY
+    is_common |= place is not first and not _has_own_colour(place, first)
     is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))

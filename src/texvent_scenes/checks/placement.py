@@ -168,7 +168,8 @@ class _Bodies:
                 if one.object_index in relation.targets}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
         is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
-        is_body = one.noun.speed_m_s > 0.0 or one.noun.habitat == "fixed"
+        is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
+        is_body &= one.noun.name not in nouns_with("may hang")
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip
         return (

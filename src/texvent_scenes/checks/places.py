@@ -20,8 +20,8 @@ from texvent_scenes.staging.compose import ComposedScene
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
 """Size of a coarse image; distance of a point of the horizon, m."""
 _LEVEL_M, _WAVES_M, _ROUNDING, _LEAST_SHARE, _LEAST_SHORE = 0.05, 0.4, 1e-3, 0.005, 0.03
-"""Height up to which a point is of the ground, and of ground with waves, m, and more of it per metre
-of distance; least shares of an image that the ground takes, and the land or water of a shore."""
+"""Height up to which a point is of the ground, and of ground with waves, m, and more per metre of
+distance; least shares of an image that the ground takes, and the land or water of a shore."""
 _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 

@@ -37,6 +37,8 @@ one instant."""
 _TOGETHER = ("behind", "front", "front of what drives", "beside", "going beside")
 _PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
+_ROW = 4
+"""Targets from which on they are a row, of which it passes some."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
 _MOST_COPIES = 0.75
@@ -110,7 +112,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     is_waiting = not any(motion.is_moving for motion in (*who.motions, *what.motions))
     if kind in ("front", "behind") and is_waiting and are_driven(noun, target):
         return f"{kind} in a lane"
-    if kind == "front" and _is_walker(who) and are_driven(target, target):
+    is_driven = are_driven(target, target) and any(one.is_moving for one in what.motions)
+    if kind == "front" and _is_walker(who) and is_driven:
         return "front of what drives"
     if kind == "through" and target in nouns_with("passage"):
         return "through an opening"
@@ -161,4 +164,5 @@ def holds(kind: str, body: BodyBoxes, others: Sequence[BodyBoxes], *, at_end: bo
                              or (is_still and kind in PLACING) else 1e-9)
         for held, is_still in flags
     ]  # fmt: skip
-    return all(found) if kind in _PASSED_ALL else any(found)
+    is_all = kind in _PASSED_ALL and len(others) < _ROW
+    return all(found) if is_all else any(found)

@@ -14,12 +14,12 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main
 from texvent_scenes.staging.compose import ComposedScene
 
-_CLOSE, _HALF = 0.45, 0.5
+_CLOSE, _HALF = 0.22, 0.5
 """Share of the image's width or height that the subject of a close shot extends over; share of the
 instants at which a shot is as it is said."""
-_DOWN, _STEEP, _LEVEL = -0.5, -0.9, 0.05
-"""Height of the direction of sight, a unit vector, of a view from the air, and from the top; most of
-one downwards from a low angle."""
+_DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
+"""Height of the direction of sight, a unit vector, of a view from the air, and from the top; most
+of one downwards from a low angle."""
 _STILL = 1e-6
 """Change of position, m, of direction, or of focal length, of a camera that stays."""
 _SAID = {"low": "low angle", "top": "view from the top", "aerial": "view from the air",
@@ -50,8 +50,8 @@ def find_misframed(
             line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
             yield Violation("framing", "close", line)
     rule = _VIEWS.get(shot.view or "")
-    if rule is not None and np.mean([rule(*each, main)
-                                     for each in zip(cameras, times, strict=True)]) < _HALF:  # fmt: skip
+    has_view = [rule is None or rule(*each, main) for each in zip(cameras, times, strict=True)]
+    if np.mean(has_view) < _HALF:
         yield Violation("view", str(shot.view), _SAID[str(shot.view)])
     moves = [one for one in shot.moves if one.kind != "static"]
     if moves and all(_is_still(cameras[0], one) for one in cameras):

@@ -138,6 +138,15 @@ def _run_belts(draft: SceneDraft) -> None:
                 belt["motions"][-1] |= {**kept, **direction}
 
 
+def _give_each(draft: SceneDraft) -> None:
+    """One of what has no singular, such as "glasses", for each who wears it."""
+    for one in draft.things:
+        worn = (n for each in one["relations"] if each["kind"] == "wear" for n in each["to"])
+        for target in (draft.things[n] for n in worn):
+            if target["noun"] in draft.nouns[target["noun"]].plurals:
+                target["count"] = one["count"]
+
+
 def _build(draft: SceneDraft, prompt: str) -> Scene:
     """The scene."""
     for index, one in enumerate([*draft.things]):
@@ -146,6 +155,7 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
             draft.halve(index)
     _run_belts(draft)
+    _give_each(draft)
     ids = number_nouns([one["noun"] for one in draft.things])
     for one in draft.things:
         done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")

@@ -209,7 +209,8 @@ class _Parser(GroupReader):
         token = self._token()
         forms, before = {one.form for one in token.all("verb")}, self._token(-1).text
         is_open = clause.is_plural or (before == "to" and self._token(-2).has("style"))
-        if not forms or (forms == {"base"} and not is_open):  # "starts to spin"
+        is_named = forms == {"base"} and self._token(-1).has("articles", "field")  # "a big wave"
+        if not forms or is_named or (forms == {"base"} and not is_open):  # "starts to spin"
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
             is_plural = bool(clause.subjects) and all(one.is_plural for one in clause.subjects)

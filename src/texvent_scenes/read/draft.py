@@ -22,6 +22,8 @@ from texvent_scenes.spec.scene import MoveDirection
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
+_NEAR = 3
+"""Words from an effect to what it comes from: "smoke is rising from a chimney"."""
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 BLINK_HZ = 2.0
@@ -124,6 +126,8 @@ class SceneDraft:
     """Fields of the camera, the light and the place."""
     claims: dict[int, list[Claim]] = field(default_factory=dict)
     """Number of a token → what is claimed of it."""
+    _effect_at: int = 0
+    """Number of the token of the last effect."""
     _said: dict[tuple[int, str], float] = field(default_factory=dict)
     """Index of an object and a quantity that is said of it → its value."""
     _left: list[int] = field(default_factory=list)
@@ -395,9 +399,14 @@ class SceneDraft:
         said = (one for index in subjects for one in self.things[index]["relations"])
         return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
 
+    def may_come_from(self, token: Token) -> bool:
+        """Whether a preposition says of what the last effect comes: no "burning house" before."""
+        return self.effects[-1]["source"] is None or token.at - self._effect_at <= _NEAR
+
     def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
         """Add an effect, which comes from the first of the owners."""
         self.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        self._effect_at = token.at
         self.show(token)
 
     def _fill_place(self, token: Token) -> None:

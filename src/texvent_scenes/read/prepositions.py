@@ -177,12 +177,17 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
     return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
 
 
+def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
+    """What can be worn, and what cannot: "with glasses and a boy"."""
+    worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
+    parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
+    return [*filter(None, parts)]
+
+
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-    worn = [one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")]
-    if kind == "with" and 0 < len(worn) < len(targets):  # "with glasses and a boy"
-        parts = worn, [one for one in targets if one not in worn]
+    if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with":
         is_table = thing["noun"] in word_set("things", "tables")
@@ -244,6 +249,8 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     said = [one.first("field") for one in words if len(words) == len(phrase.groups) == 1]
     colours = [one.value[1] for one in said if one is not None and one.value[0] == "colour"]
     are_persons = all(draft.things[one]["noun"] in PERSON_NOUNS for one in subjects)
+    unknown = {each.text for one in phrase.groups for each in one.unknown}
+    are_persons &= not unknown & word_set("things", "accessories")  # "in green gloves"
     if not (colours and subjects and are_persons and phrase.preposition.text == "in"):
         return False
     for one in subjects:
@@ -297,6 +304,16 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     return "towards" if is_led or acts or not draft.goes(index) else kind
 
 
+def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
+    """The relation that "at" means, and "on" of work at a table; "" = none other."""
+    is_table = noun in word_set("things", "tables")
+    if kind != "at":  # "pours water into a glass on a table"
+        return "at" if kind == "on" and is_table and does & word_set("things", "at_tables") else ""
+    if acts & {*SENT} or does & AIMED:
+        return "towards"
+    return "" if is_table else "beside"
+
+
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
@@ -318,10 +335,8 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
     acts = {one["kind"] for one in thing["relations"]}
-    if kind == "at" and (acts & {*SENT} or {*does} & AIMED):
-        return "towards"
-    if kind == "at" and noun not in word_set("things", "tables"):
-        return "beside"
+    if near := _choose_near(kind, noun, {*does}, acts):
+        return near
     if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
         return "on" if noun in nouns_with("way") else ""
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace

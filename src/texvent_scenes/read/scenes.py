@@ -215,6 +215,8 @@ class _SentenceReader(ThingReader):
             others = {draft.things[index]["noun"] for index in {*self._nearest} - {*subjects}}
             if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
                 return self._nearest  # "passes a man with a suitcase", "carries a tray with cups"
+        if before == "with" and told and kind in PLACING and draft.tokens[last.at - 1].has("place"):
+            return told  # "in a room with candles on the table"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told
@@ -223,7 +225,8 @@ class _SentenceReader(ThingReader):
         if kind in ("on", "in") and before in SPACED:
             like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
             return [*dict.fromkeys((*like, *told))]
-        return told if kind in PLACING and before in word_set("things", "passed") else subjects
+        is_passed = before in word_set("things", "passed") | {"into"}
+        return told if kind in PLACING and is_passed else subjects
 
     def _find_object(self, clause: Clause, subjects: list[int], nearest: list[int]) -> list[int]:
         """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
@@ -322,7 +325,7 @@ class _SentenceReader(ThingReader):
             elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
-        elif kind == "from" and draft.effects and not subjects:
+        elif kind == "from" and not subjects and draft.effects and draft.may_come_from(token):
             is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
             draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)

@@ -24,6 +24,8 @@ from texvent_scenes.staging.tracks.track import Track
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 """Corners of a box two units wide."""
+_LOW = frozenset({"lie"})
+"""Activities in which an animal is much lower than it stands."""
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
@@ -193,9 +195,9 @@ class Actor:
         return float(bounds(moved(placed.parts, placed.to_world))[0][2])
 
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
-        """Least and greatest body coordinates: of a body with limbs, at that instant."""
+        """Least and greatest body coordinates: of a body with limbs, or low, at that instant."""
         pose = self.pose(time_s)
-        if self._has_limbs or pose.activity in self.noun.acts:
+        if self._has_limbs or pose.activity in self.noun.acts | _LOW:
             return bounds(self.own_parts(pose))
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
         lift = np.array([0.0, 0.0, self.lift_m])

@@ -289,5 +289,6 @@ def _choose_levels(
         swimmers |= dict.fromkeys(wading, _WADING)
         if place.ground is Ground.SEA:
             swimmers |= dict.fromkeys(nouns_with("awash"), _AWASH)
-        return {**levels, "afloat": _DRAUGHT, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
+        swimmers |= {"afloat": _DRAUGHT, **dict.fromkeys(AFLOAT, 0.0)}
+        return {**levels, "water": 0.0, **swimmers}
     return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

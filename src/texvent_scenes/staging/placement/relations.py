@@ -43,7 +43,7 @@ from texvent_scenes.staging.placement.object_groups import (
 )
 from texvent_scenes.staging.placement.on_way import place_on_way
 from texvent_scenes.staging.placement.rings import STANDING_M, stand_before, stand_in_ring
-from texvent_scenes.staging.placement.zones import hangs_on, is_before_face
+from texvent_scenes.staging.placement.zones import hangs_on, is_before_face, zone_of
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 ON_TARGET = WAYS | {"at", "on", "in", "above", "around", "under", "between", "follow"}
@@ -248,6 +248,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         is_across = kind == "lie" and body.width > body.length
         yaw = target.plan.yaw + 0.5 * math.pi * is_across
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
+    elif zone_of(group.noun) == "road" and target.noun.name in nouns_with("way"):
+        group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
 
@@ -364,7 +366,8 @@ def _line_up(
 ) -> None:
     """Spread the copies along the longer side of the surface; several carriers share them out.
 
-    Small things for which a row is too long stand in several. `reach_m` is the extent of one along that side; None: that of its longer side.
+    Small things for which a row is too long stand in several. `reach_m` is the extent of one along
+    that side; None: that of its longer side.
     """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     first = neighbours.index(group.index)

@@ -33,6 +33,8 @@ _ROOM_M = 0.4
 _KERB_M = 0.3
 """Distance of roadside objects from the edge of a road, m."""
 _USUAL_DISTANCE_M = 16.0
+_NEAR_CITY_M, _MOST_CITY = 30.0, 6.0
+"""Distance of the camera from which on more buildings stand in its view, and how many times so."""
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
@@ -181,7 +183,9 @@ class _Scatterer:
     def stand_in_view(self, rule: Scenery) -> None:
         """Pieces somewhere in what the camera sees."""
         fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
-        for copy in range(rule.count):
+        is_tall = rule.noun in nouns_with("towering")
+        more = min(max(self._view.distance_m / _NEAR_CITY_M, 1.0), _MOST_CITY) if is_tall else 1.0
+        for copy in range(round(more * rule.count)):
             model = self._build(rule, copy, fit)
             for _ in range(_ATTEMPTS):
                 camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
@@ -257,8 +261,8 @@ class _Scatterer:
         """Metres from the camera; below one that sees no horizon, on the ground that it sees."""
         near, far = rule.reach
         if not _sees_far(camera):
-            ends = (float(camera.position[2]) / math.tan(one) for one in _edges(camera)[::-1])
-            return float(self._rng.uniform(*ends))
+            low, high = (float(camera.position[2]) / math.tan(one) for one in _edges(camera))
+            return float(self._rng.uniform(high, low))
         if rule.where == "far":
             return float(self._rng.uniform(near, far))
         pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))

@@ -1,0 +1,107 @@
+"""The camera's words: framing, viewpoint and moves, as they are staged and as they are checked."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.scenes.staged import DURATION_S, SIZE, stage, thing
+from tests.scenes.test_short_prompts import report, staged
+
+from texvent.camera import project
+from texvent_scenes.checks.shots import find_misframed
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.spec.scene import Camera, CameraMove
+
+TIMES = [float(one) for one in np.linspace(0.0, DURATION_S, 7)]
+
+
+def faults(scene, said):
+    cameras = [scene.camera(one) for one in TIMES]
+    description = SceneDescription(objects=(thing("man"),), camera=said)
+    return [one.value for one in find_misframed(scene, description, cameras, TIMES, SIZE)]
+
+
+@pytest.mark.parametrize("noun", ["man", "truck", "tree"])
+@pytest.mark.parametrize(
+    ("view", "others"),
+    [("low", {"aerial", "top"}), ("aerial", {"low", "top"}), ("top", {"low"}),
+     (None, {"low", "aerial", "top"})],
+)  # fmt: skip
+def test_a_view_holds_where_it_is_staged_and_another_one_does_not(noun, view, others):
+    scene = stage(thing(noun), camera=Camera(view=view))
+    wrong = {each for each in ("low", "aerial", "top") if faults(scene, Camera(view=each))}
+    assert wrong == others
+
+
+@pytest.mark.parametrize("kind", ["follow", "orbit", "pan", "dolly"])
+def test_a_move_holds_if_the_camera_moves(kind):
+    said = Camera(moves=(CameraMove(kind),))
+    still = stage(thing("man", ("stand",)), camera=Camera(moves=(CameraMove("static"),)))
+    assert faults(still, said) == [kind]
+    assert faults(stage(thing("man", ("walk", "right")), camera=said), said) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "way"),
+    [("close-up of a dog running towards the camera", 1.0),
+     ("close-up of a woman walking away", -1.0),
+     ("close-up of a car driving towards the camera", 1.0)],
+)  # fmt: skip
+def test_a_close_camera_goes_along_and_sees_the_front_or_the_back(text, way):
+    scene, said, _ = staged(text)
+    body = scene.actors[0]
+    for time_s in TIMES:
+        camera, yaw = scene.camera(time_s), body.track.at(time_s).yaw
+        to_camera = (camera.position - body.middle(time_s))[:2]
+        facing = np.array([np.cos(yaw), np.sin(yaw)]) @ to_camera / np.linalg.norm(to_camera)
+        assert way * facing > 0.7
+        assert np.ptp(project(camera, SIZE, body.corners(time_s))[:, 1]) > 0.3 * SIZE.height
+    assert said.is_faithful
+
+
+def test_a_close_up_is_none_where_the_subject_is_small():
+    scene = stage(thing("man"), camera=Camera(framing="close"))
+    assert faults(scene, Camera(framing="close")) == []
+    path = scene.camera_path
+    far = replace(path, framing=replace(path.framing, distance_m=12.0 * path.framing.distance_m))
+    assert faults(replace(scene, camera_path=far), Camera(framing="close")) == ["close"]
+
+
+@pytest.mark.parametrize("place", ["forest", "city", "park"])
+@pytest.mark.parametrize("view", ["aerial", "top"])
+def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
+    scene = stage(thing("car", ("drive", "right")), camera=Camera(view=view), place=place)
+    spots = scene.still.to_world[:, :, 3]
+    inside = np.zeros(len(spots), dtype=bool)
+    for camera in map(scene.camera, TIMES):
+        x, y, depth = project(camera, SIZE, spots).T
+        inside |= (abs(x - 0.5 * SIZE.width) < 0.7 * SIZE.width) & (y > 0.0) & (depth > 0.0)
+    assert len(spots) >= 30
+    assert inside.mean() > 0.35
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("tracking shot of a parked car", "tracking shot of", False),
+        ("tracking shot of a car driving", "tracking shot of", True),
+        ("low angle shot of a man walking", "low angle shot", True),
+        ("aerial view of a car in a forest", "forest", True),
+        ("a plane flies above a city", "city", True),
+        ("a bus drives in a city", "city", True),
+        ("a lion sleeps in the savanna", "savanna", True),
+        ("close-up of a man at the beach", "beach", True),
+        ("a woman stands in a gym", "gym", True),
+        ("a frog jumps into a pond", "jumps", True),
+        ("a squirrel runs up a tree", "runs", True),
+        ("a leaf floats on the water", "floats", True),
+        ("a fishing boat lies on the beach", "lies", True),
+        ("a woman wearing glasses waves", "glasses", True),
+        ("a fan spins above a table", "above", True),
+        ("a dog sleeps under a table", "under", True),
+        ("a cat stands under a table", "under", True),
+        ("a bicycle lies on the beach", "lies", False),
+    ],
+)
+def test_a_word_is_shown_as_the_picture_has_it(text, word, is_shown):
+    assert (word in report(text).shown) == is_shown
