@@ -162,6 +162,14 @@ def is_aloft(staged: StagedClip, claim: Claim) -> bool:
     )
 
 
+def stays(staged: StagedClip, claim: Claim) -> bool:
+    """Whether its middle stays where it is, by a part of its own size."""
+    return all(
+        float(np.ptp(one.middle[:, :2], axis=0).max()) <= _GROUNDED * float(one.size.max())
+        for one in staged.own_boxes(claim)
+    )
+
+
 def goes_back(staged: StagedClip, claim: Claim) -> bool:
     """Whether it goes against its heading; of one motion, all the time that it goes."""
     said = () if claim.subject is None else staged.description.objects[claim.subject].motions
