@@ -9,7 +9,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.read import read
 from texvent_scenes.scene_input import list_nouns, understand
-from texvent_scenes.staged_prompt import stage
+from texvent_scenes.staged_prompt import _are_enough, stage
 
 SIZE = SensorSize(173, 130)
 
@@ -366,3 +366,16 @@ def test_the_door_of_a_thing_is_what_opens_of_it(text):
     nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
     assert "door" not in nouns
     assert is_right(text)
+
+
+def test_of_things_without_a_number_most_in_view_are_enough():
+    assert _are_enough("tree (1 of 3)", ["trees"])
+    assert not _are_enough("tree (1 of 3)", ["trees", "three"])
+    assert not _are_enough("tree (2 of 3)", ["trees"])
+    assert not _are_enough("tree (cut off)", ["trees"])
+
+
+def test_a_lake_whose_water_is_out_of_view_is_told_of():
+    seen = "a drone flies over a lake surrounded by trees"
+    assert is_right(seen)
+    assert "lake" not in report(f"{seen}. Mountains can be seen in the distance.").shown

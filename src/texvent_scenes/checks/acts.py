@@ -10,7 +10,7 @@ import numpy as np
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, TIMED
-from texvent_scenes.rendered_scene import Ground, Float64Array
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
@@ -152,14 +152,6 @@ def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
         if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
             return False
     return True
-
-
-def is_aloft(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it is above the ground all the time, by more than its own size."""
-    is_open = staged.scene.place.ground is Ground.NONE
-    return is_open or all(
-        min(map(one.lowest_m, staged.times)) > one.size_m for one in staged.own(claim)
-    )
 
 
 def stays(staged: StagedClip, claim: Claim) -> bool:

@@ -10,6 +10,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array, Ground
@@ -18,9 +19,9 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
 """Size of a coarse image; distance of a point of the horizon, m."""
-_LEVEL_M, _ROUNDING, _LEAST_SHARE = 0.05, 1e-3, 0.005
-"""Height up to which a point is of the ground, m, and more of it per metre of distance; least share
-of an image that the ground takes."""
+_LEVEL_M, _ROUNDING, _LEAST_POINTS = 0.05, 1e-3, 6.0
+"""Height up to which a point is of the ground, m, and more of it per metre of distance; least
+points of a coarse image that the ground, or water, takes."""
 _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
@@ -46,9 +47,13 @@ def find_unseen_place(
         yield Violation("road", "", f"the {said.road}: it is out of view")
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
-    instants = zip(times, cameras, strict=True) if has_ground else ()
-    if has_ground and not any(_has_ground(scene, *each) for each in instants):
+    has_water = scene.place.has_shore and bool(said.name)
+    instants = [*zip(times, cameras, strict=True)] if has_ground or has_water else []
+    views = [_list_ground(scene, *each) for each in instants]
+    if has_ground and not any(len(one) >= _LEAST_POINTS for one in views):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+    elif has_water and not any(wet_share(scene, one) * len(one) >= _LEAST_POINTS for one in views):
+        yield Violation("place", str(said.name), f"the {said.name}: its water is out of view")
 
 
 def find_near(
@@ -78,8 +83,8 @@ def has_horizon(camera: PosedCamera) -> bool:
     return bool(project(camera, _SIZE, far[None])[0, 1] > 0.0)
 
 
-def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:
-    """Whether enough points of an image are of the ground."""
+def _list_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> Float64Array:
+    """[n, 2] points of the ground that a coarse image shows, m."""
     x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
     points = np.stack([x, y], axis=-1).reshape(-1, 2)
     depth, instance = visible_instances(scene, time_s, _SIZE, points)
@@ -89,4 +94,5 @@ def _has_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> boo
     with np.errstate(invalid="ignore"):
         height_m = camera.position[2] + np.where(np.isfinite(depth), depth, np.nan) * rays[:, 2]
     room_m = _LEVEL_M + _ROUNDING * np.nan_to_num(depth, posinf=0.0)
-    return bool(((np.abs(height_m) <= room_m) & (instance == 0)).mean() >= _LEAST_SHARE)
+    is_ground = (np.abs(height_m) <= room_m) & (instance == 0)
+    return np.asarray((camera.position + depth[:, None] * rays)[is_ground, :2])
