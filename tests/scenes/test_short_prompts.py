@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
+from texvent_scenes.models.effects import hue_of
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.read import read
 from texvent_scenes.scene_input import list_nouns, understand
@@ -60,6 +61,36 @@ def test_open_and_closed_of_what_opens_are_two_states_that_last(text, other):
     assert np.abs(parts(one, 0.0) - parts(two, 0.0)).max() > 0.1 * one.size_m
     assert is_right(text)
     assert is_right(other)
+
+
+@pytest.mark.parametrize(
+    ("text", "colours"),
+    [("a traffic light turns green", ["red", "green"]),
+     ("the traffic light changes from green to red", ["green", "red"]),
+     ("a green car waits at a green traffic light", ["green", "green"])],
+)  # fmt: skip
+def test_a_traffic_light_shows_the_colour_that_is_said(text, colours):
+    actor = next(one for one in staged(text)[0].actors if one.noun.name == "traffic light")
+    lit = [
+        hue_of(max(actor.own_parts(actor.pose(time_s)), key=lambda part: part.emission).colour)
+        for time_s in (0.0, 2.0)
+    ]
+    assert lit == colours
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a dog runs along a path", "a drone flies through a hoop", "a dog runs through a hoop",
+     "a woman pours milk into a glass", "a violinist plays in a park", "two swimmers in a lake",
+     "an array of four leds blinking at 10 Hz", "a crowded beach", "a woman sits at a piano",
+     "two men watch a train", "a woman feeds the ducks", "a boy slides down a slide",
+     "a balloon floats up into the sky", "a dolphin jumps out of the sea", "a drone spins in place",
+     "a car stops for a pedestrian", "curtains move in the wind", "seagulls fly overhead",
+     "a tram stops at a station", "a cat chases a mouse", "a dog barks at a cat"],
+)  # fmt: skip
+def test_words_that_the_picture_shows_are_not_listed_as_lost(text):
+    assert is_right(text)
 
 
 @pytest.mark.parametrize("text", ["an open hammer", "a closed dog", "a chair opens"])
