@@ -160,9 +160,12 @@ def go_to_place(
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
-    for thing in (draft.things[index] for index in subjects if is_road):
-        if draft.nouns[thing["noun"]].motion != "drive":
-            thing.setdefault("placement", "lane")
+    for index in subjects if is_road else ():
+        said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
+        if draft.walks(index) or (
+            said and draft.nouns[draft.things[index]["noun"]].motion != "drive"
+        ):
+            draft.things[index].setdefault("placement", "lane")
 
 
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
