@@ -14,6 +14,7 @@ from texvent_scenes.checks.in_view import Unseen, find_unseen, without_words
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.words import find_held
 from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
@@ -49,7 +50,9 @@ def stage(
     shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
              *filter(None, (one.line for one in unseen.violations)))  # fmt: skip
-    told = " ".join((*lines, *unseen.out_of_view, *unseen.too_small)).casefold()
+    enough = {one for one in unseen.out_of_view if description.prompt and _are_enough(one, shown)}
+    out_of_view = tuple(one for one in unseen.out_of_view if one not in enough)
+    told = " ".join((*lines, *out_of_view, *unseen.too_small)).casefold()
     told = re.sub(r"\([^)]*\)", "", told)  # "table (cut off)" does not tell of "off"
     claimed = (one for one in sorted(failed) if one not in said.shown)
     lost = (one for one in (*said.shown, *claimed) if one not in shown
@@ -57,12 +60,24 @@ def stage(
     report = replace(
         said,
         shown=shown,
-        notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes),
+        notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes,
+               *(f"out of view: {one}, of which no number is said" for one in sorted(enough))),
         not_shown=(*lines, *lost),
-        out_of_view=unseen.out_of_view,
+        out_of_view=out_of_view,
         too_small=unseen.too_small,
     )  # fmt: skip
     return scene, report, files
+
+
+def _are_enough(line: str, shown: Sequence[str]) -> bool:
+    """Whether most copies of what is partly out of view are seen, two at least.
+
+    "Trees" are so; of "three trees" each is to be seen.
+    """
+    found = re.fullmatch(r".* \((\d+) of (\d+)\)", line)
+    lost, count = map(int, found.groups()) if found else (1, 1)
+    is_counted = any(("count", count) in list_meanings(word) for word in shown)
+    return not is_counted and 2 * lost <= count and count - lost > 1
 
 
 def _list_manners(

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
+from texvent_scenes.models.effects import hue_of
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.read import read
 from texvent_scenes.scene_input import list_nouns, understand
-from texvent_scenes.staged_prompt import stage
+from texvent_scenes.staged_prompt import _are_enough, stage
 
 SIZE = SensorSize(173, 130)
 
@@ -62,6 +63,36 @@ def test_open_and_closed_of_what_opens_are_two_states_that_last(text, other):
     assert is_right(other)
 
 
+@pytest.mark.parametrize(
+    ("text", "colours"),
+    [("a traffic light turns green", ["red", "green"]),
+     ("the traffic light changes from green to red", ["green", "red"]),
+     ("a green car waits at a green traffic light", ["green", "green"])],
+)  # fmt: skip
+def test_a_traffic_light_shows_the_colour_that_is_said(text, colours):
+    actor = next(one for one in staged(text)[0].actors if one.noun.name == "traffic light")
+    lit = [
+        hue_of(max(actor.own_parts(actor.pose(time_s)), key=lambda part: part.emission).colour)
+        for time_s in (0.0, 2.0)
+    ]
+    assert lit == colours
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a dog runs along a path", "a drone flies through a hoop", "a dog runs through a hoop",
+     "a woman pours milk into a glass", "a violinist plays in a park", "two swimmers in a lake",
+     "an array of four leds blinking at 10 Hz", "a crowded beach", "a woman sits at a piano",
+     "two men watch a train", "a woman feeds the ducks", "a boy slides down a slide",
+     "a balloon floats up into the sky", "a dolphin jumps out of the sea", "a drone spins in place",
+     "a car stops for a pedestrian", "curtains move in the wind", "seagulls fly overhead",
+     "a tram stops at a station", "a cat chases a mouse", "a dog barks at a cat"],
+)  # fmt: skip
+def test_words_that_the_picture_shows_are_not_listed_as_lost(text):
+    assert is_right(text)
+
+
 @pytest.mark.parametrize("text", ["an open hammer", "a closed dog", "a chair opens"])
 def test_nothing_else_opens(text):
     assert {"open", "closed", "opens"} & {*report(text).not_understood}
@@ -91,6 +122,9 @@ def test_who_goes_through_a_door_finds_it_open(text):
         "police car with flashing blue lights at night",
         "an ambulance with its lights flashing",
         "a fire engine with flashing lights",
+        "a car's headlights flicker",
+        "the lights of a bus flash",
+        "the blades of a fan rotate",
         "a fan with four blades",
         "a clock, its hands moving",
     ],
@@ -102,7 +136,7 @@ def test_parts_that_do_what_is_said_are_shown(text):
 @pytest.mark.parametrize(
     ("text", "false"),
     [
-        ("a car with flashing lights", "flashing"),
+        ("a tree with flashing lights", "flashing"),
         ("a fan with green blades", "green"),
         ("an ambulance with yellow lights", "yellow"),
         ("a fan with shiny blades", "shiny"),
@@ -363,3 +397,16 @@ def test_the_door_of_a_thing_is_what_opens_of_it(text):
     nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
     assert "door" not in nouns
     assert is_right(text)
+
+
+def test_of_things_without_a_number_most_in_view_are_enough():
+    assert _are_enough("tree (1 of 3)", ["trees"])
+    assert not _are_enough("tree (1 of 3)", ["trees", "three"])
+    assert not _are_enough("tree (2 of 3)", ["trees"])
+    assert not _are_enough("tree (cut off)", ["trees"])
+
+
+def test_a_lake_whose_water_is_out_of_view_is_told_of():
+    seen = "a drone flies over a lake surrounded by trees"
+    assert is_right(seen)
+    assert "lake" not in report(f"{seen}. Mountains can be seen in the distance.").shown

@@ -10,7 +10,7 @@ import numpy as np
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, TIMED
-from texvent_scenes.rendered_scene import Ground, Float64Array
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.environment import is_afloat
 
@@ -162,11 +162,11 @@ def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
     return True
 
 
-def is_aloft(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it is above the ground all the time, by more than its own size."""
-    is_open = staged.scene.place.ground is Ground.NONE
-    return is_open or all(
-        min(map(one.lowest_m, staged.times)) > one.size_m for one in staged.own(claim)
+def stays(staged: StagedClip, claim: Claim) -> bool:
+    """Whether its middle stays where it is, by a part of its own size."""
+    return all(
+        float(np.ptp(one.middle[:, :2], axis=0).max()) <= _GROUNDED * float(one.size.max())
+        for one in staged.own_boxes(claim)
     )
 
 

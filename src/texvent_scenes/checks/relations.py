@@ -79,7 +79,9 @@ def find_violations(
             holds("facing", each, others) for each in copies[one.subject]
         ):
             held = []
-        if sum(held) < _MOST_COPIES * len(own) or not own:
+        is_queue = one.kind == "beside" and are_driven(description.objects[who].noun)
+        least = 1 if is_queue else _MOST_COPIES * len(own)  # only the first stands at the light
+        if sum(held) < least or not own:
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"

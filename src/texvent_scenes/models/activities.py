@@ -97,7 +97,7 @@ ON_GROUND: Mapping[str, str] = MappingProxyType(
     {"sit": "sit on ground", "sit down": "sit down on ground", "stand up": "stand up from ground"}
 )
 """Names of these activities, and of sitting, where there is no seat."""
-AIMED = frozenset({"point", "wave", "watch", "feed"})
+AIMED = frozenset({"point", "wave", "look", "feed"})
 """Activities that are turned to who or what they are for."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""

@@ -381,6 +381,7 @@ class SceneDraft:
             is_moved &= verb.object not in TIMED or all(
                 verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
             )
+            is_moved &= verb.relation != "push" or all(map(self.can_go, subjects))
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1

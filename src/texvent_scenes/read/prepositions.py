@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
@@ -19,9 +20,8 @@ _WATERS = frozenset({"sea", "lake", "river"})
 _AT_HOME = {
     ("into", "sky"): {"fly", "rise", "float", "hover"},
     **{("into", one): {"swim"} for one in _WATERS},
-    **{("from", one): {"drink"} for one in _WATERS},
 }
-"""Prepositions and places → motions that they say no more than: "drinks from the river"."""
+"""Prepositions and places → motions after which one is there: "flies into the sky"."""
 _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
@@ -160,9 +160,12 @@ def go_to_place(
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
-    for thing in (draft.things[index] for index in subjects if is_road):
-        if draft.nouns[thing["noun"]].motion != "drive":
-            thing.setdefault("placement", "lane")
+    for index in subjects if is_road else ():
+        said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
+        if draft.walks(index) or (
+            said and draft.nouns[draft.things[index]["noun"]].motion != "drive"
+        ):
+            draft.things[index].setdefault("placement", "lane")
 
 
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
@@ -203,7 +206,8 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     if kind == "on" and noun in word_set("things", "peaks"):
         return False  # its slopes bear nothing
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
-    kind = _choose_relation(draft, kind, index, targets[0])
+    used = _use(thing, noun) if kind in ("in", "into", "from", "on") else ""
+    kind = used or _choose_relation(draft, kind, index, targets[0])
     sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
     if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
         return all([draft.relate(one, "on", sat_at[0]) for one in targets])
@@ -314,13 +318,16 @@ def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
     return "" if is_table else "beside"
 
 
+def _use(thing: Mapping[str, Any], noun: str) -> str:
+    """Relation to what is used in an act: "pours milk into a cup"; "" = it is not."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    used = [one.anchor for one in props if noun in one.nouns]
+    return "beside" if "ground" in used else "hold" if used else ""
+
+
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
-    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    used = [one.anchor for one in props if noun in one.nouns]
-    if used and kind in ("in", "into", "from", "on"):  # "pours milk into a cup"
-        return "beside" if "ground" in used else "hold"
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

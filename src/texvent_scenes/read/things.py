@@ -85,12 +85,7 @@ class ThingReader:
             for token in group.unknown if relation not in ("", "with") else ():
                 if names_place(token, relation):  # "in a city centre"
                     self._draft.set_place(Group(token), token, relation)
-            things = self._draft.things
-            own = group.article in word_set("things", "owners")
-            lit = [n for n, one in enumerate(things) if own and one["noun"] in LAMPS][-1:]
-            for token in group.unknown if lit else ():
-                if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
-                    self._say(token, lit)  # "its headlights are on"
+            self._light_own(group)
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
@@ -98,6 +93,14 @@ class ThingReader:
         for content in group.of.groups if group.of is not None else ():
             self._fill(found, content)
         return found
+
+    def _light_own(self, group: Group) -> None:
+        """Switch the lamps of the last thing that has some: "its headlights are on"."""
+        lamps = [n for n, one in enumerate(self._draft.things) if one["noun"] in LAMPS][-1:]
+        is_owned = lamps and group.article in word_set("things", "owners")
+        for token in group.unknown if is_owned else ():
+            if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
+                self._say(token, lamps)
 
     def _fill(self, vessels: Sequence[int], content: Group) -> None:
         """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
@@ -220,17 +223,17 @@ class ThingReader:
 
     def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
         """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h"."""
-        state, nouns = states().get(token.text, ""), [self._draft.things[n]["noun"] for n in subjects]
-        if nouns and state and (not field or all(state in self._nouns[n].acts for n in nouns)):
+        draft, state = self._draft, states().get(token.text)
+        acts = [self._nouns[draft.things[index]["noun"]].acts for index in subjects]
+        if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
             return True
         if field == "wind":
-            draft = self._draft
             is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
             draft.show(*([token] if all(is_blown) else []))
             return True
-        is_way = field == "speed_m_s" and not subjects and self._draft.set_journey(field, value)
-        self._draft.show(*([token] if is_way else []))
+        is_way = field == "speed_m_s" and not subjects and draft.set_journey(field, value)
+        draft.show(*([token] if is_way else []))
         return is_way
 
     def _blow(self, index: int) -> bool:

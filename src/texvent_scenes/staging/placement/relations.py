@@ -332,7 +332,7 @@ def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """As `rest_on`, around a thing and turned to it, the camera's side last.
 
-    At a piano, one is at its keys. People sit on chairs at a table unless what they do is done standing.
+    People sit on chairs at a table unless what they do is done standing; at a piano at its keys.
     """
     kinds = {one.kind for one in group.scene_object.motions}
     scale = size_of(group.models[0])
