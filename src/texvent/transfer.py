@@ -53,8 +53,12 @@ def encode_srgb(light: NDArray[Any]) -> Float32Array:
         [0.0, 188.0, 255.0, 465.0]
     """
     light = np.maximum(np.asarray(light, dtype=np.float32), 0.0).astype(np.float64)  # keeps NaN
-    curve = 1.055 * light ** (1 / 2.4) - 0.055
-    return (WHITE * np.where(light <= LINEAR_BELOW, 12.92 * light, curve)).astype(np.float32)
+    curve = np.asarray(light ** (1 / 2.4))
+    curve *= 1.055
+    curve -= 0.055
+    np.multiply(light, 12.92, out=curve, where=light <= LINEAR_BELOW)
+    curve *= WHITE
+    return curve.astype(np.float32)
 
 
 def linear_levels(light: NDArray[Any]) -> Float32Array:

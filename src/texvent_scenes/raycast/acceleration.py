@@ -6,6 +6,7 @@ grid facing the sun (for shadow rays). A ray then only tests the shapes listed w
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
@@ -286,7 +287,7 @@ def _describe_sun_cells(
         wanted: [n] widths that thin shapes are widened to, m.
     """
     sun = instant["sun"]
-    plane = _sun_plane(sun)
+    plane = _sun_plane(tuple(sun.tolist()))
     margin = np.where(shapes["is_thin"], 2.0 * wanted, 0.0)
     shapes["sun_window"] = _sun_windows(primitives, np.vstack([plane, sun]), margin)
     cells, grid = _sun_lists(shapes["sun_window"], np.flatnonzero(casts))
@@ -337,8 +338,10 @@ def _mesh_widths(primitives: Primitives, half: Float64Array) -> Float64Array:
     return widths
 
 
-def _sun_plane(sun: Float64Array) -> Float64Array:
+@functools.lru_cache(maxsize=4)
+def _sun_plane(direction: tuple[float, ...]) -> Float64Array:
     """[2, 3] two unit vectors at right angles to the sun's direction and to each other."""
+    sun = np.array(direction)
     helper = np.eye(3)[np.argmin(np.abs(sun))]
     first = np.cross(sun, helper)
     first /= np.linalg.norm(first)

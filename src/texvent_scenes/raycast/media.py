@@ -198,7 +198,8 @@ def describe_media(media: NDArray[Any], rays: Rays, instant: Any) -> tuple[NDArr
     """
     columns, tile_rows = int(instant["tile_columns"]), int(instant["tile_rows"])
     if not len(media):
-        nowhere = bin_rectangles(np.zeros((0, 4)), np.zeros(0), columns, tile_rows)
+        none = np.zeros(0, np.int64)
+        nowhere = bin_rectangles(none.reshape(0, 4), none, columns, tile_rows)
         return np.zeros(0, SEEN_MEDIUM_RECORD), nowhere
     to_world = media["to_world"].copy()
     pixel = float(instant["step"]) * np.linalg.norm(to_world[:, :, 3] - rays.origin, axis=1)

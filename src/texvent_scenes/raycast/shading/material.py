@@ -78,6 +78,8 @@ TexelPlace = tuple[float, float, float]
 
 _SHARPNESS = 0.5
 """Levels finer than the one whose texels are as large as the patch is wide: blending blurs too."""
+_FINEST = 2.0**_SHARPNESS
+"""Width of a patch, in texels, up to which the finest level is read."""
 _MAX_TAPS = 4
 """Averages along the longer side of a patch."""
 _MAX_LARGE_TAPS = 2
@@ -162,7 +164,7 @@ def _taps(axes: Patch, most: int) -> tuple[int, float, float]:
         taps = min(math.ceil(long / max(short, 1.0) - 1e-6), most)
     width = max(short, long / taps)
     ease = min(max(2.0 * width - 1.0, 0.0), 1.0)
-    return taps, 0.0 if width < 1.0 else max(math.log2(width) - _SHARPNESS, 0.0), ease
+    return taps, 0.0 if width <= _FINEST else max(math.log2(width) - _SHARPNESS, 0.0), ease
 
 
 @jit(error_model="numpy")
