@@ -16,7 +16,8 @@ from .worker import Outcome, Worker, readers
 KEPT = 40
 OUTCOMES = Path(__file__).with_name("outcomes.txt")
 OF_LIBRARIES = ("video", "images", "stored video", "motion .exr", "pixel mask .png",
-                "option prompt", "events hdf5", "events dsec", "events event-utils", "events prophesee-hdf5",
+                "option prompt", "events hdf5", "events dsec", "events event-utils",
+                "events prophesee-hdf5",
                 "events v2e", "events timelens", "events esim", "events parquet", "frames dsec",
                 "weights pickle", "events rosbag2")  # fmt: skip
 

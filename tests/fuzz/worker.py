@@ -30,6 +30,7 @@ from .array_damage import CODE_RAN
 from .damage import damage_input, nudge_input
 from .event_readers import event_readers
 from .frame_readers import frame_readers
+from .lab_readers import lab_readers
 from .motion_readers import motion_readers
 from .reader import Reader, digest
 from .text_readers import text_readers
@@ -51,7 +52,7 @@ BAD = ("several lines", "too long", "traceback", "hang", "blow-up", "signal", "c
 def readers() -> dict[str, Reader]:
     """Name → reader."""
     pictures = [*frame_readers(), *motion_readers()]
-    found = [*event_readers(), *pictures, *text_readers()]
+    found = [*event_readers(), *pictures, *text_readers(), *lab_readers()]
     return {reader.name: reader for reader in found}
 
 
