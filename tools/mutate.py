@@ -29,7 +29,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tools.wrong_changes import PACKAGES, Change, draw, file_of, near_tests, source_path
+from tools.wrong_changes import PACKAGES, Change, draw, file_of, near_tests, source_path, wide_tests
 
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "tools" / "mutations.toml"
@@ -41,7 +41,7 @@ PATIENCE_S, TEST_PATIENCE_S = 4 * 3600, 1200
 """Tests, or one test, that run for longer hang, which is noticed."""
 NOTICED, SURVIVED = "noticed", "SURVIVED"
 BRIEF = ("--brief", "--hypothesis-profile", "brief")
-NEAR, WHOLE = "near tests in brief", "the whole suite"
+NEAR, WHOLE = "near tests in brief and tables", "the whole suite"
 """Tests that judged a drawn change."""
 NOT_RUN = (3, 4, 5)
 """Exit codes of pytest where it judged nothing: an error of its own, of its words, no tests."""
@@ -150,20 +150,26 @@ def judge(tree: Path, mutation: Mutation) -> str:
 
 
 def judge_drawn(tree: Path, change: Change, failing: set[str]) -> tuple[str, str]:
-    """Whether the tests near a change notice it in a brief run, and which one does.
+    """Whether the tests near a change notice it in a brief run, or those of all tables; and which.
 
     A test that fails without the change too is added to `failing` and judges nothing.
     """
     path, near = tree / source_path(change.file), near_tests(change.file, tree)
     # Tests of the laboratory alone do not read the file that defines the option.
     brief = () if all(one.startswith(LAB.name) for one in near) else BRIEF
+    wide = wide_tests(change.file, tree)
+    runs: list[tuple[list[str], tuple[str, ...]]] = [(near, brief), *([(wide, ())] if wide else [])]
     while True:
-        tests = [*near, *(f"--deselect={one}" for one in failing)]
+        tests, options = runs[0]
+        tests = [*tests, *(f"--deselect={one}" for one in failing)]
         with changed(path, change.applied(path.read_text("utf-8"))):
-            verdict, noticing = run_tests(tree, tests, until=("-x", *brief))
-        if verdict == SURVIVED or not noticing or run_tests(tree, noticing)[0] == SURVIVED:
+            verdict, noticing = run_tests(tree, tests, until=("-x", *options))
+        if verdict == SURVIVED and runs[1:]:
+            del runs[0]
+        elif verdict == SURVIVED or not noticing or run_tests(tree, noticing)[0] == SURVIVED:
             return verdict, noticing[0] if noticing else NO_TEST
-        failing.update(noticing)
+        else:
+            failing.update(noticing)
 
 
 def judge_together(

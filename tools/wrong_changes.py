@@ -20,8 +20,11 @@ SOURCES = Path("src", "texvent")
 SCENES, LAB = "texvent_scenes", "texvent_lab"
 PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), "lab/tests")}
 """The packages beside it: the folder that holds each, and its tests."""
-FIRST_OF_SCENES = "tests/scenes/golden/test_golden_scenes.py"
-"""Of every file of `SCENES`, before those that are near it: it looks at all rows in seconds."""
+WIDE = {
+    "": ("tests/bounds/test_bounds.py", "tests/fuzz/test_fuzz.py"),
+    SCENES: ("tests/scenes/golden/test_golden_scenes.py",),
+}
+"""Files of tests of all rows of tables: of every file, and of those of a package."""
 MOST_TESTS = 14
 """Files of tests that are near a change: the whole suite judges what these let pass."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
@@ -365,6 +368,10 @@ def near_tests(file: str, root: Path) -> list[str]:
     for one in importing:
         if _is_source(one):
             chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
-    if inner.parts[0] == SCENES and (root / FIRST_OF_SCENES).exists():
-        chosen.insert(0, Path(FIRST_OF_SCENES))
     return [*dict.fromkeys(map(Path.as_posix, chosen))][:MOST_TESTS]
+
+
+def wide_tests(file: str, root: Path) -> list[str]:
+    """Files of tests of all rows of tables, which import what they look at by its name."""
+    chosen = (one for package in ("", Path(file).parts[0]) for one in WIDE.get(package, ()))
+    return [one for one in chosen if (root / one).exists()]

@@ -11,6 +11,7 @@ that must be given is known here.
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import inspect
 import itertools
 import math
@@ -87,7 +88,7 @@ def choices(hint: Any) -> tuple[Any, ...]:
 def records() -> Iterator[type]:
     """Classes that check their fields, in order of their names."""
     found = set()
-    for package in map(importlib.import_module, PACKAGES):
+    for package in map(importlib.import_module, filter(importlib.util.find_spec, PACKAGES)):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.", str):
             if module.name.endswith("__main__"):
                 continue

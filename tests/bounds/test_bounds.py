@@ -2,6 +2,7 @@
 
 import importlib
 import math
+import re
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -9,6 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.bounds.bounds import Record, last_taken, lines_of, stored_table, table
+from tests.bounds.words import SETTLED, stored_lines
+from tests.bounds.words import lines_of as lines_of_words
 
 from texvent.errors import ConfigError
 
@@ -21,6 +24,32 @@ def test_every_record_takes_what_it_took():
             importlib.import_module(name.rpartition(".")[0])
     others = {name: {*lines} ^ {*stored.get(name, ())} for name, lines in found.items()}
     assert {name: lines for name, lines in others.items() if lines} == {}
+
+
+STATED = re.compile(r"it must be (?:at least )?([-+\d.e]+?)(?:\.\.([-+\d.e]+))?(?: [^,]*)?$")
+
+
+def test_what_is_said_of_a_bound_is_what_is_taken():
+    count = 0
+    for line in (one for lines in stored_table().values() for one in lines):
+        taken, *said = line.split(" | ")
+        stated = {one.groups() if (one := STATED.search(each)) else () for each in said}
+        name, _, bounds = taken.partition(": ")
+        bounds = bounds.split(" .. ")
+        if not bounds[1:] or len(stated) != 1 or not all(f"{name} is " in one for one in said):
+            continue
+        for bound, words in zip(bounds, *stated, strict=False):
+            assert words is None or float(bound) == pytest.approx(float(words), 1e-5), line
+            count += 1
+    assert count > 200
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("command", SETTLED)
+def test_odd_words_of_options_meet_the_errors_that_they_met(command, tmp_path):
+    """`python -m tests.bounds.words` writes them anew."""
+    stored = [one for one in stored_lines() if re.match(rf"{re.escape(command)} --[\w-]+:", one)]
+    assert [*lines_of_words(command, tmp_path)] == stored
 
 
 @given(data=st.data(), kind=st.sampled_from([int, float, Fraction]))

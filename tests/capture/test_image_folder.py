@@ -233,6 +233,12 @@ def test_white_of_a_pgm_is_what_its_header_says(tmp_path, kind, white):
         assert levels(tmp_path, white_level=white) == [255, 255]
 
 
+def test_what_follows_white_in_a_damaged_pgm_is_no_part_of_it(tmp_path):
+    for number in range(2):
+        (tmp_path / f"{number}.pgm").write_bytes(b"P5\n6 4\n255\xff\xff" + bytes([100]) * 24)
+    assert levels(tmp_path)
+
+
 def test_transparent_pixels_that_a_tiff_reader_darkens_are_refused(tmp_path):
     for number in range(2):
         Image.new("RGBA", (6, 4), (200, 20, 10, 128)).save(tmp_path / f"{number}.tif")

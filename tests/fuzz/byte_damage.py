@@ -85,6 +85,14 @@ def insert_hostile_bytes(rng: random.Random, content: bytes) -> bytes:
     return content[:start] + odd + content[start:]
 
 
+def nudge_byte(rng: random.Random, content: bytes) -> bytes:
+    """Make one byte one more or one less, every other time of the first 200."""
+    if not content:
+        return content
+    at, by = rng.randrange(rng.choice((min(200, len(content)), len(content)))), rng.choice((1, 255))
+    return content[:at] + bytes([(content[at] + by) % 256]) + content[at + 1 :]
+
+
 def _range(rng: random.Random, content: bytes, most: int = 10_000) -> tuple[int, int]:
     start = rng.randrange(len(content) + 1)
     return start, min(len(content), start + rng.randint(1, most))

@@ -11,9 +11,9 @@ from pathlib import Path
 import h5py
 
 from .array_damage import damage_archive, damage_npy, raw_pickle
-from .byte_damage import BYTE_DAMAGE
+from .byte_damage import BYTE_DAMAGE, nudge_byte
 from .hdf5_damage import damage_hdf5
-from .text_damage import TEXT_DAMAGE, yaml_bomb
+from .text_damage import TEXT_DAMAGE, nudge_number, yaml_bomb
 
 TEXT = frozenset((".json", ".jsonl", ".toml", ".yaml", ".yml", ".csv", ".txt"))
 ARCHIVES = frozenset((".npz", ".zip"))
@@ -24,6 +24,14 @@ def damage_input(rng: random.Random, folder: Path) -> str:
     """Damage one file below a folder; returns what was done, for the report."""
     path = rng.choice(sorted(one for one in folder.rglob("*") if one.is_file()))
     return f"{path.name}: {_damage_file(rng, path)}"
+
+
+def nudge_input(rng: random.Random, folder: Path) -> str:
+    """Change one number or byte of a file a little, as bounds are met; returns what was done."""
+    path = rng.choice(sorted(one for one in folder.rglob("*") if one.is_file()))
+    nudge = nudge_number if path.suffix.lower() in TEXT else nudge_byte
+    path.write_bytes(nudge(rng, path.read_bytes()))
+    return f"{path.name}: {nudge.__name__}"
 
 
 def _damage_file(rng: random.Random, path: Path) -> str:

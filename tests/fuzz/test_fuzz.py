@@ -1,4 +1,4 @@
-"""Damaged inputs for every reader: a fixed sample, or as many as $FUZZ_INPUTS says."""
+"""Damaged inputs for every reader: those of `outcomes.txt`, or as many as $FUZZ_INPUTS says."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import InputError
+from texvent.errors import InputError, TexventWarning
 
+from .outcomes import mark, stored_outcomes
 from .reader import Reader
 from .worker import BAD, LONGEST_ERROR, Worker, outcome_of, readers
 
 INPUTS = int(os.environ.get("FUZZ_INPUTS", "4"))
+STORED = stored_outcomes()
 FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
 """FORMAT/FILE: what was found once, or made by hand, is refused for ever."""
 
@@ -27,10 +29,12 @@ def worker() -> Iterator[Worker]:
 
 @pytest.mark.parametrize("name", readers())
 def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: str) -> None:
-    outcomes = [worker.one(name, number) for number in range(INPUTS)]
+    marks = STORED.get(name, [])
+    outcomes = [worker.one(name, number) for number in range(max(INPUTS, len(marks)))]
     if outcomes[0].kind == "not run":
         pytest.skip(outcomes[0].detail)
     assert [(number, one) for number, one in enumerate(outcomes) if one.kind in BAD] == []
+    assert [mark(one) for one in outcomes[: len(marks)]] == marks
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: f"{path.parent.name}-{path.name}")
@@ -45,6 +49,7 @@ def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
         ("same", lambda path: "sound"),
         ("changed", lambda path: "other"),
         ("refused", lambda path: open_nothing(InputError(f"{path}: no"))),
+        ("warned", lambda path: open_nothing(TexventWarning("no"))),
         ("too long", lambda path: open_nothing(InputError("x" * LONGEST_ERROR))),
         ("traceback", lambda path: open_nothing(KeyError("x"))),
         ("blow-up", lambda path: open_nothing(MemoryError())),

@@ -118,6 +118,18 @@ def yaml_bomb(rng: random.Random, content: bytes) -> bytes:
     return b"\n".join([*lines, name + b": *a%d" % (steps - 1), b""])
 
 
+def nudge_number(rng: random.Random, content: bytes) -> bytes:
+    """Replace one number by one near it, by its opposite, by none or by two."""
+    numbers = [*re.finditer(rb"\d+(\.\d+)?", content)]
+    if not numbers:
+        return content
+    number = rng.choice(numbers)
+    digits, whole = number[0], int(number[0].split(b".")[0])
+    near = (b"%d" % (whole + 1), b"%d" % max(0, whole - 1), b"-" + digits, b"0", b"",
+            digits + b"," + digits, digits + b".5", b"%d" % (2 * whole))  # fmt: skip
+    return content[: number.start()] + rng.choice(near) + content[number.end() :]
+
+
 TEXT_DAMAGE: tuple[Damage, ...] = (
     replace_token,
     replace_token,

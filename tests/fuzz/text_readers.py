@@ -157,7 +157,7 @@ def _read_labels(name: str, path: Path) -> str:
 
 
 def _read_list(path: Path) -> str:
-    return repr(read_list(path))[:1000]
+    return repr(read_list(path)).replace(str(path.parent), "")[:1000]
 
 
 def _make_mask(ending: str, folder: Path) -> Path:

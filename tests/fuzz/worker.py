@@ -24,14 +24,15 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import MissingDependencyError, TexventError
+from texvent.errors import MissingDependencyError, TexventError, TexventWarning
 
 from .array_damage import CODE_RAN
-from .damage import damage_input
+from .damage import damage_input, nudge_input
 from .event_readers import event_readers
 from .frame_readers import frame_readers
+from .lab_readers import lab_readers
 from .motion_readers import motion_readers
-from .reader import Reader
+from .reader import Reader, digest
 from .text_readers import text_readers
 
 PREPARE_SECONDS = 120.0
@@ -44,14 +45,14 @@ LONGEST_ERROR = 300
 """Characters of an error, its path left out."""
 BAD = ("several lines", "too long", "traceback", "hang", "blow-up", "signal", "code ran")
 """Outcomes that must never be. Others: "same" and "changed" (read, with which content), "refused"
-(one line of error), "not run" (a package is missing)."""
+(one line of error), "warned", "not run" (a package is missing)."""
 
 
 @functools.cache
 def readers() -> dict[str, Reader]:
     """Name → reader."""
     pictures = [*frame_readers(), *motion_readers()]
-    found = [*event_readers(), *pictures, *text_readers()]
+    found = [*event_readers(), *pictures, *text_readers(), *lab_readers()]
     return {reader.name: reader for reader in found}
 
 
@@ -149,7 +150,8 @@ def _answer(
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(place, copy)
     if finding is None:
-        damage = damage_input(random.Random(f"{reader.name} {number}"), copy)
+        change = nudge_input if number % 2 else damage_input
+        damage = change(random.Random(f"{reader.name} {number}"), copy)
     else:
         shutil.copy(finding, copy / relative)
         damage = f"finding {finding.name}"
@@ -179,11 +181,13 @@ def outcome_of(reader: Reader, path: Path, sound: Any) -> Outcome:
         bare = message.replace(f"{path}", "").replace(f"{path.parent}", "")
         kind = "refused" if len(bare) < LONGEST_ERROR else "too long"
         return Outcome("several lines" if "\n" in message else kind, bare[:700])
+    except TexventWarning:
+        return Outcome("warned")
     except MemoryError:
         return Outcome("blow-up", traceback.format_exc(limit=-4))
     except Exception:  # noqa: BLE001  # any other error is what is looked for
         return Outcome("traceback", traceback.format_exc(limit=-4))
-    return Outcome("same" if found == sound else "changed")
+    return Outcome("same") if found == sound else Outcome("changed", digest([found])[:8])
 
 
 def _memory(field: str) -> int:

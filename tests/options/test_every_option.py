@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -20,11 +19,8 @@ from tests.options.outcomes import (
 from tests.options.runs_of_commands import run_once
 from tests.options.tries import COMMANDS_TRIED, SERVED, Try
 
-from texvent._registry import FILTERS
 from texvent.cli.app import own_commands
 from texvent.cli.dataset.dataset import STEPS
-from texvent.errors import TexventError
-from texvent.options.values import make_part
 
 RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()
 ALL_RANGES, BEYOND = "\n".join(RANGES), 10**30
@@ -121,32 +117,3 @@ def test_options_of_a_command_are_taken_up_to_their_bounds_and_no_further(comman
                 if not said or (f"must be {stated}" in said) == is_allowed:
                     wrong.append(f"{flag}={number!r}: {said}")
     assert not wrong, "\n".join(wrong)
-
-
-def refusal(text: str) -> str:
-    """Why there is no such filter, if there is none."""
-    try:
-        make_part(FILTERS, text)
-    except TexventError as error:
-        return str(error)
-    return ""
-
-
-def test_options_of_filters_have_the_ranges_of_the_table():
-    found = []
-    for name in FILTERS.builtin:
-        for option in (one.name for one in fields(FILTERS.load(name)) if one.init):
-            said = (refusal(f"{name}:{option}={sign}{BEYOND}") for sign in ("-", ""))
-            if stated := stated_range(*said):
-                found.append(f"{name}:{option}: {stated}")
-    assert found == [one for one in RANGES if one.partition(":")[0] in FILTERS.builtin]
-
-
-@pytest.mark.parametrize(
-    "line", [one for one in RANGES if one.partition(":")[0] in FILTERS.builtin]
-)
-def test_options_of_a_filter_are_taken_up_to_their_bounds_and_no_further(line):
-    option, stated = line.split(": ")
-    is_whole = "whole number" in refusal(f"{option}=1.5")
-    for number, is_allowed in numbers_at_bounds(stated, is_whole=is_whole):
-        assert (f"must be {stated}" in refusal(f"{option}={number!r}")) != is_allowed, number

@@ -63,6 +63,10 @@ from hypothesis import settings
 settings.register_profile("brief")
 def pytest_addoption(parser): parser.addoption("--brief", action="store_true")
 """
+TABLE = """
+from pathlib import Path
+def test_it(): assert Path("lab/src/texvent_lab/run.py").read_text() == "C = 1\\n"
+"""
 
 
 @pytest.fixture
@@ -81,7 +85,8 @@ def tree(tmp_path: Path) -> Path:
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
         "lab/src/texvent_lab/run.py": "C = 1\n",
-        "lab/tests/test_run.py": "",
+        "lab/tests/test_run.py": "def test_it(): pass\n",
+        "tests/bounds/test_bounds.py": TABLE,
         "tests/test_user.py": "from texvent.user import seen\ndef test_it(): assert seen() == 2\n",
     }
     for name, text in files.items():
@@ -117,6 +122,8 @@ def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None
     assert judge_drawn(tree, change, failing) == (NOTICED, by)
     assert failing == {"tests/big/test_other.py::test_that_fails_always"}
     assert judge_drawn(tree, survivor, failing)[0] == SURVIVED
+    far, *_ = changes_of("texvent_lab/run.py", "C = 1\n")
+    assert judge_drawn(tree, far, failing) == (NOTICED, "tests/bounds/test_bounds.py::test_it")
 
 
 @pytest.mark.long

@@ -43,11 +43,6 @@ def test_every_filter_keeps_what_its_rule_says_however_packets_are_cut(
     assert rows_of(filtered) == kept, "each pass begins anew"
 
 
-def test_a_rate_below_an_event_a_window_is_refused() -> None:
-    with pytest.raises(ConfigError, match="give window_us of at least 1000"):
-        stream([]).filter("rate-limit", rate_hz=1e3, window_us=5)
-
-
 @given(st.integers(1, 10**5), st.integers(1, 10**5))
 def test_a_window_holds_whole_events(count: int, window_us: int) -> None:
     """Also where the float nearest to the rate lies below it, as 3 / 700e-6 does."""

@@ -54,6 +54,7 @@ _AXES = re.compile(
 )
 
 
+_NETPBM_HEAD = re.compile(rb"(?P<kind>P[2356])\s+\d+\s+\d+\s+(?P<white>\d{1,9})")
 _IMAGEJ_COUNT = re.compile(rb"ImageJ=[^\0]*?\nimages=(\d{1,9})\b")
 
 
@@ -265,11 +266,10 @@ def _photometric(path: Path) -> int | None:
 def _netpbm_white(path: Path, full: int) -> int:
     """The value of white that a PGM or PPM states, where OpenCV has not scaled by it."""
     with path.open("rb") as file:
-        words = re.sub(rb"#[^\n]*", b"", file.read(HEAD_BYTES)).split(maxsplit=4)
-    is_plain = words[0] in (b"P2", b"P3")
-    if words[0] not in (b"P2", b"P3", b"P5", b"P6") or (is_plain and int(words[3]) <= MAX_BYTE):
-        return full
-    return int(words[3]) or full
+        head = _NETPBM_HEAD.match(re.sub(rb"#[^\n]*", b"", file.read(HEAD_BYTES)))
+    white = int(head["white"]) if head else 0
+    is_scaled = head is not None and head["kind"] in (b"P2", b"P3") and white <= MAX_BYTE
+    return full if is_scaled else white or full
 
 
 def coding_facts(paths: Sequence[Path]) -> dict[str, Any]:

@@ -5,7 +5,9 @@
 `rows.json.gz` holds them. A row is there as soon as it is in its table: nouns with all that they
 do, motions and their tracks, relations, places, lights, effects, camera moves, materials; and a
 third of the sentences of `sentences.txt` as they are staged, which hold what these rows do to each
-other. Places, lights and effects have small pictures, with truth, too.
+other; and those of `reported.txt`, which run most of what reads, stages and checks, with their
+reports and with what holds of their bodies. Places, lights and effects have small pictures, with
+truth, too.
 """
 
 from __future__ import annotations
@@ -22,13 +24,17 @@ from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.scenes.golden.golden import block_means, decided, see, stored_scenes
+from tests.scenes.golden.golden import block_means, decided, read_lines, see, stored_scenes
 from tests.scenes.read.phrases import ENDS, OBJECTS, RELATIONS, SUBJECTS, VERBS
 
+from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent_scenes import read as reader
+from texvent_scenes.checks.relation_rules import RULES
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.words import CHECKS
 from texvent_scenes.defaults import complete, decide_motions
-from texvent_scenes.description import to_description
+from texvent_scenes.description import Claim, report_of, to_description
 from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
@@ -37,6 +43,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, SURFACES, build_tile
 from texvent_scenes.rendered_scene import Texture
+from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_to_data
 from texvent_scenes.spec.scene import (
@@ -50,6 +57,7 @@ from texvent_scenes.spec.scene import (
     Scene,
     SceneObject,
 )
+from texvent_scenes.staged_prompt import stage as stage_prompt
 from texvent_scenes.staging.camera.camera_track import time_moves
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 from texvent_scenes.staging.interactions.perform import ACTS
@@ -65,8 +73,24 @@ MOVING = (Pose(0.31, 0.17, 1.3), Pose(2.9, 11.3, 4.0, "run"), Pose(0.4, 0.0, 0.0
 EMPTY = Place("plain", is_empty=True)
 BODIES = ("car", "man", "dog", "airplane", "ball", "boat")
 DIRECTIONS, MOVE_DIRECTIONS = get_args(spec.Direction), get_args(spec.MoveDirection)
+WITHIN_NORM = 1e-6
+"""What a sum may differ by, of its norm."""
 SMALL, PICTURE = SensorSize(48, 36), "picture"
 WAY = Motion("move", "left"), Motion("move", "right")
+CLAIMED: Mapping[str, tuple[Any, ...]] = {
+    "colour": ("red", "white", "black"),
+    "lit colour": ("red", "green"),
+    "material": ("wood", "metal", "brick"),
+    "relation": ("on", "behind", "towards"),
+    "arrive": ("in", "on"),
+    "row": ("along", "across"),
+    "times": (1, 2, 3),
+    "mutual": ("facing", "towards"),
+    "activity": ("walk", "sit down", "jump", "wave", "open and close"),
+    "ground": (True, False),
+}
+"""Kind of a check → values that are claimed; the others take none."""
+TO_ANOTHER = ("relation", "off", "arrive", "stop before", "mutual", "hold", "sit at")
 SIMPLE = sorted(MOTIONS - set(ACTIVITIES) | {"walk", "run", "jump", "sit", "swim"})
 Marks = dict[str, list[float]]
 
@@ -89,10 +113,18 @@ def numbers(value: Any) -> Iterator[NDArray[Any]]:
 
 
 def mark(*values: Any) -> list[float]:
-    """How many numbers values have, and their sum, in which each has a weight of its own."""
-    found = np.concatenate([np.zeros(1), *numbers(values)])
-    weights = 0.5 + np.modf(np.arange(len(found)) * 0.618034)[0]
-    return [len(found), float(weights @ np.nan_to_num(found, posinf=3.0, neginf=-3.0))]
+    """How many numbers values have, and their norm and their sum, in which each has a weight of its
+    own; signs of weights differ, so that a small change of one number is not lost among many."""
+    found = np.nan_to_num(np.concatenate([np.zeros(1), *numbers(values)]), posinf=3.0, neginf=-3.0)
+    weighted = found * (np.modf(np.arange(len(found)) * 0.618034)[0] - 0.5)
+    sums = float(np.linalg.norm(weighted)), float(weighted.sum())
+    return [len(found), *(float(f"{one:.10g}") for one in sums)]
+
+
+def is_near(found: Sequence[float], before: Sequence[float]) -> bool:
+    """Whether marks are the same but for what may differ between processors: the last bits."""
+    within = WITHIN_NORM * before[1] + 1e-9
+    return found[0] == before[0] and bool(np.allclose(found, before, rtol=0.0, atol=within))
 
 
 @cache
@@ -109,7 +141,9 @@ def mark_noun(noun: Noun) -> Marks:
         acts += sorted(ACTIVITIES) if noun.name == "man" else ["wave"]
     times_s = ACTED_S if acts else ACTED_S[:1]
     poses = [*MOVING, *(Pose(t, 0.6, 0.9, act) for act in ["stand", *acts] for t in times_s)]
+    other = noun.build(colour=(0.2, 0.5, 0.7), scale=1.3, seed=2).parts(MOVING[1])
     return {
+        "another": mark(*((p.shape, p.colour, p.second_colour, p.to_body) for p in other)),
         "size": mark(model.length, model.width, model.height),
         "parts": mark(*((p.shape, p.texture, p.texture_scale) for p in model.parts(poses[0]))),
         "paints": mark(*((p.colour, p.second_colour, p.emission) for p in model.parts(poses[0]))),
@@ -157,12 +191,12 @@ def mark_tracks(kind: str) -> Marks:
 
 
 def mark_acts(kind: str) -> Marks:
-    """What a person does with an eighth of all things, and with those of which a trait says how."""
+    """What a person does with some things, and with those of which a trait says how."""
     traits = ("held as a tool", "held upright", "held up high", "held hanging", "worn")
     special = {_one_of(sorted(nouns_with(one)), kind, step) for one in traits for step in (0, 1)}
     found = {}
     for name in NOUNS:
-        if name in special or crc32(f"{kind} {name}".encode()) % 8 == 0:
+        if name in special or crc32(f"{kind} {name}".encode()) % 16 == 0:
             man = SceneObject("man", relations=(Relation(kind, (name,)),))
             man = replace(man, motions=_one_of(((), (Motion("walk"),), WAY), f"{name} {kind}"))
             staged = stage(Scene(objects=(man, SceneObject(name)), place=EMPTY))
@@ -277,6 +311,38 @@ def mark_sentence(sentence: str) -> Marks:
     } | {"said": mark(*staged.not_shown, *staged.notes, *staged.camera_path.notes)}
 
 
+def _claims(clip: StagedClip) -> Iterator[bool]:
+    """Whether each check holds of each body, and of the next one."""
+    objects = [n for n, _ in enumerate(clip.description.objects) if clip.list_actors(n)][:3]
+    for subject, target in zip(objects, [*objects[1:], *objects[:1]], strict=True):
+        for kind, check in CHECKS.items():
+            for value in CLAIMED.get(kind, ("",)):
+                if subject != target or kind not in TO_ANOTHER:
+                    yield check(clip, Claim("", kind, value, subject, (target,)))
+
+
+def mark_report(sentence: str) -> Marks:
+    """A sentence read and staged, its report, and all that may be claimed of its bodies."""
+    nouns, size, duration_s = list_nouns(), _one_of((SIZE, SMALL), sentence), 1.0
+    try:
+        description = understand(sentence, nouns)
+    except (ConfigError, InputError) as error:
+        return {"refused": mark(str(error))}
+    said = report_of(description)
+    staged, report, _ = stage_prompt(
+        description, said, nouns, seed=SEED, size=size, duration_s=duration_s
+    )
+    clip = StagedClip(staged, description, size, duration_s)
+    pairs = [*itertools.permutations(itertools.chain(*clip.boxes), 2)][:30]
+    return {name: mark(one) for name, one in vars(report).items()} | {
+        "relations": mark(*(rule(*pair) for rule in RULES.values() for pair in pairs)),
+        "claims": mark(*_claims(clip)),
+        "shapes": mark(*map(staged.primitives, INSTANTS_S)),
+        "camera": mark(*map(staged.camera, INSTANTS_S)),
+        "environment": mark(*map(staged.environment, INSTANTS_S)),
+    }
+
+
 def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
     """Name of each row, and its marks."""
     yield "camera moves", mark_moves
@@ -297,6 +363,8 @@ def rows() -> Iterator[tuple[str, Callable[[], Marks]]]:
         yield f"scene: {name}", partial(mark_seen, scene)
     for sentence in list(stored_scenes())[::3]:
         yield f"sentence: {sentence}", partial(mark_sentence, sentence)
+    for sentence in read_lines("reported.txt"):
+        yield f"report: {sentence}", partial(mark_report, sentence)
 
 
 def stored_sums() -> Mapping[str, Marks]:

@@ -79,6 +79,7 @@ class AlignOptions:
         check_range("images", self.images, 1, 64)
         check_range("events_per_image", self.events_per_image, 1)
         check_range("least_similarity", self.least_similarity, -2, 2)
+        check_range("seed", self.seed, 0, 2**63 - 1)
 
     def sources(self) -> dict[str, list[TextRecording]]:
         """The recordings by source.

@@ -204,6 +204,7 @@ class SampleOptions(StoredOptions):
 
     def __post_init__(self) -> None:
         check_range("count", self.count, 1, 1000)
+        check_range("seed", self.seed, 0, 2**63 - 1)
 
 
 def run_sample(arguments: Sequence[str]) -> int:

@@ -218,7 +218,10 @@ class DigitsPlan:
         for way in self.ways:
             if way not in WAYS:
                 raise ConfigError(f"unknown way {shown(way)}; {suggest(way, WAYS)}")
+        check_range("pairs", self.pairs, 1, 9990)
         check_range("digits", self.digits, 10, 10_000 - self.pairs)
+        check_range("recorded", self.recorded, 1, 60_000)
+        check_range("folds", self.folds, 2, self.recorded)
         check_range("seeds", self.seeds, 1, 1000)
         if not self.cells:
             raise ConfigError("there is nothing to simulate; name an arm and a way that it has")

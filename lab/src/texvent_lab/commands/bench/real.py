@@ -100,6 +100,8 @@ class RealOptions:
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
         check_range("seconds", self.seconds, 0.5)
+        check_range("frames_gamma", self.frames_gamma, 0.1, 10.0)
+        check_range("jobs", self.jobs, 1, 256)
 
 
 def run(arguments: Sequence[str]) -> None:

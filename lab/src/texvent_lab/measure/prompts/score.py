@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import InputError, shown
+from texvent.errors import InputError, one_line, shown
 from texvent.io.atomic import atomic_file
 from texvent_lab.bench.document import markdown_table
 
@@ -184,6 +184,10 @@ def read_csv(path: Path, columns: Sequence[str]) -> list[dict[str, Any]]:
             rows: list[dict[str, Any]] = list(csv.DictReader(file))
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise InputError(
+            f"{path} is no table in UTF-8 ({one_line(error)}); save it as CSV in UTF-8"
+        ) from error
     missing = [name for name in columns if not rows or name not in rows[0]]
     if missing:
         raise InputError(f"{path} needs the columns {', '.join(columns)}, and at least one row")
