@@ -43,7 +43,7 @@ camera goes along, and at least; and by how much a passage must raise it."""
 _WIDTHS_PER_S, _FILLED = 1.0, 0.75
 """Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
 in which the subject moves."""
-_STREET, _ALONE = (0.25, 0.06), (0.3, 0.1)
+_STREET, _ALONE = (0.25, 0.06), (0.3, 0.13)
 """Greatest speed of traffic in the picture of a camera that stays, widths per second, as the cars
 of a recorded street have, and length in widths that each of it has in spite of that: where several
 are on a road, and one alone, which is the subject."""
