@@ -181,7 +181,7 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
 
 
 def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
-    """What can be worn, and what cannot: "with glasses and a boy"."""
+    """Things that can be worn, and others: "with glasses and a boy"."""
     worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
     parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
     return [*filter(None, parts)]

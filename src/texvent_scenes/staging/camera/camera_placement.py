@@ -43,10 +43,9 @@ camera goes along, and at least; and by how much a passage must raise it."""
 _WIDTHS_PER_S, _FILLED = 1.0, 0.75
 """Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
 in which the subject moves."""
-_STREET, _ALONE = (0.25, 0.06), (0.3, 0.13)
+_TRAFFIC_WIDTHS_PER_S, _LEAST_LENGTH = 0.25, 0.06
 """Greatest speed of traffic in the picture of a camera that stays, widths per second, as the cars
-of a recorded street have, and length in widths that each of it has in spite of that: where several
-are on a road, and one alone, which is the subject."""
+of a recorded street have; and length in widths that each of it has in spite of that."""
 _STREET_AZIMUTH, _STREET_ELEVATION = 0.35, 0.24
 """Angles from which a street is seen as from a mast or a window: how much more along it, and from
 above, rad."""
@@ -168,7 +167,7 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
 
 
 def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTrack:
-    """The path of a camera that stays, from where those on a road pass as in a street scene.
+    """The path of a camera that stays, from where several on a road pass as in a street scene.
 
     How far away that is hangs on their speed, and not on the length of the clip.
     """
@@ -177,11 +176,10 @@ def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTr
     moves = [one for one in path.moves if one.move.kind != "static"]
     shot = shooting.description.camera
     is_near = shot.framing in ("close", "medium")
-    if not is_about or is_near or path.tie is not None or moves:
+    if len(traffic) < 2 or not is_about or is_near or path.tie is not None or moves:
         return path
-    is_alone = len(traffic) == 1
     framing, times = path.framing, np.linspace(*path.framed_s, INSTANTS)
-    is_free = shot.view is None and not shooting.description.relations and not is_alone
+    is_free = shot.view is None and not shooting.description.relations
     if is_free and not goes_in_depth(main):
         azimuth = min(abs(framing.azimuth) + _STREET_AZIMUTH, ALONG_IT)
         framing = replace(framing, azimuth=math.copysign(azimuth, framing.azimuth),
@@ -190,8 +188,7 @@ def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTr
     across = np.array([[one.corners(float(time)) @ right for time in times] for one in traffic])
     speed_m_s = np.abs(np.diff(across.mean(axis=2), axis=1)).max() / (times[1] - times[0])
     length_m = np.ptp(across, axis=2).min()
-    widths_per_s, least_length = _ALONE if is_alone else _STREET
-    width_m = float(min(speed_m_s / widths_per_s, length_m / least_length))
+    width_m = float(min(speed_m_s / _TRAFFIC_WIDTHS_PER_S, length_m / _LEAST_LENGTH))
     distance_m = max(framing.distance_m, framing.focal * width_m)
     return replace(path, framing=replace(framing, distance_m=distance_m))
 
