@@ -20,6 +20,7 @@ from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
     find_undone,
+    find_unhurried,
     list_departures,
     list_hidden,
 )
@@ -217,6 +218,7 @@ def _find_unrealised(
             yield one
     yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     yield from find_airborne_meals(description, scene, times)
+    yield from find_unhurried(description, scene.actors, times)
     yield from find_wet_and_dry(scene, description, duration_s)
     yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 
