@@ -43,7 +43,7 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
-from texvent_scenes.staging.particles.choose import FALLING
+from texvent_scenes.staging.particles.choose import FALLING, Staged
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
@@ -280,12 +280,7 @@ def _find_unshown(
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
     yield from _find_rest(scene, description, times)
-    turning = [one for one in description.objects
-               if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
-    is_still = turning and not description.camera.is_moving
-    if is_still and not any(_differs(scene, scene, times, later_s) for later_s in _LATER_S):
-        line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
-        yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
+    yield from _find_unturned(scene, description, times)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     first = next(one for one in alike if one.surface is place.surface)
     is_common = place.surface in _FLOORS or place.ground is Ground.CITY
@@ -299,6 +294,23 @@ def _find_unshown(
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
     yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
+
+
+def _find_unturned(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
+    path = replace(scene.camera_path, moves=(), tie=None)
+    for index, one in enumerate(description.objects):
+        own = tuple(actor for actor in scene.actors if actor.object_index == index)
+        kind = one.motion.kind if one.motion and not one.motions[1:] else ""
+        if kind not in _TURNS or not own:
+            continue
+        alone = replace(scene, actors=own, still=assemble([]), particles=Staged(()))
+        alone = alone if path.journey else replace(alone, camera_path=path)
+        if not any(_differs(alone, alone, times, later_s) for later_s in _LATER_S):
+            line = f"the {one.noun}'s turning: it looks the same from all sides"
+            yield Violation("motion", kind, line)
 
 
 def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:
