@@ -30,7 +30,7 @@ from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
@@ -79,6 +79,8 @@ _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
 _TURNS = ("spin", "work", "rotate")
 """Motions that only a picture tells."""
+_CARRIED = ("stand", "orbit")
+"""Motions of a mark that turns with what it is on."""
 _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
@@ -302,7 +304,10 @@ def _find_unturned(
     """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
     path = replace(scene.camera_path, moves=(), tie=None)
     for index, one in enumerate(description.objects):
-        own = tuple(actor for actor in scene.actors if actor.object_index == index)
+        marks = {each.subject for each in description.relations
+                 if each.kind == "on" and index in each.targets
+                 and (description.objects[each.subject].motion or STANDING).kind in _CARRIED}  # fmt: skip
+        own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
         kind = one.motion.kind if one.motion and not one.motions[1:] else ""
         if kind not in _TURNS or not own:
             continue

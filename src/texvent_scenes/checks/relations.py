@@ -31,7 +31,7 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
-            "on a seat", "facing")  # fmt: skip
+            "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _TOGETHER = ("behind", "front", "front of what drives", "beside", "going beside")
@@ -135,7 +135,7 @@ def _rule_on(who: SceneObject, what: SceneObject) -> str:
         return "never"  # who writes there has a pad in hand
     if hangs_on(who.noun, what.noun):
         return "hung"
-    return "in" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
+    return "on a face" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
 
 
 def _go_on_foot(one: SceneObject) -> bool:
