@@ -39,6 +39,8 @@ _PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _ROW = 4
 """Targets from which on they are a row, of which it passes some."""
+_BY = ("at", "to", "towards")
+"""Words for "beside" of what one is alongside, such as a pier."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
 _MOST_COPIES = 0.75
@@ -86,6 +88,9 @@ def find_violations(
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
+            is_alongside = description.objects[one.targets[0]].noun in nouns_with("alongside")
+            for word in _BY if one.kind == "beside" and is_alongside else ():
+                yield Violation("relation", word, "")
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):

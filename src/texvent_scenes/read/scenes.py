@@ -143,8 +143,9 @@ class _SentenceReader(ThingReader):
             lose_ways(self._draft, clause.after, has_subject=is_known)
         for index in subjects if clause.about == "where" and where else ():
             relate_one(self._draft, self._draft.place_by(where[0]), index, where)
-        if clause.about == "then":  # others wait until then
-            self._phases += 1
+        is_then = clause.about == "then"
+        self._phases += is_then
+        if is_then or (self._phases and self._is_joined(clause)):  # others wait until then
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
                 motions[:0] = [{"kind": "stand"} for _ in range(self._phases if motions else 0)]
 
@@ -281,6 +282,13 @@ class _SentenceReader(ThingReader):
         if is_open and not clause.about:
             return []  # "as wugs dax against it"
         return self._nearest if clause.about == "nearest" else self._find_meant(clause)
+
+    def _is_joined(self, clause: Clause) -> bool:
+        """Whether "and" joins a clause with a subject to the one before: "and a dog runs"."""
+        head = clause.subjects[0].head if clause.subjects else None
+        before = self._draft.tokens[: head.at] if head is not None else ()
+        ends = (one for one in reversed(before) if one.is_sign or one.text == "and")
+        return next(ends, NO_TOKEN).text == "and"
 
     def _find_listed(self, groups: Sequence[Group]) -> list[int]:
         """Objects of a list that all do what follows: "with cars and dogs running"."""

@@ -14,6 +14,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -108,7 +109,7 @@ class ObjectPlacer:
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         self.not_shown = [
-            f"the {objects[n].noun} (nobody has it and nothing carries it: say who or where)"
+            f"the {objects[n].noun} ({self._why_left_out(objects[n].noun)})"
             for n in sorted(self.orphans)
         ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
@@ -118,6 +119,12 @@ class ObjectPlacer:
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
         return perform_acts(self._description, actors, self._duration_s)
+
+    @staticmethod
+    def _why_left_out(noun: str) -> str:
+        if noun in nouns_with("larger than a room"):
+            return "it is larger than the room: say another place, or smoke, steam or dust"
+        return "nobody has it and nothing carries it: say who or where"
 
     def build_group(self, index: int) -> ObjectGroup:
         """An object's copies in formation about (0, 0)."""
