@@ -305,8 +305,8 @@ def _find_unturned(
     path = replace(scene.camera_path, moves=(), tie=None)
     for index, one in enumerate(description.objects):
         marks = {each.subject for each in description.relations
-                 if each.kind == "on" and index in each.targets
-                 and (description.objects[each.subject].motion or STANDING).kind in _CARRIED}  # fmt: skip
+                 if each.kind == "on" and index in each.targets and
+                 (description.objects[each.subject].motion or STANDING).kind in _CARRIED}  # fmt: skip
         own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
         kind = one.motion.kind if one.motion and not one.motions[1:] else ""
         if kind not in _TURNS or not own:

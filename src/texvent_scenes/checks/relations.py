@@ -40,7 +40,7 @@ _PASSED_ALL = ("past", "overtake")
 _ROW = 4
 """Targets from which on they are a row, of which it passes some."""
 _BY = ("at", "to", "towards")
-"""Words for "beside" of what one is alongside, such as a pier."""
+"""Words for "beside" of what one cannot be at otherwise, such as a pier."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
 _MOST_COPIES = 0.75
@@ -88,9 +88,7 @@ def find_violations(
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
-            is_alongside = description.objects[one.targets[0]].noun in nouns_with("alongside")
-            for word in _BY if one.kind == "beside" and is_alongside else ():
-                yield Violation("relation", word, "")
+            yield from _list_read_as(one.kind, description)
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
@@ -105,6 +103,14 @@ def find_violations(
             if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
+
+
+def _list_read_as(kind: str, description: SceneDescription) -> Iterator[Violation]:
+    """Other words that are read as a kind of relation, if nothing else is said by them."""
+    said = {one.kind for one in description.relations}
+    for word in _BY if kind == "beside" else ():
+        if word not in said:
+            yield Violation("relation", word, "")
 
 
 def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:

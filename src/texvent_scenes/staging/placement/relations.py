@@ -144,7 +144,8 @@ def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: 
     group.half = 0.5 * np.array([own.length, own.width, own.height])
     way = np.array([math.cos(target.plan.yaw), math.sin(target.plan.yaw)])
     foremost = float((np.array(group.offsets)[:, :2] @ way).max())
-    return Goal(target.to_world(-1.6 * reach - 0.4 - foremost, 0.0, height - target.centre[2]), _FIXED)
+    back_m = 1.6 * reach + 0.4 + foremost
+    return Goal(target.to_world(-back_m, 0.0, height - target.centre[2]), _FIXED)
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
@@ -230,10 +231,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
-    if hangs_on(group.noun.name, target.noun.name):
-        return _hang_on(group, target, neighbours)
-    if {group.noun.name, target.noun.name} <= nouns_with("flat pattern"):
-        return _put_on_face(group, target)
+    if (on_face := _rest_on_face(group, target, neighbours)) is not None:
+        return on_face
     if target.plan.motion.is_moving:
         group.carrier = target
     if is_person and _sits(group, target):
@@ -258,6 +257,16 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _rest_on_face(
+    group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]
+) -> Float64Array | None:
+    """The middle of what hangs on a wall, or is drawn on a shape, m; None: it rests on a top."""
+    if hangs_on(group.noun.name, target.noun.name):
+        return _hang_on(group, target, neighbours)
+    is_mark = {group.noun.name, target.noun.name} <= nouns_with("flat pattern")
+    return _put_on_face(group, target) if is_mark else None
 
 
 def _put_on_face(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
