@@ -304,9 +304,9 @@ def _find_unturned(
     """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
     path = replace(scene.camera_path, moves=(), tie=None)
     for index, one in enumerate(description.objects):
-        marks = {each.subject for each in description.relations
-                 if each.kind == "on" and index in each.targets and
-                 (description.objects[each.subject].motion or STANDING).kind in _CARRIED}  # fmt: skip
+        on = [each.subject for each in description.relations
+              if each.kind == "on" and index in each.targets]  # fmt: skip
+        marks = {n for n in on if (description.objects[n].motion or STANDING).kind in _CARRIED}
         own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
         kind = one.motion.kind if one.motion and not one.motions[1:] else ""
         if kind not in _TURNS or not own:

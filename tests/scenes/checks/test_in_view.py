@@ -252,6 +252,8 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a bar on a white disc", "on", None),
         ("a black dot on a rotating white disc", "rotating", None),
         ("a black disc spins and a cat walks", "spins", "the disc's turning"),
+        ("two cups collide on a table at high speed", "at high speed", "it is slower"),
+        ("three boys chase a football", "chase", None),
         ("boats rock at a pier", "at", "the boat beside the pier"),
         ("a white cloud rises in a kitchen", "rises", "larger than the room"),
         ("a cyclist overtakes a car on the right", "on the right", "passing on the right"),
