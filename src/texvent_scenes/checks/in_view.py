@@ -57,6 +57,9 @@ LEAST_SEEN = 0.15
 several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
+_REMNANT = 0.004
+"""Share of the image below which an object is hidden too of which less than `LEAST_INSIDE` is
+seen: the end of a pier behind a boat."""
 _PART = 0.03
 """Share of the image from which on climbing what is cut off is seen: the trunk of a tree."""
 _FILLED = (0.1, 0.4)
@@ -193,7 +196,8 @@ def _judge(
     inside = _rank_inside(own, cameras, times, size)
     if most == 0:
         return _Judged("")
-    if max(view.share for view in views) < LEAST_SEEN:
+    share = max(view.share for view in views)
+    if share < LEAST_SEEN or (share < LEAST_INSIDE and most < _REMNANT * area):
         return _Judged(" (hidden)")
     if most < max(LEAST_PIXELS, _LEAST_AREA * area):
         return _Judged(f" ({most} pixel{'s' if most > 1 else ''})", is_small=True)
