@@ -239,7 +239,7 @@ def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
     gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
     extent = np.sqrt(one.size.max(axis=1) * other.size.max(axis=1))
-    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.5 * one.size.max(axis=1)))
+    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.25 * one.size.max(axis=1)))
 
 
 def is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
