@@ -20,6 +20,7 @@ from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
     find_undone,
+    find_unhurried,
     list_departures,
     list_hidden,
 )
@@ -29,7 +30,7 @@ from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
@@ -42,7 +43,7 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
-from texvent_scenes.staging.particles.choose import FALLING
+from texvent_scenes.staging.particles.choose import FALLING, Staged
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
@@ -56,6 +57,9 @@ LEAST_SEEN = 0.15
 several too of which less is inside the image."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
+_REMNANT = 0.004
+"""Share of the image below which an object is hidden too of which less than `LEAST_INSIDE` is
+seen: the end of a pier behind a boat."""
 _PART = 0.03
 """Share of the image from which on climbing what is cut off is seen: the trunk of a tree."""
 _FILLED = (0.1, 0.4)
@@ -78,6 +82,8 @@ _WALLS = (Texture.PLASTER, Texture.CONCRETE)
 """Walls that many rooms have."""
 _TURNS = ("spin", "work", "rotate")
 """Motions that only a picture tells."""
+_CARRIED = ("stand", "orbit")
+"""Motions of a mark that turns with what it is on."""
 _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
@@ -190,7 +196,8 @@ def _judge(
     inside = _rank_inside(own, cameras, times, size)
     if most == 0:
         return _Judged("")
-    if max(view.share for view in views) < LEAST_SEEN:
+    share = max(view.share for view in views)
+    if share < LEAST_SEEN or (share < LEAST_INSIDE and most < _REMNANT * area):
         return _Judged(" (hidden)")
     if most < max(LEAST_PIXELS, _LEAST_AREA * area):
         return _Judged(f" ({most} pixel{'s' if most > 1 else ''})", is_small=True)
@@ -217,6 +224,7 @@ def _find_unrealised(
             yield one
     yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     yield from find_airborne_meals(description, scene, times)
+    yield from find_unhurried(description, scene.actors, times)
     yield from find_wet_and_dry(scene, description, duration_s)
     yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 
@@ -278,12 +286,7 @@ def _find_unshown(
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
     yield from _find_rest(scene, description, times)
-    turning = [one for one in description.objects
-               if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
-    is_still = turning and not description.camera.is_moving
-    if is_still and not any(_differs(scene, scene, times, later_s) for later_s in _LATER_S):
-        line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
-        yield Violation("motion", turning[0].motion.kind if turning[0].motion else "", line)
+    yield from _find_unturned(scene, description, times)
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     first = next(one for one in alike if one.surface is place.surface)
     is_common = place.surface in _FLOORS or place.ground is Ground.CITY
@@ -297,6 +300,26 @@ def _find_unshown(
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
     yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
+
+
+def _find_unturned(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
+    path = replace(scene.camera_path, moves=(), tie=None)
+    for index, one in enumerate(description.objects):
+        on = [each.subject for each in description.relations
+              if each.kind == "on" and index in each.targets]  # fmt: skip
+        marks = {n for n in on if (description.objects[n].motion or STANDING).kind in _CARRIED}
+        own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
+        kind = one.motion.kind if one.motion and not one.motions[1:] else ""
+        if kind not in _TURNS or not own:
+            continue
+        alone = replace(scene, actors=own, still=assemble([]), particles=Staged(()))
+        alone = alone if path.journey else replace(alone, camera_path=path)
+        if not any(_differs(alone, alone, times, later_s) for later_s in _LATER_S):
+            line = f"the {one.noun}'s turning: it looks the same from all sides"
+            yield Violation("motion", kind, line)
 
 
 def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:

@@ -21,7 +21,13 @@ from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
-from texvent_scenes.staging.tracks.phases import GOING, Phase, schedule
+from texvent_scenes.staging.tracks.phases import (
+    GOING,
+    PATH_KINDS,
+    Phase,
+    schedule,
+    usual_speed,
+)
 
 _INSTANTS = 9
 _LEAST_GONE, _LEAST_TURN, _MOST_SEEN = 0.1, 0.25, 0.5
@@ -31,6 +37,8 @@ _ON_GROUND = frozenset({"walk", "run", "drive", "roll", "slide", "crawl"})
 """Motions of which some instant is on the ground."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
+_HURRIED, _STEPS = 0.75, 49
+"""Share of a pace from which on it is reached; instants between which speeds are measured."""
 _TOLD = 4
 """Points of the image from which on a body is no speck."""
 
@@ -65,6 +73,28 @@ def find_undone(
             elif not any(_keeps_direction(one, phase) for one in own):
                 direction = str(phase.motion.direction)
                 yield Violation("direction", direction, f"{line} {direction}")
+
+
+def find_unhurried(
+    description: SceneDescription, actors: Sequence[Actor], times: Sequence[float]
+) -> Iterator[Violation]:
+    """Paces above the usual one that no copy reaches on its way: "at high speed"."""
+    for index, said in enumerate(description.objects):
+        own = [one for one in actors if one.object_index == index and one.track.anchor is None]
+        motion = said.motion
+        if not (own and motion and motion.pace > 1.0) or times[-1] < _LEAST_CLIP_S:
+            continue
+        least_m_s = _HURRIED * motion.pace * usual_speed(own[0].noun, motion.kind)
+        if motion.kind in PATH_KINDS and max(_fastest(one, times) for one in own) < least_m_s:
+            yield Violation("pace", "", f"the {said.noun}'s {motion.kind} at {motion.pace:g} times "
+                            "its usual speed: it is slower")  # fmt: skip
+
+
+def _fastest(one: Actor, times: Sequence[float]) -> float:
+    """Greatest speed of a body, m/s."""
+    fine = np.linspace(times[0], times[-1], _STEPS)
+    steps = np.diff([one.middle(float(at)) for at in fine], axis=0)
+    return float(np.linalg.norm(steps, axis=1).max() / (fine[1] - fine[0]))
 
 
 def find_airborne_meals(

@@ -170,11 +170,17 @@ class _Bodies:
         is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_body &= one.noun.name not in nouns_with("may hang")
+        is_mark = any(
+            relation.kind == "on" and relation.subject == one.object_index
+            and {one.noun.name, self._description.objects[relation.targets[0]].noun}
+            <= nouns_with("flat pattern")
+            for relation in self._description.relations
+        )  # fmt: skip
         is_above = any(relation.kind == "above" and relation.subject == one.object_index
                        for relation in self._description.relations)  # fmt: skip
         return (
             one.noun.habitat in ("ground", "fixed") and one.track.anchor is None
-            and not (is_put or is_free) and (is_body or not is_above)
+            and not (is_put or is_free or is_mark) and (is_body or not is_above)
         )  # fmt: skip
 
     def _list_parts(self, number: int, at: int) -> Float64Array:

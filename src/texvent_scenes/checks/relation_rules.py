@@ -125,6 +125,14 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     return np.asarray((found >= _BORNE) & (_clears(one, other, 0.5) <= room))
 
 
+def _is_on_face(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is within the edge of a flat shape, and touches it."""
+    off, room = np.abs(one.middle - other.middle), 0.5 * (other.size - one.size)
+    is_within = (off <= np.maximum(room, 0.0) + 0.1 * one.size)[:, 2]
+    gap = off - 0.5 * (other.size + one.size)
+    return np.asarray(is_within & (gap[:, :2] <= 0.02).all(axis=1))
+
+
 def _own_box(one: BodyBoxes) -> Float64Array:
     """[t, 1, 2, 3] its box as its only part, of a body that may turn."""
     half = 0.5 * one.size + 0.02
@@ -231,7 +239,7 @@ def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     apart = np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
     gap = np.linalg.norm(np.maximum(apart[:, :2], 0.0), axis=1)
     extent = np.sqrt(one.size.max(axis=1) * other.size.max(axis=1))
-    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.5 * one.size.max(axis=1)))
+    return np.asarray((gap <= 1.5 * extent) & (apart[:, 2] <= 0.25 * one.size.max(axis=1)))
 
 
 def is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
@@ -284,7 +292,7 @@ def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 
 RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
-    "on": _is_on, "under": _is_under, "around": _is_around,
+    "on": _is_on, "on a face": _is_on_face, "under": _is_under, "around": _is_around,
     "overtake": _overtakes, "going beside": _goes_beside,
     "facing": _faces, "sent": _is_sent,
     "past": lambda one, other: _is_passing(one, other, 0.5 * are_still(other)),

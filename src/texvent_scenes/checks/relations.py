@@ -31,7 +31,7 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
-            "on a seat", "facing")  # fmt: skip
+            "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _TOGETHER = ("behind", "front", "front of what drives", "beside", "going beside")
@@ -39,6 +39,8 @@ _PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _ROW = 4
 """Targets from which on they are a row, of which it passes some."""
+_BY = ("at", "to", "towards")
+"""Words for "beside" of what one cannot be at otherwise, such as a pier."""
 _SAID = {"front": "in front of", "follow": "following"}
 """Kinds of relation that a line of the report says in other words."""
 _MOST_COPIES = 0.75
@@ -86,6 +88,7 @@ def find_violations(
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
             yield Violation("relation", one.kind, line if own and others else "")
+            yield from _list_read_as(one.kind, description)
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
@@ -100,6 +103,14 @@ def find_violations(
             if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
                 yield Violation("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
+
+
+def _list_read_as(kind: str, description: SceneDescription) -> Iterator[Violation]:
+    """Other words that are read as a kind of relation, if nothing else is said by them."""
+    said = {one.kind for one in description.relations}
+    for word in _BY if kind == "beside" else ():
+        if word not in said:
+            yield Violation("relation", word, "")
 
 
 def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
@@ -135,7 +146,7 @@ def _rule_on(who: SceneObject, what: SceneObject) -> str:
         return "never"  # who writes there has a pad in hand
     if hangs_on(who.noun, what.noun):
         return "hung"
-    return "in" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
+    return "on a face" if {who.noun, what.noun} <= nouns_with("flat pattern") else "on"
 
 
 def _go_on_foot(one: SceneObject) -> bool:

@@ -176,7 +176,8 @@ class _Parser(GroupReader):
         found, known, end = [first], 1, self._at
         while self._token().text in (",", "and", "or") and self._starts_group(1):
             is_last, group = self._take().text != ",", self._group()
-            if bool(group.article) != bool(first.article) or self._is_verb(Clause((group,))):
+            is_subject = self._is_verb(Clause((group,))) and not self._share_verb((*found, group))
+            if bool(group.article) != bool(first.article) or is_subject:
                 break
             found.append(group)
             known, end = (len(found), self._at) if is_last else (known, end)
@@ -295,11 +296,17 @@ class _Parser(GroupReader):
             self._take()
             group = self._group()
             is_subject = group.article or group.is_plural
+            is_subject = is_subject and not self._share_verb((*found, group))
             if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
                 break
             found.append(group)
         return tuple(found)
+
+    def _share_verb(self, groups: Sequence[Group]) -> bool:
+        """Whether a list of bare plurals does what follows: "with cars and dogs running"."""
+        is_bare = all(one.is_plural and not one.article for one in groups)
+        return is_bare and bool(self._token().verbs("ing"))
 
     def _is_like(self, preposition: Token) -> bool:
         """Whether a preposition is here like the one before, or one with a pronoun."""

@@ -13,7 +13,7 @@ from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import find_move, go_through, is_ego
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
-from texvent_scenes.read.groups import Phrase
+from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
     Token,
@@ -143,8 +143,9 @@ class _SentenceReader(ThingReader):
             lose_ways(self._draft, clause.after, has_subject=is_known)
         for index in subjects if clause.about == "where" and where else ():
             relate_one(self._draft, self._draft.place_by(where[0]), index, where)
-        if clause.about == "then":  # others wait until then
-            self._phases += 1
+        is_then = clause.about == "then"
+        self._phases += is_then
+        if is_then or (self._phases and self._is_joined(clause)):  # others wait until then
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
                 motions[:0] = [{"kind": "stand"} for _ in range(self._phases if motions else 0)]
 
@@ -265,6 +266,8 @@ class _SentenceReader(ThingReader):
         if clause.about == "company":
             if clause.is_of_effect or not all(one and self._draft.shows(one) for one in heads):
                 return []
+            if listed := self._find_listed(clause.subjects):
+                return listed
             both = self._nearest, self._subjects
             able = [[one for one in each if self._is_able(clause, one)] for each in both]
             going = [one for one in self._nearest if self._draft.can_go(one)]
@@ -279,6 +282,23 @@ class _SentenceReader(ThingReader):
         if is_open and not clause.about:
             return []  # "as wugs dax against it"
         return self._nearest if clause.about == "nearest" else self._find_meant(clause)
+
+    def _is_joined(self, clause: Clause) -> bool:
+        """Whether "and" joins a clause with a subject to the one before: "and a dog runs"."""
+        head = clause.subjects[0].head if clause.subjects else None
+        before = self._draft.tokens[: head.at] if head is not None else ()
+        ends = (one for one in reversed(before) if one.is_sign or one.text == "and")
+        return next(ends, NO_TOKEN).text == "and"
+
+    def _find_listed(self, groups: Sequence[Group]) -> list[int]:
+        """Objects of a list that all do what follows: "with cars and dogs running"."""
+        if len(groups) < 2 or not all(one.is_plural and not one.article for one in groups):
+            return []
+        nouns = [one.noun.noun for one in groups if one.noun is not None]
+        last = range(len(self._draft.things))[-len(groups) :]
+        if [self._draft.things[index]["noun"] for index in last] != nouns:
+            return []
+        return [n for n in last if self._nouns[self._draft.things[n]["noun"]].habitat != "fixed"]
 
     def _find_meant(self, clause: Clause) -> list[int]:
         """Objects of the last clause that a pronoun before a verb means: "drops it, it breaks"."""

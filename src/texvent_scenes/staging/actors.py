@@ -86,6 +86,8 @@ class Actor:
     """Props of a person's activity, such as a guitar."""
     goes_across: bool = False
     """Whether it crosses the road."""
+    haste: float = 1.0
+    """Speed at which it runs up to a collision, as a multiple of its usual one."""
     _corners: dict[float, Float64Array] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )

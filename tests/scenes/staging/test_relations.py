@@ -57,6 +57,18 @@ def test_what_fits_is_under_its_target_and_what_does_not_is_beside_it(noun, targ
     assert np.hypot(*(one.middle(0.0) - other.middle(0.0))[:2]) > 0.1
 
 
+@pytest.mark.parametrize(
+    ("noun", "target"), [("bird", "flower"), ("drone", "man"), ("butterfly", "tree")]
+)
+@pytest.mark.parametrize("relation", ["beside", "at", "left of"])
+def test_what_hovers_beside_a_thing_is_as_high_as_it(noun, target, relation):
+    objects = thing(noun, ("hover",)), thing(target, ("stand",))
+    one, other = stage(*objects, relations=((relation, 0, 1),)).actors
+    low, high = (corners[:, 2] for corners in (one.corners(0.0), other.corners(0.0)))
+    assert low.min() > 0.0
+    assert low.min() <= high.max()
+
+
 @pytest.mark.parametrize("relation", ["overtake", "past"])
 def test_a_car_overtakes_a_truck_without_touching_it(relation):
     objects = thing("car", ("drive", "right")), thing("truck", ("drive",))

@@ -127,7 +127,7 @@ def _settle(
         sitting = replace(subject, motions=(Motion("sit"),))
         return sitting, _give_motion(subject, target, nouns)
     if kind == "collide":
-        return replace(subject, motions=()), still
+        return _at_its_pace(subject), _at_its_pace(target)
     if kind in striking.IMPACTS:
         doing = striking.IMPACTS[kind].activity or kind
         return replace(subject, motions=(Motion(doing, to),)), still
@@ -140,6 +140,13 @@ def _settle(
         return subject, still
     size = trait_value("carried size", target.noun) or 1.0
     return subject, replace(still, size=size * target.size)
+
+
+def _at_its_pace(said: SceneObject) -> SceneObject:
+    """What collides, of whose motion only the speed is left: how it moves, the act decides."""
+    motion = said.motion or STANDING
+    kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
+    return replace(said, motions=() if kept == STANDING else (kept,))
 
 
 def _mounted(

@@ -272,9 +272,13 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
 
 
 def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Track:
-    """Along the ground to where it touches, and a little back; on a table from its place there."""
+    """Along the ground to where it touches, and a little back; on a table from its place there.
+
+    It brakes as hard at any speed.
+    """
     length = actor.model.length
-    speed = actor.noun.speed_m_s or length / contact_s
+    haste = max(actor.haste, 1.0)
+    speed = actor.haste * (actor.noun.speed_m_s or length / contact_s)
     if touching[2] > _RAISED_M and actor.noun.habitat in ("ground", "fixed"):
         room_m = math.dist(actor.track.at(0.0).position[:2], touching[:2])
         speed = min(speed, max(room_m, _LEAST_ROOM_M) / contact_s)
@@ -283,7 +287,7 @@ def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Tra
         Key(0.0, speed),
         Key(contact_s, speed),
         Key(0.25, -back, ramp_s=_TURN_ROUND_S),
-        Key(0.6, 0.0, ramp_s=0.6),
+        Key(0.6 * haste, 0.0, ramp_s=0.6 * haste),
         Key(0.1, activity="stand"),
     )
     return Track(ahead(touching, yaw, -speed * contact_s, touching[2]), yaw, keys)

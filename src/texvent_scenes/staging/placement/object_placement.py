@@ -14,6 +14,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -54,6 +55,7 @@ from texvent_scenes.staging.tracks.motion_plan import (
     raised,
     with_heading,
 )
+from texvent_scenes.staging.tracks.phases import haste_of
 from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
@@ -65,6 +67,10 @@ _PASSED = 1.2
 _PACE = 0.4
 """From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
+_HOVERS, _STANDING = ("hover", "float"), ("ground", "fixed")
+_LEVEL, _LEVEL_SHARE = ("beside", "at", "with", "left of", "right of"), 0.75
+"""Motions, habitats and relations of what is in the air next to a thing, at so much of its
+height."""
 _SIDES = {"left": -1.0, "right": 1.0}
 
 
@@ -103,7 +109,7 @@ class ObjectPlacer:
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         self.not_shown = [
-            f"the {objects[n].noun} (nobody has it and nothing carries it: say who or where)"
+            f"the {objects[n].noun} ({self._why_left_out(objects[n].noun)})"
             for n in sorted(self.orphans)
         ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
@@ -113,6 +119,12 @@ class ObjectPlacer:
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
         return perform_acts(self._description, actors, self._duration_s)
+
+    @staticmethod
+    def _why_left_out(noun: str) -> str:
+        if noun in nouns_with("larger than a room"):
+            return "it is larger than the room: say another place, or smoke, steam or dust"
+        return "nobody has it and nothing carries it: say who or where"
 
     def build_group(self, index: int) -> ObjectGroup:
         """An object's copies in formation about (0, 0)."""
@@ -284,10 +296,13 @@ class ObjectPlacer:
         """Height of the group's origin, m."""
         kind, name, habitat = group.plan.motion.kind, group.noun.name, group.noun.habitat
         levels, air = self._level_m, self._level_m.get("air", 0.0)
+        beside_m = self._height_beside(group)
         if group.plan.start_m is not None:
             return group.origin_m
         if group.scene_object.height_m is not None:
             return group.scene_object.height_m - lowest_point(group.models[0])
+        if beside_m is not None:
+            return beside_m
         if lies_ashore(group.noun, kind):
             return -lowest_point(group.models[0])
         is_resting = rests(group.noun, kind) and name not in levels
@@ -303,6 +318,18 @@ class ObjectPlacer:
             return 0.0
         clear = levels.get("clear", 0.0) if habitat == "air" or kind == "fly" else 0.0
         return level * max(group.size_m, 1.0) + clear
+
+    def _height_beside(self, group: ObjectGroup) -> float | None:
+        """Height of what hovers beside a thing that stands there, by its upper part, m."""
+        if group.noun.habitat != "air" or group.plan.motion.kind not in _HOVERS:
+            return None
+        for one in self._description.relations:
+            other = one.targets[0]
+            habitat = self._nouns[self._description.objects[other].noun].habitat
+            if one.subject == group.index and one.kind in _LEVEL and habitat in _STANDING:
+                top_m = self.build_group(other).models[0].height
+                return max(_LEVEL_SHARE * top_m, -1.5 * lowest_point(group.models[0]))
+        return None
 
     def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
         """The goal, or the nearest free position along its slide, alternating sides.
@@ -339,6 +366,7 @@ class ObjectPlacer:
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
                     goes_across=any(one.direction == "across" for one in said),
+                    haste=haste_of(group.noun, said[0]),
                 )
             )  # fmt: skip
         return actors

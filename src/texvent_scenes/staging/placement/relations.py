@@ -70,6 +70,8 @@ _SEATED_M = 0.28
 """From the edge of a table to the middle of who sits at it."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
+_OFF_MIDDLE, _FACE_GAP_M = 0.25, 0.01
+"""Place of a shape on another one that turns, above its middle, by its height; gap between them."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
 
@@ -136,11 +138,14 @@ def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
 
 
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
-    """Behind its target, on the same path."""
+    """Behind its target, on the same path, the foremost copy too."""
     target, own = targets[0], group.models[0]
     reach = 0.5 * (target.models[0].length + own.length)
     group.half = 0.5 * np.array([own.length, own.width, own.height])
-    return Goal(target.to_world(-1.6 * reach - 0.4, 0.0, height - target.centre[2]), _FIXED)
+    way = np.array([math.cos(target.plan.yaw), math.sin(target.plan.yaw)])
+    foremost = float((np.array(group.offsets)[:, :2] @ way).max())
+    back_m = 1.6 * reach + 0.4 + foremost
+    return Goal(target.to_world(-back_m, 0.0, height - target.centre[2]), _FIXED)
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
@@ -226,8 +231,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
-    if hangs_on(group.noun.name, target.noun.name):
-        return _hang_on(group, target, neighbours)
+    if (on_face := _rest_on_face(group, target, neighbours)) is not None:
+        return on_face
     if target.plan.motion.is_moving:
         group.carrier = target
     if is_person and _sits(group, target):
@@ -252,6 +257,30 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
     group.fit()
     return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _rest_on_face(
+    group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]
+) -> Float64Array | None:
+    """The middle of what hangs on a wall, or is drawn on a shape, m; None: it rests on a top."""
+    if hangs_on(group.noun.name, target.noun.name):
+        return _hang_on(group, target, neighbours)
+    is_mark = {group.noun.name, target.noun.name} <= nouns_with("flat pattern")
+    return _put_on_face(group, target) if is_mark else None
+
+
+def _put_on_face(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
+    """The middle of a shape before another one, off its middle where that turns, m.
+
+    What circles there goes round with it.
+    """
+    own, face = group.models[0], target.models[0]
+    turns = target.plan.motion.kind == "spin"
+    if target.plan.motion.is_moving:
+        group.carrier = target
+    group.fit()
+    up_m = 0.5 * (face.height - own.height) + _OFF_MIDDLE * face.height * turns
+    return target.to_world(0.5 * (face.length + own.length) + _FACE_GAP_M, 0.0, up_m)
 
 
 def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:

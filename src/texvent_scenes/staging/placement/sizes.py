@@ -20,6 +20,8 @@ _OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
 _ROOMY, _LEAST_SHARE = 0.85, 0.3
 """Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
 """
+_MARK = 0.2
+"""Size of a shape on another one."""
 _NOTED = 0.1
 """Change of a size that the report names."""
 
@@ -42,9 +44,20 @@ class Sizes:
 
     def share(self, index: int) -> tuple[float, list[str]]:
         """Share of the size that is said at which an object fits, and notes for the report."""
+        if self._is_mark(index):
+            return _MARK, []
         on, notes = self._fit_on(index)
         inside, more = self._fit_in(index)
         return on * inside * self._fit_through(index), [*notes, *more]
+
+    def _is_mark(self, index: int) -> bool:
+        """Whether it is a shape on another one of its kind: a dot on a disc."""
+        objects = self._description.objects
+        return any(
+            {objects[n].noun for n in (index, one.targets[0])} <= nouns_with("flat pattern")
+            for one in self._description.relations
+            if one.subject == index != one.targets[0] and one.kind in ("on", "in")
+        )
 
     def _fit_on(self, index: int) -> tuple[float, list[str]]:
         """Share at which several small things find room on what they are put on."""

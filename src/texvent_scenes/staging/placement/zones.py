@@ -15,7 +15,7 @@ import numpy as np
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.places import PlaceModel
+from texvent_scenes.models.places import PlaceModel, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
@@ -73,8 +73,14 @@ def is_before_face(who: SceneObject, what: SceneObject) -> bool:
 
 
 def list_orphans(description: SceneDescription) -> Iterator[int]:
-    """Objects that a person would hold or wear, of which the scene says nothing more."""
-    objects = description.objects
+    """Objects that a room has no place for, or that a person would hold or wear.
+
+    Of the latter the scene says nothing more.
+    """
+    objects, place = description.objects, description.place.name
+    for number, one in enumerate(objects if place is not None and is_room(place) else ()):
+        if one.noun in nouns_with("larger than a room"):
+            yield number
     bound = {n for one in description.relations if one.kind != "with"
              for n in (one.subject, *one.targets)}  # fmt: skip
     bound |= {n for n in (description.index(description.camera.target),) if n is not None}

@@ -121,6 +121,13 @@ def usual_speed(noun: Noun, kind: str) -> float:
     return own * _RUNNING if kind == "run" and noun.motion == "walk" else own
 
 
+def haste_of(noun: Noun, motion: Motion) -> float:
+    """Speed of a motion as a multiple of the usual one of its kind."""
+    if motion.speed_m_s is None:
+        return motion.pace
+    return motion.speed_m_s / usual_speed(noun, motion.kind)
+
+
 def speeds_of(noun: Noun) -> Mapping[str, float]:
     """Kind of motion → the usual speed that is known of it, m/s."""
     return trait_value("speeds", noun.name) or {}

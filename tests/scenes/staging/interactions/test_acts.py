@@ -154,6 +154,16 @@ def test_bodies_that_collide_touch_at_one_instant(nouns, moves):
     assert tuple(way > 0.1 for way in ways) == moves
 
 
+@pytest.mark.parametrize("nouns", [("car", "car"), ("ball", "ball"), ("dog", "man")])
+def test_what_collides_at_a_pace_is_so_much_faster(nouns):
+    ways = []
+    for pace in (1.0, 2.0):
+        said = (SceneObject(one, motions=(Motion("move", pace=pace),)) for one in nouns)
+        actors = stage(*said, relations=(("collide", 0, 1),)).actors
+        ways.append([np.linalg.norm(middle(one, 0.4) - middle(one, 0.2)) for one in actors])
+    assert ways[1] == pytest.approx(2.0 * np.array(ways[0]), rel=1e-6)
+
+
 def test_what_collides_on_a_table_stays_on_it():
     cups = thing("cup", ("stand",)), thing("cup", ("stand",))
     relations = (("collide", 0, 1), ("on", 0, 2), ("on", 1, 2))
