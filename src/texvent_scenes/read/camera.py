@@ -32,8 +32,9 @@ def is_shot(clause: Clause) -> bool:
         return False
     words = [one for one in clause.after if not (isinstance(one, Token) and one.has("adverb"))]
     first = words[0] if words else None
-    is_begun = isinstance(first, Token) and first.has("shot")
-    return is_begun and (clause.verb is None or first.at < clause.verb.at)
+    if not isinstance(first, Token) or not first.has("shot"):
+        return False
+    return clause.verb is None or first.at < clause.verb.at
 
 
 def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) -> bool:
