@@ -9,7 +9,7 @@ from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move
 from texvent_scenes.read.groups import Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, VerbSense
+from texvent_scenes.read.lexicon import NO_TOKEN, Token, VerbSense
 
 
 def is_ego(draft: SceneDraft, clause: Clause) -> bool:
@@ -24,6 +24,17 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
         return False  # "rain drops running down a pane"
     is_new = not draft.things and clause.about not in ("nearest", "company")
     return travels and is_place and is_new
+
+
+def is_shot(clause: Clause) -> bool:
+    """Whether a clause without a subject goes on about a shot: "6-DoF motion over a poster"."""
+    if clause.subjects or clause.objects or clause.about not in ("", "same"):
+        return False
+    words = [one for one in clause.after if not (isinstance(one, Token) and one.has("adverb"))]
+    first = words[0] if words else None
+    if not isinstance(first, Token) or not first.has("shot"):
+        return False
+    return clause.verb is None or first.at < clause.verb.at
 
 
 def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) -> bool:

@@ -15,10 +15,12 @@ from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.groups import Group
-from texvent_scenes.read.lexicon import Sense, Token, VerbSense, word_set
+from texvent_scenes.read.lexicon import NO_TOKEN, Sense, Token, VerbSense, word_set
 from texvent_scenes.spec.data import ACTED, PLACING
 from texvent_scenes.spec.scene import MoveDirection
 
+_SAID_TWICE = ("travel", "handheld", "static")
+"""Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
@@ -28,7 +30,7 @@ _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
-_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "camera")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
 
@@ -186,17 +188,27 @@ class SceneDraft:
         if things and token.text in word_set("things", "own"):
             return False
         for sense in token.all("shot"):
-            self.add_move(split_move(sense.value))
+            self.add_move({**split_move(sense.value), **self._pace_before(token)})
         for part, name, value in (sense.value for sense in token.all("scene")):
             self.parts[part][name] = value
         is_said = token.has("shot", "scene")
         self.show(*([token] if is_said else []))
         return is_said
 
+    def _pace_before(self, token: Token) -> dict[str, Any]:
+        """The pace that the word before says, if of nothing else: "fast yaw rotation"."""
+        before = self.tokens[token.at - 1] if token.at else NO_TOKEN
+        name, value = (before.first("adverb") or Sense("", ("", ""))).value
+        if name != "pace" or self.shows(before):
+            return {}
+        self.show(before)
+        return {"pace": value}
+
     def add_move(self, move: dict[str, Any]) -> None:
         """Add a move of the camera; what flies is seen from the air."""
         phase = {"phase": self.phase} if self.phase else {}
-        same = [one for one in self.moves if one["kind"] == move["kind"] == "travel"]
+        kind = move["kind"]
+        same = [one for one in self.moves if one["kind"] == kind and kind in _SAID_TWICE]
         if same and same[-1].get("phase", 0) == self.phase:  # "a dashcam driving at 20 m/s"
             same[-1].update(move)
         else:

@@ -10,7 +10,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import find_move, go_through, is_ego
+from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -83,8 +83,9 @@ class _SentenceReader(ThingReader):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
-        is_camera = goes_on or clause.about == "camera"
-        is_own = not is_camera and is_ego(self._draft, clause)
+        is_named = goes_on or clause.about == "camera"
+        is_own = not is_named and is_ego(self._draft, clause)
+        is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera
         if self._says_of_parts(clause):
             pass
