@@ -143,7 +143,7 @@ def _settle(
 
 
 def _at_its_pace(said: SceneObject) -> SceneObject:
-    """What collides, of whose motion only the speed is left: how it moves, the act decides."""
+    """Body that collides, of whose motion the speed is left: how it moves, the act decides."""
     motion = said.motion or STANDING
     kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
     return replace(said, motions=() if kept == STANDING else (kept,))
