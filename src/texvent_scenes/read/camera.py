@@ -30,7 +30,10 @@ def is_shot(clause: Clause) -> bool:
     """Whether a clause without a subject goes on about a shot: "6-DoF motion over a poster"."""
     if clause.subjects or clause.objects or clause.about not in ("", "same"):
         return False
-    words = [one for one in clause.after if not (isinstance(one, Token) and one.has("adverb"))]
+    adverbs = [one for one in clause.after if isinstance(one, Token) and one.has("adverb")]
+    if any(sense.value[0] == "speed_m_s" for one in adverbs for sense in one.all("adverb")):
+        return False  # it is that of the view
+    words = [one for one in clause.after if one not in adverbs]
     first = words[0] if words else None
     if not isinstance(first, Token) or not first.has("shot"):
         return False
