@@ -52,8 +52,10 @@ def check_range(
         allowed = f"at least {low:g}" if high == math.inf else f"{_number(low)}..{_number(high)}"
         if value == math.inf:
             allowed += " and finite"
-        unit = UNITS.get(name, "")
-        raise ConfigError(f"{name} is {_number(value)}{unit}; it must be {allowed}{unit}")
+        said, unit = _number(value), UNITS.get(name, "")
+        if said in (_number(low), _number(high)):  # it differs in later digits only
+            said = shown(value)
+        raise ConfigError(f"{name} is {said}{unit}; it must be {allowed}{unit}")
 
 
 def check_whole(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> None:

@@ -323,7 +323,7 @@ def _find_unturned(
 
 
 def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:
-    """Whether the ground of a place is told from that of another one by its hue."""
+    """Whether the ground of a place differs in hue from that of another place."""
     own, other = (np.array(one.colours[0]) / max(one.colours[0]) for one in (place, usual))
     return bool(np.abs(own - other).max() >= _LEAST_HUE)
 

@@ -237,7 +237,7 @@ class ThingReader:
         return is_way
 
     def _blow(self, index: int) -> bool:
-        """Let what stands there sway in the wind; whether the wind shows in what it does."""
+        """Let things sway in the wind; whether the wind shows in their motion."""
         thing, noun = self._draft.things[index], self._nouns[self._draft.things[index]["noun"]]
         if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
             return True
@@ -357,7 +357,7 @@ class ThingReader:
 
 @cache
 def _list_performing() -> frozenset[str]:
-    """Forms of verbs for what somebody does anyway: "plays", of a violinist."""
+    """Forms of verbs for an act that a person does anyway: "plays", of a violinist."""
     verbs = word_set("things", "performing")
     return frozenset(form for verb in verbs for form, _ in list_verb_forms(verb))
 
