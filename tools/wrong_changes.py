@@ -6,6 +6,7 @@ Left out are docstrings, annotations, decorators, imports and the words of error
 from __future__ import annotations
 
 import ast
+import fnmatch
 import math
 import random
 import re
@@ -27,6 +28,8 @@ WIDE = {
 """Files of tests of all rows of tables: of every file, and of those of a package."""
 MOST_TESTS = 14
 """Files of tests that are near a change: the whole suite judges what these let pass."""
+ENTRY = re.compile(r"texvent\w*(?:\.\w+)+:\w+")
+"""A part that a registry loads by name."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
 
 
@@ -320,15 +323,33 @@ def _imports(root: Path) -> dict[Path, frozenset[str]]:
     """The modules, and perhaps names in them, that each file imports, by paths below `root`."""
     found = {}
     tests = (path for folder in ("tests", "lab/tests") for path in (root / folder).rglob("*.py"))
+    modules = [_module_of(Path(file_of(path.relative_to(root)))) for path in _sources(root)]
     for path in (*_sources(root), *tests):
         names = set()
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.module:
-                names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
-            elif isinstance(node, ast.Import):
-                names |= {one.name for one in node.names}
+            match node:
+                case ast.ImportFrom(module=str(module)):
+                    names |= {module, *(f"{module}.{one.name}" for one in node.names)}
+                case ast.Import():
+                    names |= {one.name for one in node.names}
+                case ast.Constant(value=str(text)) if ENTRY.fullmatch(text):
+                    names.add(text.partition(":")[0])
+                case ast.JoinedStr(values=[ast.Constant(value=str(first)), *_]):
+                    if first.startswith(f"{SOURCES.name}.") and first.count(".") > 1:
+                        names |= {*fnmatch.filter(modules, _pattern(node))}
         found[path.relative_to(root)] = frozenset(names)
     return found
+
+
+def _pattern(text: ast.JoinedStr) -> str:
+    parts = (one.value if isinstance(one, ast.Constant) else "*" for one in text.values)
+    return "".join(map(str, parts))
+
+
+def _module_of(file: Path) -> str:
+    """The module of a file that is named as `source_path` takes it."""
+    inside = file if file.parts[0] in PACKAGES else Path(SOURCES.name, file)
+    return ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
 
 
 def _mirrors(file: Path, root: Path) -> list[Path]:
@@ -346,28 +367,40 @@ def _is_source(path: Path) -> bool:
     return any(path.is_relative_to(folder) for folder, _ in PACKAGES.values())
 
 
+def _importing(modules: Iterable[Path], root: Path) -> list[Path]:
+    """Files that import modules, directly or from a package that hands on their names."""
+    imports, found, handing = _imports(root), list[Path](), [*modules]
+    for one in handing:  # grows by packages
+        name = _module_of(one)
+        for path in sorted(path for path, names in imports.items() if name in names):
+            found.append(path)
+            source = Path(file_of(path)) if _is_source(path) else one
+            if path.name == "__init__.py" and source not in handing:
+                handing.append(source)
+    return found
+
+
 def near_tests(file: str, root: Path) -> list[str]:
     """Files of tests that may notice a change, nearest first, below `root`."""
     inner = Path(file)
-    imports = _imports(root)
-    importing: list[Path] = []
-    modules = [inner]
-    for one in modules:  # grows by packages that hand on a name
-        inside = one if one.parts[0] in PACKAGES else Path(SOURCES.name, one)
-        name = ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
-        for path in sorted(path for path, names in imports.items() if name in names):
-            importing.append(path)
-            source = Path(file_of(path)) if _is_source(path) else one
-            if path.name == "__init__.py" and source not in modules:
-                modules.append(source)
+    importing = _importing([inner], root)
     own = [one.relative_to(root) for one in _mirrors(inner, root)]
     chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
     chosen += [one for one in own if one in importing]
     chosen += [one for one in importing if one.name.startswith("test_") and one.parts[0] != "lab"]
     chosen += own + [one for one in importing if one.name.startswith("test_")]
-    for one in importing:
-        if _is_source(one):
-            chosen += [near.relative_to(root) for near in _mirrors(Path(file_of(one)), root)]
+    seen = {inner}
+    # Who imports it, then who imports these.
+    while len({*chosen}) < MOST_TESTS:
+        users = [Path(file_of(one)) for one in importing if _is_source(one)]
+        users = [one for one in dict.fromkeys(users) if one not in seen]
+        if not users:
+            break
+        seen |= {*users}
+        nearby = ((one, near.relative_to(root)) for one in users for near in _mirrors(one, root))
+        chosen += [near for one, near in nearby if near.parts[1:-1] or one.stem in near.stem]
+        importing = _importing(users, root)
+        chosen += [one for one in importing if one.name.startswith("test_")]
     return [*dict.fromkeys(map(Path.as_posix, chosen))][:MOST_TESTS]
 
 

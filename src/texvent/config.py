@@ -36,6 +36,8 @@ UNITS = {
 """Units in errors, of options whose names have none."""
 FPS_RANGE = Fraction(1, 10**9), 1e6
 """Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
+CAMERA_AMPLITUDES = 1e-6, 1e6
+"""Sizes of camera paths, px, or px/s of a pan."""
 
 
 def check_range(
@@ -228,7 +230,7 @@ class CaptureConfig(ReadingConfig):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
-        check_range("camera_amplitude", self.camera_amplitude, 1e-6, 1e6)
+        check_range("camera_amplitude", self.camera_amplitude, *CAMERA_AMPLITUDES)
         check_range("duration", self.duration, 1e-6, 86_400.0)
 
 

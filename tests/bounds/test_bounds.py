@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.bounds.bounds import Record, last_taken, lines_of, stored_table, table
+from tests.bounds.bounds import TABLE, Record, last_taken, lines_of, stored_table, table
 from tests.bounds.words import SETTLED, stored_lines
 from tests.bounds.words import lines_of as lines_of_words
 
@@ -24,6 +24,11 @@ def test_every_record_takes_what_it_took():
             importlib.import_module(name.rpartition(".")[0])
     others = {name: {*lines} ^ {*stored.get(name, ())} for name, lines in found.items()}
     assert {name: lines for name, lines in others.items() if lines} == {}
+
+
+def test_every_refusal_of_a_field_is_an_error_of_an_option():
+    said = re.findall(r"(?:\| |: )(\w+(?:Error|Exception)): ", TABLE.read_text(encoding="utf-8"))
+    assert {*said} == {"ConfigError", "InputError"}
 
 
 STATED = re.compile(r"it must be (?:at least )?([-+\d.e]+?)(?:\.\.([-+\d.e]+))?(?: [^,]*)?$")

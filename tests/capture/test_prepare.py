@@ -1,14 +1,18 @@
+from dataclasses import replace
 from fractions import Fraction
+from typing import get_args, get_type_hints
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.capture.fit_to_sensor import fit_motion, fit_pixels
+from texvent.capture.intensity_scale import scale_to_levels
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
-from texvent.frames import Video, frame_time_us
+from texvent.frames import MotionVectors, Video, frame_time_us
 from texvent.sensor import SensorSize
 
 
@@ -38,8 +42,26 @@ def test_a_stream_that_needs_nothing_is_returned_itself():
     assert open_frames(video, CaptureConfig(), size=SensorSize(6, 4)) is video
 
 
-def test_a_stream_is_fitted_and_says_what_size_it_had():
-    video = Video(np.full((3, 4, 6), 80, np.uint8), [0, 10_000, 20_000])
-    stream = open_frames(video, CaptureConfig(), size=SensorSize(3, 2))
-    assert (stream.size, stream.metadata["size_before_fit"]) == ((3, 2), "6x4")
-    assert [frame.pixels.shape for frame in stream] == [(2, 3)] * 3
+class Moving(Video):
+    """A video whose pixels move by their own brightness."""
+
+    def __iter__(self):
+        for frame in super().__iter__():
+            vectors = np.stack([frame.pixels, -frame.pixels], axis=-1).astype(np.float32)
+            yield replace(frame, motion=MotionVectors(vectors, 2 * vectors))
+
+
+@pytest.mark.parametrize("fit", get_args(get_type_hints(CaptureConfig)["fit"]))
+@pytest.mark.parametrize("white_level", [None, 120.0])
+def test_a_stream_is_fitted_with_its_motion_and_says_what_size_it_had(fit, white_level):
+    pixels = np.random.default_rng(3).integers(0, 120, (3, 4, 6)).astype(np.uint8)
+    video, size = Moving(pixels, [0, 10_000, 20_000]), SensorSize(3, 3)
+    config = CaptureConfig(fit=fit, white_level=white_level)
+    stream = open_frames(video, config, size=size)
+    assert (stream.size, stream.metadata["size_before_fit"]) == ((3, 3), "6x4")
+    for given, frame in zip(video, stream, strict=True):
+        levels = given.pixels if white_level is None else scale_to_levels(given.pixels, white_level)
+        assert np.array_equal(frame.pixels, fit_pixels(levels, size, fit))
+        expected = fit_motion(given.motion, size, fit)
+        assert np.array_equal(frame.motion.forward, expected.forward)
+        assert np.array_equal(frame.motion.backward, expected.backward)

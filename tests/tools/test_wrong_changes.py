@@ -113,6 +113,19 @@ def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: P
     assert near_tests("texvent_lab/run.py", tree) == ["lab/tests/test_run.py"]
 
 
+def test_tests_of_who_imports_it_farther_off_or_by_a_name_in_a_text_follow(tree: Path) -> None:
+    files = {
+        "src/texvent/deep/gpu/part.py": "A = 1\n",
+        "src/texvent/deep/engine.py": 'import_module(f"texvent.deep.{name}.part")\n',
+        "src/texvent/registry.py": 'PARTS = {"deep": "texvent.deep.engine:Engine"}\n',
+        "tests/test_registry.py": "import texvent.registry\n",
+    }
+    for name, text in files.items():
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        (tree / name).write_text(text)
+    assert "tests/test_registry.py" in near_tests("deep/gpu/part.py", tree)
+
+
 @pytest.mark.long
 def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None:
     changes = changes_of("big/part.py", (tree / "src/texvent/big/part.py").read_text())

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.config import CAMERA_AMPLITUDES, check_range
 from texvent.frames import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
@@ -117,6 +118,9 @@ class Saccades:
     middle: ClassVar[tuple[float, float]] = (2.85, 3.1)
     """Middle of the path of the digit's corner, px."""
 
+    def __post_init__(self) -> None:
+        check_range("amplitude", self.amplitude, *CAMERA_AMPLITUDES)
+
     @property
     def facts(self) -> Mapping[str, Any]:
         """Its name and size."""
@@ -136,6 +140,9 @@ class Shake:
 
     There is one in each of `count` equal bands from `lowest_hz` to `highest_hz`; its frequency
     and its phase are drawn from the seed, and its amplitude falls with the frequency as 1 / f.
+
+    Raises:
+        ConfigError: the amplitude or the seed is out of range.
     """
 
     amplitude: float | None = None
@@ -152,6 +159,8 @@ class Shake:
     """[2, 3, count] angular frequency, 1/µs; phase; amplitude, px."""
 
     def __post_init__(self) -> None:
+        check_range("amplitude", self.amplitude, *CAMERA_AMPLITUDES)
+        check_range("seed", self.seed, 0, 2**63 - 1)
         chance = np.random.default_rng([self.seed, SHAKE_KEY])
         draws = chance.random((2, 2, self.count))
         width = (self.highest_hz - self.lowest_hz) / self.count
@@ -188,6 +197,10 @@ class Pan:
     seconds: float = 1.0
     name: ClassVar[str] = "pan"
     usual_px: ClassVar[float] = 60.0
+
+    def __post_init__(self) -> None:
+        check_range("amplitude", self.amplitude, *CAMERA_AMPLITUDES)
+        check_range("seconds", self.seconds, 0.0)
 
     @property
     def facts(self) -> Mapping[str, Any]:

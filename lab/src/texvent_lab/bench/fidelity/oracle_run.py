@@ -72,6 +72,8 @@ class FidelityPlan:
             check_scene(scene)
         for metric in self.metrics:
             load_metric(metric)
+        for seed in (*self.fit_seeds, *self.score_seeds):
+            check_range("seed", seed, 0, 2**63 - 1)
         unknown = set(self.targets) - set(TARGETS)
         if unknown or not self.fit_seeds or not self.score_seeds:
             raise ConfigError(

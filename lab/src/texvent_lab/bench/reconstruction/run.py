@@ -68,6 +68,9 @@ class ReconstructionPlan:
     seed: int = 0
 
     def __post_init__(self) -> None:
+        check_range("start_s", self.start_s, 0.0)
+        check_range("seconds", self.seconds, 0.0)
+        check_range("seed", self.seed, 0, 2**63 - 1)
         check_range("frames_gamma", self.frames_gamma, 0.1, 10.0)
         check_range("skip", self.skip, 0)
         for entry in self.entries:
