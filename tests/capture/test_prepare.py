@@ -59,9 +59,11 @@ def test_a_stream_is_fitted_with_its_motion_and_says_what_size_it_had(fit, white
     config = CaptureConfig(fit=fit, white_level=white_level)
     stream = open_frames(video, config, size=size)
     assert (stream.size, stream.metadata["size_before_fit"]) == ((3, 3), "6x4")
-    for given, frame in zip(video, stream, strict=True):
-        levels = given.pixels if white_level is None else scale_to_levels(given.pixels, white_level)
+    for before, frame in zip(video, stream, strict=True):
+        levels = before.pixels
+        if white_level is not None:
+            levels = scale_to_levels(levels, white_level)
         assert np.array_equal(frame.pixels, fit_pixels(levels, size, fit))
-        expected = fit_motion(given.motion, size, fit)
+        expected = fit_motion(before.motion, size, fit)
         assert np.array_equal(frame.motion.forward, expected.forward)
         assert np.array_equal(frame.motion.backward, expected.backward)
