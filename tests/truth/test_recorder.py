@@ -315,3 +315,10 @@ def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
     assert truth.metadata["complete"] is False
     assert len(events)
     np.testing.assert_array_equal(truth.event_instance, events.instance)
+
+
+@pytest.mark.parametrize("run", [texvent.simulate, texvent.generate])
+def test_a_folder_of_other_files_is_refused_before_the_source_is_looked_at(run, tmp_path):
+    (tmp_path / "notes.txt").touch()
+    with pytest.raises(OutputError, match="the folder holds other files"):
+        run("a xyzzy.mp4", truth_folder=tmp_path)
