@@ -26,7 +26,7 @@ SWAY = CameraMove("handheld", pace=0.4)
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
                       "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
-_AT_HAND = frozenset({"hold", "wear"})
+_AT_HAND = frozenset({"hold", "wear", "act on"})
 _GOING = {"stand": "slide", "float": "fly"}
 _UPRIGHT = {"up": "rise", "down": "sink"}
 _AFLOAT = ("sail", "paddle")
@@ -275,7 +275,7 @@ def _rest_of(
         return {relation.subject: STANDING}
     if kind == "through" and "stand open" in nouns[target.noun].acts:
         return {relation.targets[0]: Motion("stand open")}
-    if kind == "wear" or (kind == "hold" and is_person):
+    if kind in ("wear", "act on") or (kind == "hold" and is_person):
         return {relation.targets[0]: STANDING}
     if kind not in _RESTING:
         return {}

@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, TIMED
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.environment import is_afloat
@@ -21,6 +21,8 @@ _GROUNDED = 0.1
 """Height, in sizes of a body, up to which it is on the ground."""
 _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
+_HANDS, _REACH = ("left hand", "right hand"), 0.12
+"""Places that act on things; from there to what is acted upon, in sizes of the body."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
 """Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
 angle of that circle that it covers."""
@@ -179,6 +181,39 @@ def goes_back(staged: StagedClip, claim: Claim) -> bool:
         if ahead.min() >= -least or (len(said) < 2 and ahead.max() > least):
             return False
     return True
+
+
+def handles(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a hand or a mouth reaches what an act is done to, and a limb moves as it does so."""
+    targets = [one for n in claim.targets for one in staged.list_actors(n)]
+    for one in staged.own(claim):
+        places = _HANDS if one.noun.name in PERSON_NOUNS else ("mouth", "right foot", "left foot")
+        room = _REACH * one.size_m
+        ends = {name: np.array([one.anchor(name, at)[:, 3] for at in staged.times])
+                for name in places}  # fmt: skip
+        gaps = []
+        for other in targets:
+            boxes = [other.corners(at) for at in staged.times]
+            low, high = (np.array([getattr(each, way)(axis=0) for each in boxes])
+                         for way in ("min", "max"))  # fmt: skip
+            gaps += [np.linalg.norm(each - np.clip(each, low, high), axis=1).min()
+                     for each in ends.values()]  # fmt: skip
+        if not gaps or min(gaps) > room or staged.departure(one).max() <= _STILL * one.size_m:
+            return False
+    return True
+
+
+def has_in_mouth(staged: StagedClip, claim: Claim) -> bool:
+    """Whether an animal has what it holds at its mouth all the time."""
+    said = staged.description.relations
+    held = [n for one in said if (one.kind, one.subject) == ("hold", claim.subject)
+            for n in one.targets]  # fmt: skip
+    things = [one for n in held for one in staged.list_actors(n)]
+    return bool(things) and all(
+        any(np.linalg.norm(one.anchor("mouth", at)[:, 3] - each.middle(at)) <= each.size_m
+            for each in things)
+        for one in staged.own(claim) for at in staged.times
+    )  # fmt: skip
 
 
 def is_laid(staged: StagedClip, claim: Claim) -> bool:

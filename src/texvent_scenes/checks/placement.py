@@ -30,8 +30,9 @@ _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bou
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
                    "dive", "spin", "sway", "climb", "grow", "shrink"})  # fmt: skip
 """Motions that need no support."""
-_SHARED = ACTED | WAYS | {"on", "in", "at", "under", "hold", "wear", "ride", "through", "with",
-                          "from", "follow"}  # fmt: skip
+_IN_HAND = frozenset({"hold", "wear", "act on"})
+_SHARED = ACTED | WAYS | _IN_HAND | {"on", "in", "at", "under", "ride", "through", "with", "from",
+                                     "follow"}  # fmt: skip
 """Relations in which two bodies may touch."""
 _ROOM_M, _ROOM = 0.06, 0.08
 """Gap below a body that is no gap: metres, and share of its height on top of that."""
@@ -166,8 +167,10 @@ class _Bodies:
         does = {motion.kind for motion in said.motions} | {one.noun.motion}
         acts = {relation.kind for relation in self._description.relations
                 if one.object_index in relation.targets}  # fmt: skip
+        acts |= {relation.kind for relation in self._description.relations
+                 if one.object_index == relation.subject and relation.kind == "catch"}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
-        is_free = bool(does & _FREE) or bool(acts & {"hold", "wear", *ACTED} - {"push"})
+        is_free = bool(does & _FREE) or bool(acts & (_IN_HAND | ACTED) - {"push", "pull"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_body &= one.noun.name not in nouns_with("may hang")
         is_mark = any(

@@ -30,7 +30,7 @@ _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towar
 """Direction → axis of the camera (right, down, forward) and sign."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push",
+_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push", "pull", "act on",
             "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""

@@ -18,6 +18,8 @@ from texvent_scenes.checks.acts import (
     descends,
     falls,
     goes_back,
+    handles,
+    has_in_mouth,
     is_circling,
     is_doing,
     is_laid,
@@ -47,7 +49,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _LEAST_CLIP_S = 1.0
-_DONE = ("bounce", "ground", "activity", "stop before", "stop", "land", "descend")
+_DONE = ("act on", "bounce", "ground", "activity", "stop before", "stop", "land", "descend")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
@@ -204,6 +206,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "arrive": _arrives, "stop before": stops_before, "row": _is_row, "times": repeats,
     "again": returns, "stays": stays, "circle": is_circling, "parts": _of_parts(is_moving_inside),
     "lie": is_laid, "shine": _shines, "hold": _each_holds,
+    "act on": handles, "in_mouth": has_in_mouth,
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,

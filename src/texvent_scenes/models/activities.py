@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from texvent_scenes.models.tables import frozen, read_table
+from texvent_scenes.models.tables import frozen, has_trait, nouns_with, read_table
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,10 @@ class Activity:
     """Verb phrases in their base form."""
     near: tuple[str, ...] = ()
     """Phrases of what it shows only nearly, which is reported: "play football" of a kick."""
+    verbs: tuple[str, ...] = ()
+    """Verbs of an act on something, which is an object of the sentence."""
+    upon: Mapping[str, Any] | None = None
+    """What it is done to, and where that is: fields of `Upon`."""
     named: tuple[str, ...] = ()
     """Phrases that name it and do not begin with a verb: "peace sign"."""
     travels: bool = False
@@ -40,6 +45,23 @@ class Activity:
     """Whether it follows the time of a hop."""
     is_timed: bool = False
     """Whether it happens once, and follows the time since it began."""
+
+
+@dataclass(frozen=True)
+class Upon:
+    """What an act is done to, and where that is while it lasts."""
+
+    nouns: tuple[str, ...]
+    """Nouns, and traits of nouns."""
+    at: str = "ground"
+    """Place of the body that has it; "front" = it stands on the ground before the body, sideways.
+    """
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Bottom of its middle in the axes of that place, m; in "front" the gap before the body."""
+    turn: float | None = None
+    """Its heading against that of the body, rad; None = its longer side goes across."""
+    motion: str = ""
+    """Its motion."""
 
 
 USUAL = "usual"
@@ -70,12 +92,26 @@ def motion_of(table: str, activity: str) -> dict[str, Any]:
     return {key: value for key, value in row.items() if key not in known}
 
 
+def upon_of(activity: str) -> Upon | None:
+    """What an activity of people or animals is done to; None = nothing."""
+    row = ACTIVITIES.get(activity) or ANIMAL_ACTIVITIES.get(activity)
+    return Upon(**row.upon) if row is not None and row.upon else None
+
+
+@cache
+def nouns_upon(activity: str) -> frozenset[str]:
+    """Nouns that an activity is done to."""
+    upon = upon_of(activity)
+    said = () if upon is None else upon.nouns
+    return frozenset().union(*(nouns_with(one) if has_trait(one) else {one} for one in said))
+
+
 ACTIVITIES: Mapping[str, Activity] = _read("activities")
 """Activities of people: name → activity."""
 HAND_GESTURES: Mapping[str, Activity] = _read("hand_gestures")
 """Gestures of hands: name → gesture."""
 ANIMAL_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {name: one for name, one in _read("animal_activities").items() if one.words}
+    {name: one for name, one in _read("animal_activities").items() if one.words or one.verbs}
 )
 """Activities of animals in place: name → activity."""
 TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_timed)

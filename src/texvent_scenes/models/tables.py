@@ -72,6 +72,11 @@ def nouns_with(trait: str) -> frozenset[str]:
     return frozenset(_read()[trait])
 
 
+def has_trait(name: str) -> bool:
+    """Whether a name is that of a trait."""
+    return name in _read()
+
+
 def trait_value(trait: str, noun: str) -> Any:
     """A noun's value of a trait that is a table; None where it has none."""
     return _read()[trait].get(noun)

@@ -113,7 +113,8 @@ def _do_deeds(draft: SceneDraft) -> None:
     """Let those do it who are named by what they do and do nothing else: "a violinist"."""
     for index, one in enumerate(draft.things):
         deed = one.pop("deed", None)
-        if deed and not (one["motions"] or "is_lost" in one):
+        acts = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+        if deed and not (one["motions"] or acts or "is_lost" in one):
             one["motions"].append({"kind": deed})
         is_done = deed in [each["kind"] for each in one["motions"]]
         for token in draft.tokens if is_done else ():

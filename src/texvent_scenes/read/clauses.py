@@ -216,7 +216,9 @@ class _Parser(GroupReader):
         if token.has("noun", "effect", "place", "scene", "field"):
             is_plural = bool(clause.subjects) and all(one.is_plural for one in clause.subjects)
             return clause.has_subject and not (forms == {"s"} and is_plural)  # "cars and trucks"
-        is_ego = "ing" in forms and not self._token(1).has("noun")
+        acts = {(one.value.who, one.value.relation) for one in token.verbs("ing")}
+        is_act = ("person", "act on") in acts <= {("person", "act on"), ("person", None)}
+        is_ego = "ing" in forms and (is_act or not self._token(1).has("noun"))
         return clause.has_subject or is_ego
 
     def _read_phrase(self, clause: Clause) -> Clause | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import SEEN, Claim
-from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED
+from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED, nouns_upon
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
@@ -26,6 +26,8 @@ MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+_ALONG = ("push", "pull")
+"""Relations to what goes along."""
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 BLINK_HZ = 2.0
@@ -60,6 +62,17 @@ def names_place(head: Token, relation: str) -> bool:
     if relation in word_set("things", "outside"):  # "behind a library": where is that?
         return not is_thing and not is_room(place.value)
     return bool(relation) or not is_thing
+
+
+def is_of_hands(act: VerbSense, nouns: Sequence[str]) -> bool:
+    """Whether only people do an act, to nouns or to nothing."""
+    if act.relation == "act on":
+        return bool(nouns) and act.who == "person" and {*nouns} <= nouns_upon(act.kind)
+    if nouns and act.relation is None:
+        used = {noun for prop in list_props(act.kind) for noun in prop.nouns}
+        return act.who == "person" and {*nouns} <= used
+    is_handled = bool(nouns or act.brings) and act.relation in word_set("things", "of_people")
+    return is_handled or (act.who == "person" and not nouns)
 
 
 def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
@@ -361,21 +374,22 @@ class SceneDraft:
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
         acts = word_set("things", "acts") if has_object else ()
         match verb.who:
-            case "person":
+            case "person" if verb.relation != "act on":
                 used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
                 is_used = all(self.things[one]["noun"] in used for one in objects)
                 is_used |= verb.relation is not None
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object
+            case "person" | "animal" if verb.relation == "act on":
+                return self._acts_on(verb, names, objects)
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
             case "machine":
                 return not has_object and all(self.nouns[one].is_working for one in names)
             case "source" | "lamp":
-                if verb.who == "lamp" and not self._can_shine(verb.kind, names):
-                    return False
-                return not has_object and not is_acting
+                is_able = verb.who != "lamp" or self._can_shine(verb.kind, names)
+                return is_able and not has_object and not is_acting
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
         if goes_on and any(self.nouns[one].is_working for one in names):
@@ -389,16 +403,46 @@ class SceneDraft:
             needs_hands &= not is_rider
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
+            needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
             is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
             is_moved &= verb.object not in TIMED or all(
                 verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
             )
-            is_moved &= verb.relation != "push" or all(map(self.can_go, subjects))
+            is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
+            is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
+        meets |= bool(verb.brings) and names <= PERSON_NOUNS
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    def take_in_mouth(self, index: int) -> None:
+        """Let an animal hold what it is with: "a dog with a stick in its mouth"."""
+        for relation in self.things[index]["relations"]:
+            relation["kind"] = "hold" if relation["kind"] == "with" else relation["kind"]
+
+    def names_tool(self, subjects: Sequence[int], words: Sequence[Token]) -> bool:
+        """Whether words name what is drawn with an act: "chops wood with an axe"."""
+        kinds = {each["kind"] for one in subjects for each in self.things[one]["motions"]}
+        tools = {part for kind in kinds for prop in list_props(kind)
+                 for part in (prop.name, prop.name.rpartition(" ")[2])}  # fmt: skip
+        return bool(words) and all(one.text in tools and not one.has("noun") for one in words)
+
+    def _has_mouths(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+        """Whether animals have small things in their mouths."""
+        small = nouns_with("in hand or on something") | nouns_with("in a mouth")
+        names = {self.things[one]["noun"] for one in subjects}
+        is_animal = not names & (PERSON_NOUNS | HAND_NOUNS) and all(map(self.walks, subjects))
+        return is_animal and {self.things[one]["noun"] for one in objects} <= small
+
+    def _acts_on(self, verb: VerbSense, names: set[str], objects: Sequence[int]) -> bool:
+        """Whether nouns can do an act, and it can be done to these objects."""
+        is_able = names <= PERSON_NOUNS
+        if verb.who == "animal":
+            is_able = all(verb.kind in self.nouns[one].acts for one in names)
+        upon = nouns_upon(verb.kind)
+        return is_able and bool(objects) and {self.things[one]["noun"] for one in objects} <= upon
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""

@@ -16,6 +16,7 @@ from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     DVS_GESTURES,
     HAND_GESTURES,
+    Activity,
 )
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
@@ -85,6 +86,8 @@ class VerbSense:
     """Relation to its object."""
     object: str = ""
     """Motion of its object."""
+    brings: str = ""
+    """Noun of the object that it needs not say: "kicks a penalty"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 
@@ -187,12 +190,21 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
         for name, activity in table.items():
             yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
             yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            yield from _list_acts(who, name, activity)
             for phrase in activity.named:  # "a hand shows a thumbs up"
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, activity in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
+        yield from _list_acts("animal", name, activity)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_acts(who: str, name: str, activity: Activity) -> Iterator[tuple[str, VerbSense]]:
+    """Verbs of an act on something."""
+    motion = (activity.upon or {}).get("motion", "")
+    yield from ((verb, VerbSense(who, name, relation="act on", object=motion))
+                for verb in activity.verbs)  # fmt: skip
 
 
 def _list_effects() -> Iterator[tuple[str, Sense]]:
@@ -371,6 +383,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
             found = tuple(
                 one
                 for one in found

@@ -54,7 +54,14 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Whether it names what a thing has: "a fan with four blades"; no other number is shown."""
+    """Whether it names what a thing has, "a fan with four blades", or the tool of its act.
+
+    No other number is shown.
+    """
+    words = [word for group in phrase.groups for word in _list_words(group)]
+    if phrase.preposition.text == "with" and draft.names_tool(subjects, words):
+        draft.show(phrase.preposition, *words)
+        return True
     is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
     if is_so and all(map(draft.shows, _list_words(phrase.groups[0]))):
         draft.show(phrase.preposition)
@@ -304,7 +311,7 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
         return kind if can_climb else ""
     if kind == "off":
         return kind if does & {"jump", "fall"} else ""
-    acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push"})
+    acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push", "pull"})
     return "towards" if is_led or acts or not draft.goes(index) else kind
 
 

@@ -228,6 +228,8 @@ class ThingReader:
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
             return True
+        for one in subjects if field == "in_mouth" else ():
+            draft.take_in_mouth(one)
         if field == "wind":
             is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
             draft.show(*([token] if all(is_blown) else []))
@@ -283,6 +285,9 @@ class ThingReader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
+        if act.brings and not objects:
+            draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
+            objects = [len(draft.things) - 1]
         if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
         is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
@@ -312,8 +317,8 @@ class ThingReader:
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move":
             draft.claim(verb, "stop", "", [index])
-        if act.relation == "hold":
-            draft.claim(verb, "hold", "", [index], objects)
+        if act.relation in ("hold", "act on"):
+            draft.claim(verb, act.relation, "", [index], objects)
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
             draft.claim(verb, "shine", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":

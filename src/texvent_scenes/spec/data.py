@@ -31,7 +31,9 @@ PLACING = frozenset(
 WAYS = frozenset({"to", "into", "out of", "off", "up", "down"})
 """Relations whose subject goes a way that its target decides."""
 
-ACTED = frozenset({"push", "kick", "throw", "roll", "lift", "set down", "drop", "collide"})
+ACTED = frozenset(
+    {"push", "kick", "throw", "roll", "lift", "set down", "drop", "collide", "catch", "pull"}
+)
 """Relations in which the subject moves its target."""
 
 SPACED = ("left of", "right of", "front", "behind", "beside")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache
+from functools import cache, partial
 from types import MappingProxyType
 from typing import Any
 
@@ -25,6 +25,7 @@ from texvent_scenes.models.materials import (
     skin,
     striped,
 )
+from texvent_scenes.models.people.prop_motions import PropMotion, read_motion
 from texvent_scenes.models.protocol import ModelPart, choose, paint
 from texvent_scenes.models.shapes import ball
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
@@ -139,6 +140,8 @@ class Prop:
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()
     """Nouns that are the same thing: where the scene shows one, the prop is left out."""
+    name: str = ""
+    """Name of its shape."""
     is_own: bool = False
     """Whether it is drawn in place of a named one, not left out for it."""
 
@@ -179,9 +182,18 @@ _MOVING: Mapping[str, Draw] = MappingProxyType(
 """Shape → how it is drawn, if it moves in its place."""
 
 
+def _draw_moving(motion: PropMotion, shape: str, time_s: float) -> Sequence[ModelPart]:
+    """A shape as its motion has it at that instant."""
+    return motion.place(draw_shape(shape), time_s)
+
+
 def _read_prop(row: Mapping[str, Any]) -> Prop:
-    draw = _MOVING.get(row["shape"], lambda _, shape=row["shape"]: draw_shape(shape))
-    return Prop(row["at"], draw, tuple(row.get("nouns", ())), row.get("is_own", False))
+    draw, motion = _MOVING.get(row["shape"]), read_motion(row)
+    if draw is None:
+        shape = row["shape"]
+        draw = partial(_draw_moving, motion, shape) if motion else lambda _: draw_shape(shape)
+    nouns = tuple(row.get("nouns", ()))
+    return Prop(row["at"], draw, nouns, row["shape"], row.get("is_own", False))
 
 
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(

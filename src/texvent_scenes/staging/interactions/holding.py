@@ -95,6 +95,8 @@ def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
 
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
+    if not is_person(subject):
+        return subject, carried(target, held_at(subject, "mouth", _in_mouth(target)), subject)
     doing = subject.track.at(0.0).activity
     props = (one.anchor for one in list_props(doing) if target.noun.name in one.nouns)
     hand = next((one for one in props if one in _HANDS), "right hand")
@@ -106,6 +108,12 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     anchor = hand if hold.anchor in _HANDS else hold.anchor
     held = held_at(subject, anchor, hold.offset, is_upright=hold.is_upright)
     return subject, carried(target, held, subject)
+
+
+def _in_mouth(thing: Actor) -> Affine:
+    """Its longer side across, its middle at the mouth."""
+    turn = rotation(0.5 * math.pi if thing.model.length > thing.model.width else 0.0, 0.0, 0.0)
+    return np.column_stack([turn, [0.0, 0.0, thing.foot_m - 0.5 * thing.model.height]])
 
 
 def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
@@ -161,6 +169,11 @@ def _both_hands(x: float, y: float, z: float) -> Grips:
     return (("left hand", (x, y, z)), ("right hand", (x, -y, z)))
 
 
+def is_tool(thing: Actor) -> bool:
+    """Whether it is held by a handle."""
+    return thing.noun.name in nouns_with("held as a tool")
+
+
 def along_tool(thing: Actor) -> Affine:
     """The handle in the hand, the rest along what the hand points to."""
     model = thing.model
@@ -188,6 +201,24 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
             subject, track=replace(_gripping(subject.track, grips), activity="push along")
         )
     offset = shift(reach + 0.02 + 0.5 * model.length, 0.0, target.foot_m)
+    path = held_at(subject, "ground", offset, is_upright=True, activity="move")
+    return subject, replace(target, track=path, lead_m=subject.lead_m, is_mover=subject.is_mover)
+
+
+_BEHIND: Vector = (-0.32, -0.2, 0.62)
+"""Right hand of who pulls something along, adult's body coordinates, m."""
+
+
+def pull(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """The thing behind, its front at the hand or below it."""
+    model, hand = target.model, scaled(_BEHIND, size_of(subject.model))
+    if is_person(subject):
+        grips = (("right hand", hand),)
+        subject = replace(subject, track=_gripping(subject.track, grips))
+        gap = -hand[0]
+    else:
+        gap = 0.55 * subject.model.length
+    offset = shift(-gap - 0.5 * model.length, hand[1] * is_person(subject), target.foot_m)
     path = held_at(subject, "ground", offset, is_upright=True, activity="move")
     return subject, replace(target, track=path, lead_m=subject.lead_m, is_mover=subject.is_mover)
 

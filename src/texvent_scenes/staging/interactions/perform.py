@@ -18,22 +18,24 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.interactions import holding, striking
+from texvent_scenes.staging.interactions import handling, holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 from texvent_scenes.staging.tracks.track import attached
 
-_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
+_Act = Callable[[Actor, Actor, float, int], tuple[Actor | None, Actor | None]]
 ACTS: Mapping[str, _Act] = {
-    "push": lambda who, what, _: holding.push(who, what),
-    "ride": lambda who, what, _: holding.board(who, what),
+    "push": lambda who, what, *_: holding.push(who, what),
+    "pull": lambda who, what, *_: holding.pull(who, what),
+    "ride": lambda who, what, *_: holding.board(who, what),
     **{kind: partial(striking.strike, kind) for kind in striking.IMPACTS},
-    "hold": lambda who, what, _: holding.hold(who, what),
-    "wear": lambda who, what, _: holding.wear(who, what),
+    "act on": lambda who, what, _, number: handling.handle(who, what, number),
+    "hold": lambda who, what, *_: holding.hold(who, what),
+    "wear": lambda who, what, *_: holding.wear(who, what),
 }
 """Relations that are acts of the subject on its first target → the bodies as they leave them. What
-moves bodies comes before what hangs on them."""
+moves bodies comes before what hangs on them. Targets of one kind have numbers."""
 
 
 _ASIDE_DEG = (-20.0, 200.0)
@@ -131,13 +133,13 @@ def _settle(
     if kind in striking.IMPACTS:
         doing = striking.IMPACTS[kind].activity or kind
         return replace(subject, motions=(Motion(doing, to),)), still
-    if kind == "push":
+    if kind in ("push", "pull"):
         if motion.kind in ("push", "stand"):
             walk = Motion("walk", motion.direction)
             subject = replace(subject, motions=(walk, *subject.motions[1:]))
         return subject, still
-    if kind == "wear":
-        return subject, still
+    if kind in ("wear", "act on"):
+        return subject, still if kind == "wear" else target
     size = trait_value("carried size", target.noun) or 1.0
     return subject, replace(still, size=size * target.size)
 
@@ -307,9 +309,10 @@ def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: floa
         for target in targets if not subjects else ():
             del cast[target]
         pairs = zip(itertools.cycle(subjects), targets, strict=False)
-    for one, other in pairs:
+    for place, (one, other) in enumerate(pairs):
         if one != other:
-            bodies = ACTS[relation.kind](cast[one], cast[other], duration_s)
+            turn = place // max(len(subjects), 1)
+            bodies = ACTS[relation.kind](cast[one], cast[other], duration_s, turn)
             for number, body in zip((one, other), bodies, strict=True):
                 if body is None:
                     del cast[number]

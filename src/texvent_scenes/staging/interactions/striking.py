@@ -23,7 +23,7 @@ from texvent_scenes.staging.interactions.holding import (
     is_person,
     moving,
 )
-from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead, flight_s
 from texvent_scenes.staging.tracks.phases import speeds_of
 from texvent_scenes.staging.tracks.track import (
     Attachment,
@@ -54,6 +54,8 @@ class Impact(NamedTuple):
     """None = it rolls."""
     is_flung: bool = True
     """Whether the thing leaves the body at a speed."""
+    is_caught: bool = False
+    """Whether the thing comes flying, and stays at that place from then on."""
     carried: Literal["before", "after"] | None = None
     """When the thing is at that place, if it stands on the ground else."""
 
@@ -66,6 +68,7 @@ IMPACTS: Mapping[str, Impact] = MappingProxyType(
         "lift": Impact(0.4, "pick up", "hands", carried="after"),
         "set down": Impact(0.5, "put down", "hands", carried="before"),
         "drop": Impact(0.3, "let go", "hands", is_held=True, is_flung=False),
+        "catch": Impact(0.45, "catch", "hands", is_caught=True),
         "collide": Impact(0.5),
     }
 )
@@ -76,6 +79,9 @@ _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
 """Way of what is sent to a receiver, m; its time, s; upward share of its speed along the ground."""
+_LEAP, _SPIN_RAD_S, _THROWN = 0.6, 9.0, 2.6
+"""Height to which an animal leaps for what it catches, in its own; rate of turning of what is
+caught; most way that it comes, in heights of who catches it."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _THIN, _ASLANT = 0.6, 0.55
@@ -88,13 +94,17 @@ def contact_time(duration_s: float, share: float) -> float:
     return min(max(share * duration_s, 0.3), 1.1)
 
 
-def strike(kind: str, subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
+def strike(
+    kind: str, subject: Actor, thing: Actor, duration_s: float, _: int = 0
+) -> tuple[Actor, Actor]:  # fmt: skip
     """Both bodies of an act of `IMPACTS`, bound by the instant of contact."""
     act = IMPACTS[kind]
     contact_s = contact_time(duration_s, act.share)
     if act.activity is None:
         return _run_together(subject, thing, contact_s)
     home = subject.track.at(0.0)
+    if act.is_caught:
+        return _catch(act, subject, thing, contact_s)
     is_limbed = is_person(subject) or act.is_held
     rest = steady(home.position, home.yaw, activity=act.activity if is_limbed else "stand")
     subject = moving(subject, replace(rest, contact_s=contact_s))
@@ -111,6 +121,37 @@ def strike(kind: str, subject: Actor, thing: Actor, duration_s: float) -> tuple[
     start = state_of(held.at(contact_s).to_world(), thing.lift_m)
     flight = _fly_off(act, thing, start, home, contact_s)
     return subject, moving(thing, replace(flight, anchor=held.anchor, release_s=contact_s))
+
+
+def _catch(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> tuple[Actor, Actor]:
+    """In free flight to a place of the body, which has it from then on; an animal leaps for it."""
+    home, place = subject.track.at(0.0), act.by if is_person(subject) else "mouth"
+    path = steady(home.position, home.yaw, activity=act.activity or "stand")
+    if not is_person(subject):
+        path = _leap(subject, contact_s)
+    subject = moving(subject, replace(path, contact_s=contact_s if is_person(subject) else None))
+    held = held_at(subject, place, shift(0.0, 0.0, -thing.lift_m), is_upright=True)
+    end = state_of(held.at(contact_s).to_world(), thing.lift_m)
+    most_m = min(_DELIVERED_M, _THROWN * subject.model.height)
+    speed = min(float(speeds_of(thing.noun).get("throw", _FLUNG_M_S)), most_m / contact_s)
+    start = ahead(end.position, home.yaw, speed * contact_s, end.position[2])
+    flight = ballistic(
+        start, home.yaw + math.pi, speed, 0.5 * GRAVITY_M_S2 * contact_s,
+        floor_m=home.position[2] + 0.5 * thing.model.height - end.pivot_m, restitution=0.0,
+    )  # fmt: skip
+    terms = (Term("yaw", offset=end.yaw - home.yaw - math.pi, drift=_SPIN_RAD_S, end_s=contact_s),)
+    turned = terms[0]._replace(offset=terms[0].offset - _SPIN_RAD_S * contact_s)
+    flight = replace(flight, terms=(turned,), pivot_m=end.pivot_m, anchor=held.anchor)
+    return subject, moving(thing, replace(flight, grab_s=contact_s))
+
+
+def _leap(subject: Actor, contact_s: float) -> Track:
+    """Up on the spot, highest at the contact."""
+    home = subject.track.at(0.0)
+    flown_s = min(flight_s(_LEAP * subject.model.height), contact_s)
+    leap = Key(flown_s, hop_m=GRAVITY_M_S2 * flown_s**2 / 8.0, activity="jump")
+    waits = Key(max(contact_s - 0.5 * flown_s, 1e-3), activity="stand")
+    return Track(home.position, home.yaw, (waits, leap, Key(0.1, activity="stand")))
 
 
 def _carry(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> Track:

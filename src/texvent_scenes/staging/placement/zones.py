@@ -34,7 +34,7 @@ _SHORE_M = 1.2
 """From who stands at the shore to what floats."""
 _INSTANTS = 9
 _CARRYING = frozenset(
-    {"on", "in", "hold", "wear", "ride", "towards", "from", "away from", *ACTED,
+    {"on", "in", "hold", "wear", "act on", "ride", "towards", "from", "away from", *ACTED,
      "through", "around", *WAYS}
 )  # fmt: skip
 """Relations that hang on how a body is turned."""

@@ -1,0 +1,123 @@
+"""Acts on things at hand: each is where its row has it, and a hand or a mouth reaches it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.scenes.test_short_prompts import is_right, report, staged
+
+from texvent_scenes.checks.acts import handles
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, nouns_upon
+from texvent_scenes.models.materials import Material
+from texvent_scenes.models.people.prop_motions import Emission, Toss
+from texvent_scenes.models.shapes import ball
+from texvent_scenes.words import list_verb_forms
+
+from ...every_row import for_every
+
+ACTS = [(name, noun) for name, one in ACTIVITIES.items() if one.upon
+        for noun in sorted(nouns_upon(name))[:2]]  # fmt: skip
+BALL = (ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)),)
+
+
+@for_every(ACTS)
+def test_every_act_reaches_what_it_is_done_to(row):
+    name, noun = row
+    who = "boy" if "pet" in ACTIVITIES[name].verbs else "woman"
+    verb = list_verb_forms(ACTIVITIES[name].verbs[0])[2][0]
+    text = f"a {who} {verb} a {noun}"
+    assert is_right(text), report(text)
+    people = (one for one in staged(text)[0].actors if one.noun.name in PERSON_NOUNS)
+    assert next(people).track.at(0.0).activity == name
+
+
+@pytest.mark.parametrize("text", ["a boy pets a dog", "a cook slices bread", "a man washes a van"])
+def test_what_is_out_of_reach_is_not_acted_on(text):
+    scene = staged(text)[0]
+    who, what = scene.actors
+    claim = Claim("", "act on", "", 0, (1,))
+    clip = StagedClip(scene, None, None, 2.0)
+    assert handles(clip, claim)
+    far = replace(what, track=replace(who.track, start=(9.0, 9.0, 0.0)))
+    assert not handles(replace(clip, scene=replace(scene, actors=(who, far))), claim)
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [("a dog catches a frisbee", "mouth"), ("a girl catches a ball", "hands"),
+     ("a cat catches a fish", "mouth")],
+)  # fmt: skip
+def test_what_is_caught_comes_in_free_flight_and_then_stays(text, place):
+    who, thing = staged(text)[0].actors
+    z = [thing.middle(at)[2] for at in np.arange(0.05, 0.86, 0.1)]
+    np.testing.assert_allclose(np.diff(z, 2), -9.81 * 0.1**2, atol=1e-6)
+    gaps = [np.linalg.norm(thing.middle(at) - who.anchor(place, at)[:, 3])
+            for at in (0.0, 0.899, 0.901, 1.9)]  # fmt: skip
+    assert gaps[0] > 0.8
+    np.testing.assert_allclose(gaps[1:], gaps[-1], atol=0.03)
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", ["a woman pulls a suitcase", "a horse pulls a trailer",
+                                  "a boy drags a box along the beach"])  # fmt: skip
+def test_what_is_pulled_follows_at_one_distance(text):
+    who, thing = staged(text)[0].actors
+    way = who.middle(1.9) - who.middle(0.1)
+    gaps = [who.middle(at) - thing.middle(at) for at in (0.1, 1.0, 1.9)]
+    assert np.linalg.norm(way) > 0.5
+    assert all(gap @ way > 0.0 for gap in gaps)
+    assert np.ptp([np.linalg.norm(gap[:2]) for gap in gaps]) < 0.05
+
+
+@pytest.mark.parametrize("text", [
+    "a dog with a stick in its mouth", "a fox carries a feather in its mouth",
+    "a bear holding a fish in its jaws",
+])  # fmt: skip
+def test_an_animal_holds_things_in_its_mouth(text):
+    who, thing = staged(text)[0].actors
+    for at in (0.0, 0.7, 1.8):
+        assert np.linalg.norm(who.anchor("mouth", at)[:, 3] - thing.middle(at)) < 0.1
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", ["slicing a tomato", "chopping carrots", "petting a cat"])
+def test_an_act_that_only_people_do_brings_somebody_who_does_it(text):
+    assert next(one.noun.name for one in staged(text)[0].actors) == "person"
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", [
+    "a man chops wood with an axe", "a girl brushes hair with a hairbrush",
+    "a worker rakes leaves with a rake",
+])  # fmt: skip
+def test_the_tool_that_comes_with_an_act_may_be_said(text):
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a woman kicks a penalty", "a boy shoots hoops", "a man takes a free kick"]
+)
+def test_an_object_that_a_phrase_implies_is_there(text):
+    assert len(staged(text)[0].actors) == 2
+    assert is_right(text)
+
+
+def test_what_is_tossed_is_in_free_flight_and_then_rests():
+    toss = Toss(hz=0.8, up=0.4, start=0.25)
+    times = np.arange(0.0, 2.5, 0.01)
+    height = np.array([toss.place(BALL, at)[0].to_body[2, 3] for at in times])
+    is_up = height > 1e-9
+    bend = np.diff(height, 2)[is_up[:-2] & is_up[1:-1] & is_up[2:]]
+    np.testing.assert_allclose(bend, -9.81 * 1e-4, rtol=1e-6)
+    assert height.max() == pytest.approx(0.4, abs=1e-3)
+    assert (height[~is_up] == 0.0).all()
+
+
+def test_copies_leave_one_by_one_and_go_on_at_their_speed():
+    emission = Emission(hz=4.0, lasts_s=1.0, speed=(2.0, 0.0, 0.0))
+    for at in (0.03, 0.6, 7.7):
+        x = sorted(one.to_body[0, 3] for one in emission.place(BALL, at))
+        np.testing.assert_allclose(np.diff(x), 0.5)
+        assert 0.0 <= x[0] < 0.5
