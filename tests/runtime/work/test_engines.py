@@ -20,12 +20,13 @@ from texvent.runtime.work.engines import ATTEMPTS, Outcome, ProcessEngine
 
 @dataclass(frozen=True)
 class Task:
-    """A task that gives its process and the threads it may use, fails, or kills its process."""
+    """A task that gives its process and the threads it may use, fails, kills its process, or waits
+    for a file."""
 
     number: int
     how: str = "works"
     deaths: Path | None = None
-    """Gets a line before every death."""
+    """Gets a line before every death; or the file that is waited for."""
     is_video = False
 
     def run(self) -> tuple[int, int]:
@@ -35,6 +36,10 @@ class Task:
             with self.deaths.open("a") as file:
                 file.write("died\n")
             os.kill(os.getpid(), signal.SIGKILL)
+        if self.how == "waits" and self.deaths is not None:
+            stop = time.monotonic() + 60.0
+            while not self.deaths.exists() and time.monotonic() < stop:
+                time.sleep(0.01)
         return os.getpid(), count_threads()
 
 
@@ -59,6 +64,15 @@ def test_a_task_that_takes_its_process_down_harms_no_other(tmp_path: Path) -> No
 def test_tasks_that_fail_leave_their_processes_to_others() -> None:
     outcomes = outcomes_of(1, *(Task(number, "fails") for number in range(3)), Task(3))
     assert [bool(outcomes[number].failure) for number in range(4)] == [True, True, True, False]
+
+
+def test_an_outcome_does_not_wait_for_those_of_longer_tasks(tmp_path: Path) -> None:
+    with closing(ProcessEngine(2)) as engine:
+        for task in (Task(0, "waits", tmp_path / "stop"), Task(1), Task(2)):
+            engine.submit(task)
+        early = [engine.next().task.number for _ in range(2)]
+        (tmp_path / "stop").touch()
+        assert [*early, engine.next().task.number] == [1, 2, 0]
 
 
 def test_processes_share_the_threads(monkeypatch: pytest.MonkeyPatch) -> None:
