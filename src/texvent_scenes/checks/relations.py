@@ -41,7 +41,7 @@ _ROW = 4
 """Targets from which on they are a row, of which it passes some."""
 _BY = ("at", "to", "towards")
 """Words for "beside" of what one cannot be at otherwise, such as a pier."""
-_SAID = {"front": "in front of", "follow": "following"}
+_SAID = {"front": "in front of", "follow": "following", "act on": "at"}
 """Kinds of relation that a line of the report says in other words."""
 _MOST_COPIES = 0.75
 """Share of a subject's copies in a relation."""

@@ -27,6 +27,8 @@ class Activity:
     """Verbs of an act on something, which is an object of the sentence."""
     upon: Mapping[str, Any] | None = None
     """What it is done to, and where that is: fields of `Upon`."""
+    effect: str = ""
+    """Effect that comes from who does it."""
     named: tuple[str, ...] = ()
     """Phrases that name it and do not begin with a verb: "peace sign"."""
     travels: bool = False
@@ -64,6 +66,8 @@ class Upon:
     """Its motion."""
 
 
+PEOPLE = "people"
+"""Word of `Upon.nouns` for all nouns of people."""
 USUAL = "usual"
 """Name of the row of a table with the channels that an activity does not say."""
 OTHER = "other"
@@ -103,7 +107,14 @@ def nouns_upon(activity: str) -> frozenset[str]:
     """Nouns that an activity is done to."""
     upon = upon_of(activity)
     said = () if upon is None else upon.nouns
-    return frozenset().union(*(nouns_with(one) if has_trait(one) else {one} for one in said))
+    found = (nouns_with(one) if has_trait(one) else {one} for one in said)
+    return frozenset().union(*found) | (PERSON_NOUNS if PEOPLE in said else frozenset())
+
+
+def is_mutual(activity: str) -> bool:
+    """Whether two people do it to each other."""
+    upon = upon_of(activity)
+    return upon is not None and PEOPLE in upon.nouns
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")

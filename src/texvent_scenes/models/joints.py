@@ -225,6 +225,12 @@ def _grow(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> J
     return lambda now: _stretch_along(axes, least + (1.0 - least) * (cycle(now) % 1.0), pivot)
 
 
+def _fold(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
+    """Drawn in along axes as far as channels say: least factor."""
+    least, amount = read_number(words[0]), _amount(options)
+    return lambda now: _stretch_along(axes, 1.0 - (1.0 - least) * amount(now), pivot)
+
+
 def _vary(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> JointMotion:
     """Stretched once and for all: least and greatest factor, name of the seed's choice."""
     low, high, name = read_number(words[0]), read_number(words[1]), words[2]
@@ -270,12 +276,12 @@ def _stretch(axis: str, factors: Point, words: Sequence[str], options: _Options)
 _Maker = Callable[[str, Point, Sequence[str], _Options], JointMotion]
 _ABOUT_PIVOT: Mapping[str, _Maker] = {
     "spin": _spin, "swing": _swing, "turn": _turn, "bow": _bow,
-    "pulse": _pulse, "grow": _grow, "vary": _vary,
+    "pulse": _pulse, "grow": _grow, "vary": _vary, "fold": _fold,
 }  # fmt: skip
 """Joints with axis and pivot."""
 _ALONG: Mapping[str, _Maker] = {"belt": _belt, "sway": _sway}
 _BY_VECTOR: Mapping[str, _Maker] = {"shift": _shift, "stretch": _stretch}
-_STRETCHING = ("pulse", "grow", "vary")
+_STRETCHING = ("pulse", "grow", "vary", "fold")
 """Joints of several axes, such as "yz"."""
 
 

@@ -233,7 +233,7 @@ class Legs:
     leads: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """Gait → lead of the left legs, and of the right ones over them; of others it is as above."""
     feet_by: Mapping[str, Point] = field(default_factory=dict)
-    """Channel → displacement of the feet at 1."""
+    """Channel → displacement of the feet at 1; "left_" and "right_" before it are of one side."""
     knees_by: Mapping[str, Point] = field(default_factory=dict)
     """Channel → change of the direction of the knees at 1."""
 
@@ -243,9 +243,10 @@ class Legs:
 
         def draw(steps: Steps, body: Affine, channels: Mapping[str, float]) -> list[ModelPart]:
             parts: list[ModelPart] = []
-            far_x, far_y, far_z = _blend((0.0, 0.0, 0.0), self.feet_by, channels)
             knee_x, knee_y, knee_z = _blend(self.towards, self.knees_by, channels)
             for (x, y, z, foot_x, foot_y, lead), side in product(self.pairs, (1.0, -1.0)):
+                own = _of_side(channels, "left_" if side > 0.0 else "right_")
+                far_x, far_y, far_z = _blend((0.0, 0.0, 0.0), self.feet_by, own)
                 lead, apart = self.leads.get(steps.name, (lead, self.apart))
                 ahead = lead + (0.0 if side > 0.0 else apart)
                 step, lift = foot_path(steps, ahead)
@@ -262,6 +263,13 @@ class Legs:
             return parts
 
         return draw
+
+
+def _of_side(channels: Mapping[str, float], side: str) -> Mapping[str, float]:
+    """Channels with those of a side by the names of both."""
+    return channels | {
+        name.removeprefix(side): value for name, value in channels.items() if name.startswith(side)
+    }
 
 
 def _blend(start: Point, by: Mapping[str, Point], channels: Mapping[str, float]) -> Point:

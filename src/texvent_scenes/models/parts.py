@@ -307,6 +307,10 @@ def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
     text = f"{table.get('parts', '')} {table.get('body', '')}"
     followed = set(" ".join(re.findall(r"\bby ([\w. ]+)", text)).split())
     followed |= {"down"} & {"down" if word == "bow" else "" for word in text.split()}
+    for leg in table.get("legs", ()):
+        followed |= {
+            f"{side}_{one}" for one in leg.get("feet_by", ()) for side in ("left", "right")
+        }
     return frozenset(
         name for name in ANIMAL_ACTIVITIES if followed & (_channels_of(name) - {"idle"})
     )

@@ -8,7 +8,14 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import SEEN, Claim
-from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED, nouns_upon
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TIMED,
+    is_mutual,
+    nouns_upon,
+)
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import is_room
@@ -66,6 +73,8 @@ def names_place(head: Token, relation: str) -> bool:
 
 def is_of_hands(act: VerbSense, nouns: Sequence[str]) -> bool:
     """Whether only people do an act, to nouns or to nothing."""
+    if act.object in TIMED and act.relation == "at":
+        return bool(nouns)
     if act.relation == "act on":
         return bool(nouns) and act.who == "person" and {*nouns} <= nouns_upon(act.kind)
     if nouns and act.relation is None:
@@ -378,6 +387,7 @@ class SceneDraft:
                 used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
                 is_used = all(self.things[one]["noun"] in used for one in objects)
                 is_used |= verb.relation is not None
+                is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object
@@ -447,7 +457,7 @@ class SceneDraft:
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""
         if kind in ("on", "off"):
-            return names <= LAMPS.keys() - word_set("things", "flames")
+            return names <= LAMPS.keys()
         lit = nouns_with("own effect") | nouns_with("flat pattern") | word_set("things", "flames")
         return names <= LAMPS.keys() | lit
 

@@ -9,7 +9,14 @@ from typing import Any
 
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS, TIMED
+from texvent_scenes.models.activities import (
+    ANIMAL_ACTIVITIES,
+    DONE_SEATED,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TIMED,
+    is_mutual,
+)
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
@@ -35,6 +42,7 @@ _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
 PLURAL_COUNT = 3
 """Copies that a bare plural means."""
+_SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
 
@@ -298,14 +306,30 @@ class ThingReader:
             self._claim_act(act, verb, index, objects)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
+            self._switch(act.object, index)
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
-        if act.relation == "collide" and not objects:
-            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
+        if not objects:
+            self._meet(act, verb, subjects)
         for index in subjects if act.relation is not None else ():
             draft.relate(
                 ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
             )
         return list(objects if act.object and objects else subjects)
+
+    def _switch(self, state: str, index: int) -> None:
+        """Switch the lamp of what an act lights or puts out."""
+        if state in _SWITCHED:
+            self._draft.things[index]["motions"].pop()
+            self._draft.things[index] |= {"is_lit": state == "on", "switch_s": _SWITCHED_S}
+
+    def _meet(self, act: VerbSense, verb: Token, subjects: Sequence[int]) -> None:
+        """Let several do it to each other: "collide", "shake hands"."""
+        who, *others = subjects
+        if act.relation == "collide":
+            self._draft.relate(who, "collide", others or [who])
+        elif is_mutual(act.kind):
+            self._draft.relate(who, "act on", others or [who])
+            self._draft.claim(verb, "act on", "", [who], others or [who])
 
     def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""
@@ -347,15 +371,17 @@ class ThingReader:
         if act.who not in ("source", "lamp"):
             before = [one["kind"] for one in thing["motions"]]
             add_motion(thing, act, goes_on=self._goes_on)
+            if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
+                self._draft.add_effect(verb, row.effect, [index])
             is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
             is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
             if is_later and before and not is_seated:
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
+        elif act.who == "lamp" and act.kind in _SWITCHED:
+            thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
         elif thing["noun"] not in word_set("things", "flames"):
-            if act.who == "lamp" and act.kind == "blink":
+            if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ
-            elif act.who == "lamp":
-                thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
             else:
                 self._draft.add_effect(verb, act.kind, [index])
 

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.models.activities import Upon, upon_of
-from texvent_scenes.models.shapes import Affine, shift
+from texvent_scenes.models.activities import TIMED, Upon, upon_of
+from texvent_scenes.models.shapes import Affine
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.holding import (
     along_tool,
     carried,
     held_at,
+    is_person,
     is_tool,
     scaled,
 )
 from texvent_scenes.staging.tracks.track import rotation
 
+_BEGUN_S = 0.1
+"""Instant at which an act of a part of the thing begins."""
 _APART = 1.15
 """Distance of things side by side, in their widths."""
 
@@ -41,7 +45,8 @@ def handle(subject: Actor, target: Actor, number: int = 0) -> tuple[Actor, Actor
     kept = target.track.at(0.0).activity
     is_upright = not (is_tool(target) and place.endswith("hand"))
     path = held_at(subject, place, offset, is_upright=is_upright, activity=kept)
-    return subject, carried(target, path, subject)
+    begun_s = _BEGUN_S if kept in TIMED else None
+    return subject, carried(target, replace(path, contact_s=begun_s), subject)
 
 
 def _at(upon: Upon, subject: Actor, target: Actor) -> Affine:
@@ -49,12 +54,14 @@ def _at(upon: Upon, subject: Actor, target: Actor) -> Affine:
     if is_tool(target) and upon.at.endswith("hand"):
         return along_tool(target)
     x, y, z = scaled(upon.place, size_of(subject.model))
-    return shift(x, y, z + target.foot_m)
+    turn = rotation(upon.turn or 0.0, 0.0, 0.0)
+    return np.column_stack([turn, [x, y, z + target.foot_m]])
 
 
 def _before(upon: Upon, subject: Actor, target: Actor) -> Affine:
     """On the ground, its longer side across or as the act has it, so far before the body."""
     model, (gap, y, z) = target.model, scaled(upon.place, size_of(subject.model))
+    gap += 0.0 if is_person(subject) else 0.5 * subject.model.length
     is_across = upon.turn is None and model.length > model.width
     deep = model.width if is_across else model.length
     yaw = 0.5 * math.pi if is_across else upon.turn or 0.0

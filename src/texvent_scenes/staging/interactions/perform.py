@@ -302,7 +302,7 @@ def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: floa
     )
     if relation.kind == "ride":
         pairs = zip(subjects, targets, strict=False)
-    elif relation.kind == "collide":
+    elif relation.kind == "collide" or subjects == targets:
         met = list(dict.fromkeys([*subjects, *targets]))
         pairs = zip(met[::2], met[1::2], strict=False)
     else:

@@ -119,6 +119,8 @@ class LitActor:
         for index, _, lamp in self.lamps:
             if self.is_on(lamp) or self.is_lit is not None:
                 factor = lamp.boost * self.level(lamp, time_s)
+                if lamp.wave == "flame" and factor == 0.0:  # it is out
+                    parts[index] = parts[index].at(_GONE * parts[index].to_body)
                 parts[index] = replace(parts[index], emission=parts[index].emission * factor)
         return replace(placed, parts=parts)
 
