@@ -81,7 +81,9 @@ class _Parser(GroupReader):
         if token.has("conjunctions"):
             is_near = word == "where" and self._token(-1).has("noun") and self._starts_group(1)
             self._take()
-            return Clause(about="where" if is_near else word if word == "then" else "")
+            is_same = bool(self._token().verbs("ing")) and not self._token(1).has("noun")
+            about = {"then": "then", "where": "where" if is_near else ""}
+            return Clause(about=about.get(word, "meanwhile" if is_same else ""))
         if (second := self._begin_with_verb(clause)) is not None:
             return second
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
@@ -155,8 +157,10 @@ class _Parser(GroupReader):
     def _read_camera(self, clause: Clause) -> Clause | None:
         """As "the camera", or "zoom in" at the beginning of a clause."""
         ahead = 1 if self._token().has("articles") else 0
-        if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
-            self._at += ahead + 1
+        token, after = self._token(ahead), self._token(ahead + 1)
+        is_shot = token.has("shot") and not token.has("noun") and bool(ahead and after.has("verb"))
+        if not clause.has_subject and clause.verb is None and (token.has("camera") or is_shot):
+            self._at += ahead + (not is_shot)  # "a dashcam driving" is a shot as well
             return replace(clause, about="camera")
         verbs = {one.value.who for one in self._token().verbs("base")}
         is_command = verbs == {"camera"} or ("camera" in verbs and self._at == 0)
@@ -229,8 +233,10 @@ class _Parser(GroupReader):
             return None
         is_before = self._token(1).has("pronouns") and not self._starts_group(1)  # no "her car"
         is_back = token.has("relation") and is_before
-        if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
-            if token.has("adverb") or not token.has("relation"):
+        is_passive = token.text in ("being", "been") and bool(self._token(1).verbs("ed"))
+        is_lone = not self._starts_group(1) or self._token(1).has("adverb") or is_passive
+        if not is_back and is_lone:
+            if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
             return replace(clause, after=(*clause.after, self._take()))
         self._at += 1 + is_back

@@ -192,8 +192,9 @@ class GroupReader:
         if token.is_unknown and self._at > first and self._has_object():
             return True  # "a player in white serves the ball"
         before = self._token(-1)
-        if before.is_unknown and before.text.endswith("s") and token.text.endswith("ing"):
-            return self._at > first  # "travellers pulling"
+        is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
+        if before.is_unknown and is_many and token.text.endswith("ing"):
+            return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
         is_state = token.text in states() and self._at == first
         is_word = token.is_unknown or token.has("picture") or is_state
         return not (is_word or token.verbs("ing", "ed"))

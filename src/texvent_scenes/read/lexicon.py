@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import product
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -18,7 +19,7 @@ from texvent_scenes.models.activities import (
     HAND_GESTURES,
     Activity,
 )
-from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.effects import EFFECTS, LAMPS
 from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
@@ -235,6 +236,21 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(words["senses"]):
         yield from ((phrase, _sense_of(*path)) for phrase in phrases)
+    for row in words["acting"]:
+        yield from ((phrase, _sense_of(*row["sense"])) for phrase in _list_acting(row))
+
+
+def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:
+    """Phrases of weather and effects with their verbs: "falling snow", "snow is drifting down"."""
+    yield from row.get("alone", ())
+    for noun, phrase in product(row["nouns"], row["verbs"]):
+        verb, _, rest = phrase.partition(" ")
+        written = read_table("words", "read")["irregular"].get(verb, "")
+        for word, form in list_verb_forms(verb, written):
+            said = f"{noun} {{}}{word} {rest}".strip()
+            yield said.format("")
+            if form == "ing":
+                yield from (f"{word} {noun}", said.format("is "), said.format("are "))
 
 
 def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:
@@ -409,6 +425,11 @@ def _as_senses(found: Found) -> tuple[int, Senses]:
     return found[0], tuple(Sense(kind, value) for kind, value in found[1])
 
 
+def _is_switched(who: str, words: Sequence[str]) -> bool:
+    """Whether a lamp follows its verb: "turns on the light", no "turns on the spot"."""
+    return who == "lamp" and any(one.casefold() in {*LAMPS, "light", "lights"} for one in words)
+
+
 def _without_chance(
     senses: Senses, words: Sequence[str], end: int, before: Sequence[Token]
 ) -> Senses:
@@ -430,6 +451,7 @@ def _without_chance(
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
         and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
-        and not (after in articles and one.kind == "verb" and one.value.who == "plain"
-                 and one.value.relation is None and words[end] in word_set("things", "particles"))
+        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
+                 and one.value.relation is None and words[end] in word_set("things", "particles")
+                 and not _is_switched(one.value.who, words[end + 1 : end + 5]))
     )  # fmt: skip

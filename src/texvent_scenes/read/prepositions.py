@@ -26,8 +26,14 @@ _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
 _ARRIVALS = {"into": "in", "onto": "on"}
+_SENT_OFF = frozenset({"bounce", "jump", "throw"})
+"""Motions against something that is reached: no pendulum swings so before a wall."""
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
+_RAINED_ON = (
+    "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
+)  # fmt: skip
+"""Relations of what comes down everywhere."""
 SENT = ("kick", "throw", "roll")
 """Acts after which the object goes a way, not who does it."""
 _ALONG = ("along", "down", "up")
@@ -50,7 +56,8 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
     sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
     sent_to = "" if "throw" in does else "towards"  # it is not thrown
-    return sent_to if token.text == "against" and (sent | does) - {"stand"} else kind
+    is_sent = bool(sent or does & _SENT_OFF) or any(map(draft.goes, subjects))
+    return sent_to if token.text == "against" and is_sent else kind
 
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
@@ -182,6 +189,8 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
         return not subjects or any(draft.things[one]["motions"] for one in subjects)
     if "above" in kinds:
         return not any(map(draft.keeps_to_ground, subjects))
+    if "front" in kinds:  # "against a starry sky"
+        return place.is_backdrop or place in (PLACES["sky"], PLACES["space"])
     is_past = token.text == "past" or (place.has_shore and token.text == "through")
     is_bank = "beside" not in kinds or place.has_shore
     return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
@@ -272,9 +281,10 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
-    is_weather = draft.tokens[token.at - 1].text in word_set("things", "falling")
-    is_there = "weather" in draft.parts["place"] or bool(draft.effects)
-    return is_weather and is_there and kind in ("on", "above", "around")
+    before = draft.tokens[token.at - 1]
+    is_weather = {one.value[1] for one in before.all("scene")} & {"weather", "has_snow"}
+    is_all_over = {one.value for one in before.all("effect")} & word_set("things", "all_over")
+    return bool(is_weather or is_all_over) and kind in _RAINED_ON
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
