@@ -28,7 +28,7 @@ _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 _ARRIVALS = {"into": "in", "onto": "on"}
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
-SENT = ("kick", "throw", "roll")
+SENT = ("kick", "throw", "roll", "hit")
 """Acts after which the object goes a way, not who does it."""
 _ALONG = ("along", "down", "up")
 """Prepositions of ways that lead on."""
