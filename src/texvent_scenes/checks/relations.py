@@ -64,7 +64,7 @@ def find_violations(
     """Words that the bodies do not realise; without a line where one of them is out of view."""
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
-            if one.kind in ("kick", "throw", "roll")}  # fmt: skip
+            if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]

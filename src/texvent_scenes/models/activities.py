@@ -41,6 +41,10 @@ class Activity:
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
     """Time of the contact in an act that has one, if the act is repeated, s."""
+    reach_m: float = 0.0
+    """From the hand to where what it swings meets a ball, m; 0 = it swings nothing."""
+    sends_rad: float = 0.0
+    """Direction in which the ball goes then, to the left of the body."""
     repeats_hz: float = 0.0
     """Repetitions per second, of an act that is counted; 0 = it is not."""
     is_hop: bool = False

@@ -435,6 +435,8 @@ class SceneDraft:
     def names_tool(self, subjects: Sequence[int], words: Sequence[Token]) -> bool:
         """Whether words name what is drawn with an act: "chops wood with an axe"."""
         kinds = {each["kind"] for one in subjects for each in self.things[one]["motions"]}
+        does = {each["kind"] for one in subjects for each in self.things[one]["relations"]}
+        kinds |= {name for name, one in ACTIVITIES.items() if one.reach_m and "hit" in does}
         tools = {part for kind in kinds for prop in list_props(kind)
                  for part in (prop.name, prop.name.rpartition(" ")[2])}  # fmt: skip
         return bool(words) and all(one.text in tools and not one.has("noun") for one in words)

@@ -34,7 +34,7 @@ _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
 """Relations of what comes down everywhere."""
-SENT = ("kick", "throw", "roll")
+SENT = ("kick", "throw", "roll", "hit")
 """Acts after which the object goes a way, not who does it."""
 _ALONG = ("along", "down", "up")
 """Prepositions of ways that lead on."""

@@ -20,7 +20,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.draft import BLINK_HZ, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
@@ -285,14 +285,12 @@ class ThingReader:
     ) -> list[int] | None:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        acts = [one.value for one in verb.all("verb") if subjects]
-        if verb.text in _list_performing():
-            done = {draft.things[one].get("deed", "") for one in subjects} - {""}
-            acts[:0] = [VerbSense("person", one) for one in done]
-        act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
+        act = self._choose_act(verb, subjects, objects, has_object=has_object)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
+        for index in objects if act.relation == "hit" else ():
+            self._choose_ball(subjects, index)
         if act.brings and not objects:
             draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
             objects = [len(draft.things) - 1]
@@ -321,6 +319,43 @@ class ThingReader:
         if state in _SWITCHED:
             self._draft.things[index]["motions"].pop()
             self._draft.things[index] |= {"is_lit": state == "on", "switch_s": _SWITCHED_S}
+
+    def _choose_act(
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
+    ) -> VerbSense | None:
+        """The first sense of a verb that the subjects can do."""
+        draft, acts = self._draft, [one.value for one in verb.all("verb") if subjects]
+        if verb.text in _list_performing():
+            done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+            acts[:0] = [VerbSense("person", one) for one in done]
+        act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
+        return act or self._act_as_person(acts, subjects, objects, has_object=has_object)
+
+    def _choose_ball(self, subjects: Sequence[int], index: int) -> None:
+        """Take the ball of who is named by a sport: "a golfer hits a ball"."""
+        thing = self._draft.things[index]
+        for deed in (self._draft.things[one].get("deed") for one in subjects):
+            if deed and thing["noun"] == "ball":
+                thing["noun"] = trait_value("ball of", deed) or thing["noun"]
+                self._draft.things[subjects[0]]["motions"] = [{"kind": deed}]
+
+    def _act_as_person(
+        self, acts: Sequence[VerbSense], subjects: Sequence[int], objects: Sequence[int], *,
+        has_object: bool,
+    ) -> VerbSense | None:  # fmt: skip
+        """An act of people that hands do: "hands typing"; somebody is there who has them."""
+        things = [self._draft.things[one] for one in subjects]
+        if not things or not all(one["noun"] in HAND_NOUNS for one in things):
+            return None
+        said = [(one["noun"], one["count"]) for one in things]
+        for one in things:
+            one |= {"noun": "person", "count": 1}
+        for act in acts:
+            if self._draft.fits(act, subjects, objects, has_object):
+                return act
+        for one, (noun, count) in zip(things, said, strict=True):
+            one |= {"noun": noun, "count": count}
+        return None
 
     def _meet(self, act: VerbSense, verb: Token, subjects: Sequence[int]) -> None:
         """Let several do it to each other: "collide", "shake hands"."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +39,8 @@ _KEPT_TOGETHER = frozenset(
      "left of", "right of"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
+_SENT = {"kick": 3.2, "throw": 3.2, "hit": 1.7}
+"""Acts after which a thing flies off → how far it must be seen, in sizes of the subject."""
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
 _FOREARM = 0.28
@@ -83,6 +87,8 @@ class _Scope(NamedTuple):
     """Objects of which the lower part may be out of the image: people who act with their arms."""
     whole: Collection[int] = ()
     """Containers and passages, which tell what they are as a whole."""
+    sent: Mapping[int, float] = MappingProxyType({})
+    """Objects that are thrown or struck → how far they must be seen, in sizes of the subject."""
     sided: Collection[int] = ()
     """Objects between which something is: of what is tall, the lower part from side to side."""
 
@@ -98,7 +104,8 @@ def list_framing_choices(
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
     whole = {n for r in relations for n in r.targets if _tells_as_a_whole(r.kind, description, n)}
     sided = {n for r in relations if r.kind == "between" for n in r.targets}
-    scope = _Scope(main, times, tie, passed, cut, whole, sided)
+    sent = {n: _SENT[r.kind] for r in relations if r.kind in _SENT for n in r.targets}
+    scope = _Scope(main, times, tie, passed, cut, whole, sent, sided)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
@@ -162,6 +169,9 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             continue
         for time in map(float, times):
             box = _box_at(actor, time, scope.tie)
+            gone_m = np.linalg.norm(actor.middle(time) - main.middle(time))
+            if gone_m > scope.sent.get(actor.object_index, math.inf) * main.size_m:
+                continue
             is_cut = actor.object_index in scope.cut
             points.append(_upper_part(actor, box, "medium") if is_cut else box)
     return np.vstack(points)

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import AIMED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, AIMED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
@@ -64,6 +64,7 @@ def settle_motions(
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
             direction = _choose_direction(objects, pair, seed)
+            objects[pair[0]] = _swinging(relation.kind, pair, objects, relations)
             settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
             for index, one in zip(pair, settled, strict=True):
                 objects[index] = one
@@ -105,10 +106,11 @@ def _in_hand(
     relations: Sequence[IndexedRelation], objects: Sequence[SceneObject]
 ) -> Iterator[IndexedRelation]:
     """A person "with" small things wears what can be worn, and holds the first of the others."""
-    holding = {one.subject for one in relations if one.kind in ACTS}
+    holding = {one.subject for one in relations if one.kind in ACTS and one.kind != "hit"}
     for one in relations:
         thing = objects[one.targets[0]].noun
-        is_small = thing in nouns_with("in hand or on something") and thing not in HAND_NOUNS
+        small = nouns_with("in hand or on something") | nouns_with("held as a tool")
+        is_small = thing in small and thing not in HAND_NOUNS
         if one.kind != "with" or not is_small or objects[one.subject].noun not in PERSON_NOUNS:
             yield one
         elif trait_value("worn", thing) is not None or thing in CLOTHES:
@@ -131,7 +133,7 @@ def _settle(
     if kind == "collide":
         return _at_its_pace(subject), _at_its_pace(target)
     if kind in striking.IMPACTS:
-        doing = striking.IMPACTS[kind].activity or kind
+        doing = striking.IMPACTS[kind].activity or (motion.kind if kind == "hit" else kind)
         return replace(subject, motions=(Motion(doing, to),)), still
     if kind in ("push", "pull"):
         if motion.kind in ("push", "stand"):
@@ -142,6 +144,23 @@ def _settle(
         return subject, still if kind == "wear" else target
     size = trait_value("carried size", target.noun) or 1.0
     return subject, replace(still, size=size * target.size)
+
+
+def _swinging(
+    kind: str, pair: tuple[int, int], objects: Sequence[SceneObject],
+    relations: Sequence[IndexedRelation],
+) -> SceneObject:  # fmt: skip
+    """Who hits something, with the act of what it has in its hands, or of the usual implement."""
+    who, target = objects[pair[0]], objects[pair[1]].noun
+    if kind != "hit":
+        return who
+    held = {objects[n].noun for one in relations if one.subject == pair[0] for n in one.targets
+            if one.kind in ("hold", "with")}  # fmt: skip
+    swung = [name for name, one in ACTIVITIES.items() if one.reach_m]
+    used = [name for name in swung if held & {n for p in list_props(name) for n in p.nouns}]
+    said = [one.kind for one in who.motions if one.kind in swung]
+    usual = trait_value("struck with", target) or "swing bat"
+    return replace(who, motions=(Motion([*used, *said, usual][0]),))
 
 
 def _at_its_pace(said: SceneObject) -> SceneObject:
@@ -228,7 +247,7 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
-    sent = {one.subject: one for one in acts if one.kind in ("kick", "throw", "roll")}
+    sent = {one.subject: one for one in acts if one.kind in ("kick", "throw", "roll", "hit")}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)

@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.shapes import bounds, moved, point, shift
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
@@ -69,6 +70,7 @@ IMPACTS: Mapping[str, Impact] = MappingProxyType(
         "set down": Impact(0.5, "put down", "hands", carried="before"),
         "drop": Impact(0.3, "let go", "hands", is_held=True, is_flung=False),
         "catch": Impact(0.45, "catch", "hands", is_caught=True),
+        "hit": Impact(0.45, by="right hand", loft=0.22, tumble_rad_s=9.0),
         "collide": Impact(0.5),
     }
 )
@@ -79,6 +81,9 @@ _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
 """Way of what is sent to a receiver, m; its time, s; upward share of its speed along the ground."""
+_PITCHED_M, _ON_TEE = 2.6, 0.2
+"""Most way of what comes to be hit, m; height below which it waits on the ground, in that of who
+hits it."""
 _LEAP, _SPIN_RAD_S, _THROWN = 0.6, 9.0, 2.6
 """Height to which an animal leaps for what it catches, in its own; rate of turning of what is
 caught; most way that it comes, in heights of who catches it."""
@@ -100,6 +105,8 @@ def strike(
     """Both bodies of an act of `IMPACTS`, bound by the instant of contact."""
     act = IMPACTS[kind]
     contact_s = contact_time(duration_s, act.share)
+    if kind == "hit":
+        return _bat(act, subject, thing, contact_s)
     if act.activity is None:
         return _run_together(subject, thing, contact_s)
     home = subject.track.at(0.0)
@@ -143,6 +150,33 @@ def _catch(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> tuple
     turned = terms[0]._replace(offset=terms[0].offset - _SPIN_RAD_S * contact_s)
     flight = replace(flight, terms=(turned,), pivot_m=end.pivot_m, anchor=held.anchor)
     return subject, moving(thing, replace(flight, grab_s=contact_s))
+
+
+def _bat(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> tuple[Actor, Actor]:
+    """In free flight to what is swung, and back from there; a golf ball waits on the ground."""
+    home = subject.track.at(0.0)
+    rest = steady(home.position, home.yaw, activity=home.activity)
+    props, act_of = subject.props, ACTIVITIES[home.activity]
+    subject = moving(subject, replace(rest, contact_s=contact_s))
+    subject, home = (
+        replace(subject, props=props), home.with_fields(yaw=home.yaw + act_of.sends_rad)
+    )  # fmt: skip
+    axes = subject.anchor(act.by, contact_s)
+    tip = axes @ np.array([0.0, 0.0, act_of.reach_m * size_of(subject.model), 1])
+    if tip[2] < home.position[2] + _ON_TEE * subject.model.height:
+        start = BodyState(_meet(thing, tip, home), home.yaw, pivot_m=thing.lift_m)
+        return subject, moving(thing, _fly_off(act, thing, start, home, contact_s))
+    met = tip - [0.0, 0.0, thing.lift_m]
+    speed = float(speeds_of(thing.noun).get("throw", _FLUNG_M_S))
+    slow = min(speed, _PITCHED_M / contact_s)
+    start_m = ahead(point(met), home.yaw, slow * contact_s, float(met[2]))
+    flight = ballistic(
+        start_m, home.yaw + math.pi, slow, 0.5 * GRAVITY_M_S2 * contact_s,
+        floor_m=home.position[2], restitution=_RESTITUTION,
+    )  # fmt: skip
+    come = replace(flight.keys[-1], duration_s=contact_s, ramp_s=0.0)
+    back = replace(come, duration_s=1.0, speed_m_s=-speed, climb_m_s=act.loft * speed)
+    return subject, moving(thing, replace(flight, keys=(flight.keys[0], come, back)))
 
 
 def _leap(subject: Actor, contact_s: float) -> Track:

@@ -9,15 +9,16 @@ from tests.scenes.test_short_prompts import is_right, report, staged
 from texvent_scenes.checks.acts import handles
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, nouns_upon
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, is_mutual, nouns_upon
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.people.prop_motions import Emission, Toss
 from texvent_scenes.models.shapes import ball
+from texvent_scenes.staging.interactions.striking import contact_time
 from texvent_scenes.words import list_verb_forms
 
 from ...every_row import for_every
 
-ACTS = [(name, noun) for name, one in ACTIVITIES.items() if one.upon
+ACTS = [(name, noun) for name, one in ACTIVITIES.items() if one.upon and not is_mutual(name)
         for noun in sorted(nouns_upon(name))[:2]]  # fmt: skip
 BALL = (ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)),)
 
@@ -26,8 +27,8 @@ BALL = (ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)),)
 def test_every_act_reaches_what_it_is_done_to(row):
     name, noun = row
     who = "boy" if "pet" in ACTIVITIES[name].verbs else "woman"
-    verb = list_verb_forms(ACTIVITIES[name].verbs[0])[2][0]
-    text = f"a {who} {verb} a {noun}"
+    verb, _, rest = ACTIVITIES[name].verbs[0].partition(" ")
+    text = f"a {who} {' '.join([list_verb_forms(verb)[2][0], rest])} a {noun}"
     assert is_right(text), report(text)
     people = (one for one in staged(text)[0].actors if one.noun.name in PERSON_NOUNS)
     assert next(people).track.at(0.0).activity == name
@@ -101,6 +102,75 @@ def test_the_tool_that_comes_with_an_act_may_be_said(text):
 )
 def test_an_object_that_a_phrase_implies_is_there(text):
     assert len(staged(text)[0].actors) == 2
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "activity"),
+    [("a man hits a tennis ball with a racket", "swing racket"),
+     ("a batter hits a ball", "swing bat"), ("a woman strikes a volleyball", "hit by hand")],
+)  # fmt: skip
+def test_what_is_hit_comes_to_what_is_swung_and_flies_back(text, activity):
+    who, ball = (staged(text)[0].actors[n] for n in (0, -1 if "racket" not in text else 1))
+    contact_s = contact_time(2.0, 0.45)
+    assert who.track.at(contact_s).activity == activity
+    reach_m = ACTIVITIES[activity].reach_m
+    tip = who.anchor("right hand", contact_s) @ [0.0, 0.0, reach_m, 1.0]
+    assert np.linalg.norm(ball.middle(contact_s) - tip) < 0.1
+    ahead = who.track.at(0.0).to_world()[:, 0]
+    ways = [ahead @ (ball.middle(at) - ball.middle(contact_s)) for at in (0.2, 0.7, 1.1)]
+    assert ways[0] > ways[1] > 0.0 < ways[2]
+
+
+@pytest.mark.parametrize(
+    "text", ["two men shake hands", "a girl hugs her mother", "a couple kisses"]
+)
+def test_two_who_act_on_each_other_stand_face_to_face_in_reach(text):
+    one, other = staged(text)[0].actors
+    gap = other.middle(0.5) - one.middle(0.5)
+    assert np.linalg.norm(gap[:2]) < 0.9
+    ways = [each.track.at(0.5).to_world()[:2, 0] for each in (one, other)]
+    assert ways[0] @ gap[:2] > 0.0 > ways[1] @ gap[:2]
+    assert one.track.at(0.5).activity == other.track.at(0.5).activity
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", ["a man opens an umbrella", "a boy closes the umbrella",
+                                  "a woman shuts her laptop"])  # fmt: skip
+def test_what_opens_in_the_hands_moves_its_own_parts(text):
+    thing = staged(text)[0].actors[1]
+    first, last = (thing.own_parts(thing.pose(at)) for at in (0.0, 1.9))
+    gaps = [np.abs(a.to_body - b.to_body).max() for a, b in zip(first, last, strict=True)]
+    assert max(gaps) > 0.1
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", ["a candle is blown out", "the candle goes out",
+                                  "a girl blows out a candle"])  # fmt: skip
+def test_a_flame_that_is_put_out_is_seen_no_more(text):
+    scene = staged(text)[0]
+    lit = [scene.primitives(at).emission.max() for at in (0.2, 1.9)]
+    assert lit[0] > 3.0 * lit[1]
+    assert is_right(text)
+
+
+@pytest.mark.parametrize("text", ["a dog digs in the garden", "a cat licks its paw",
+                                  "a wolf scratches itself"])  # fmt: skip
+def test_a_paw_is_raised_while_others_stay(text):
+    (who,) = staged(text)[0].actors
+    legs = np.array([[part.to_body[:, 3] for part in who.own_parts(who.pose(at))[-12:]]
+                     for at in np.arange(0.0, 1.0, 0.05)])  # fmt: skip
+    assert np.ptp(legs, axis=0).max() > 0.01
+    assert np.ptp(legs, axis=0).min() < 1e-9
+    assert legs[..., 2].max() > 0.1
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["hands kneading dough", "hands shuffling cards", "a hand slices bread"]
+)
+def test_hands_that_do_what_people_do_are_those_of_somebody(text):
+    assert staged(text)[0].actors[0].noun.name == "person"
     assert is_right(text)
 
 
