@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 DEEPEST = 12
 """Levels of what holds itself."""
+MOST_PARTS = 200_000
+"""Parts of the largest value: lists may hold each other often."""
 LARGEST = 2**26
 """Bytes of the largest file that is read."""
 DIGITS, WITHIN = 6, 2e-5
@@ -103,7 +105,9 @@ def checked_mark(value: Any, folder: str) -> str:
     """The checksum of a value's exact parts and how many floats it has, and, if it has any, their
     norm and their sum, in which each has a weight of its own."""
     checksum, found = 0, [np.zeros(0)]
-    for part in parts_of(value, folder):
+    for number, part in enumerate(parts_of(value, folder)):
+        if number > MOST_PARTS:
+            raise OverflowError("a value that is larger than what is read of any")
         if isinstance(part, bytes):
             checksum = crc32(part, crc32(b"%d " % len(part), checksum))
         else:

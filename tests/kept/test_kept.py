@@ -70,6 +70,10 @@ def test_floats_may_differ_in_their_last_digits_and_folders_by_their_names():
     assert is_same(joined([mark(near, ""), "x"]), joined([mark(value, ""), "x"]))
     assert not is_same(joined([mark(far, ""), "x"]), joined([mark(value, ""), "x"]))
     assert mark(Path("/here/a"), "/here") == mark(Path("/there/a"), "/there")
+    nested = [1] * 10
+    for _ in range(9):
+        nested = [nested] * 10
+    assert mark(nested, "") == UNKNOWN
     assert mark([np.nan, 1.0], "") != mark([1.0, np.nan], "") != mark([np.inf, 1.0], "")
 
 
