@@ -131,9 +131,19 @@ ANIMAL_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
 """Activities of animals in place: name → activity."""
 TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_timed)
 """Acts of parts that happen once: a door opens."""
+
+
+def limbs_of(activity: str) -> frozenset[str]:
+    """Channels of an act of animals without which it is not seen: paws, and the trunk's roll."""
+    channels = motion_of("animal_activities", activity)
+    return frozenset(one for one in channels if one.startswith(_LIMBS))
+
+
+_LIMBS = ("left_", "right_", "roll")
 MOUTH_ACTIVITIES = frozenset(
-    name for name in ANIMAL_ACTIVITIES if "down" in motion_of("animal_activities", name)
-)
+    name for name in ANIMAL_ACTIVITIES
+    if "down" in motion_of("animal_activities", name) and not limbs_of(name)
+)  # fmt: skip
 """Those in which the mouth is at the ground, or at what is eaten."""
 
 TRAVELLING = frozenset(name for name, one in ACTIVITIES.items() if one.travels)

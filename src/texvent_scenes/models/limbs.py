@@ -267,9 +267,9 @@ class Legs:
 
 def _of_side(channels: Mapping[str, float], side: str) -> Mapping[str, float]:
     """Channels with those of a side by the names of both."""
-    return channels | {
-        name.removeprefix(side): value for name, value in channels.items() if name.startswith(side)
-    }
+    own = {name.removeprefix(side): value for name, value in channels.items()
+           if name.startswith(side)}  # fmt: skip
+    return {**channels, **own}
 
 
 def _blend(start: Point, by: Mapping[str, Point], channels: Mapping[str, float]) -> Point:

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, motion_of
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, USUAL, limbs_of, motion_of
 from texvent_scenes.models.gait import read_walk
 from texvent_scenes.models.joints import Joint, read_joint, read_joints, read_wave
 from texvent_scenes.models.limbs import Chain, read_legs
@@ -312,5 +312,7 @@ def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
             f"{side}_{one}" for one in leg.get("feet_by", ()) for side in ("left", "right")
         }
     return frozenset(
-        name for name in ANIMAL_ACTIVITIES if followed & (_channels_of(name) - {"idle"})
+        name
+        for name in ANIMAL_ACTIVITIES
+        if followed & (_channels_of(name) - {"idle"}) and limbs_of(name) <= followed
     )

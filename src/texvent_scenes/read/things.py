@@ -345,7 +345,8 @@ class ThingReader:
     ) -> VerbSense | None:  # fmt: skip
         """An act of people that hands do: "hands typing"; somebody is there who has them."""
         things = [self._draft.things[one] for one in subjects]
-        if not things or not all(one["noun"] in HAND_NOUNS for one in things):
+        acts = [one for one in acts if one.who == "person"]
+        if not (things and acts) or not all(one["noun"] in HAND_NOUNS for one in things):
             return None
         said = [(one["noun"], one["count"]) for one in things]
         for one in things:
