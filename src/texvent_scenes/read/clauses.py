@@ -219,7 +219,9 @@ class _Parser(GroupReader):
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
             is_plural = bool(clause.subjects) and all(one.is_plural for one in clause.subjects)
-            return clause.has_subject and not (forms == {"s"} and is_plural)  # "cars and trucks"
+            is_new = clause == Clause(about="then") and bool(self._token(1).verbs("base", "s"))
+            is_many = forms == {"s"} and is_plural  # "cars and trucks"; "then smoke rises"
+            return clause.has_subject and not (is_many or is_new)
         is_ego = "ing" in forms and not self._token(1).has("noun")
         return clause.has_subject or is_ego
 
