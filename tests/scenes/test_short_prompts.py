@@ -410,3 +410,26 @@ def test_a_lake_whose_water_is_out_of_view_is_told_of():
     seen = "a drone flies over a lake surrounded by trees"
     assert is_right(seen)
     assert "lake" not in report(f"{seen}. Mountains can be seen in the distance.").shown
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a dog barks, then sparks fly from a barrel", "a man waves, then smoke rises from a campfire",
+     "a car drives past, then leaves fall"],
+)  # fmt: skip
+def test_an_effect_after_then_begins_with_the_second_half(text):
+    effects = staged(text)[0].particles.effects
+    assert max(one.start_s for one in effects) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [("dominoes topple one after another", 5), ("four pigeons take off one by one", 4),
+     ("three balls fall one after the other", 3)],
+)  # fmt: skip
+def test_copies_that_take_turns_begin_at_different_times(text, count):
+    actors = [one for one in staged(text)[0].actors if one.is_mover]
+    times = np.linspace(0.0, 1.9, 39)
+    begun = {next(t for t in times if np.abs(one.middle(t) - one.middle(0.0)).max() > 1e-4)
+             for one in actors}  # fmt: skip
+    assert len(actors) == len(begun) == count

@@ -167,6 +167,8 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
     for index, one in enumerate([*draft.things]):
         for motion in (each for each in one["motions"] if "end_m_s" in each):
             _reach_speed(motion, draft.nouns[one["noun"]])
+        if any([each.pop("in_turn", False) for each in one["motions"]]) and one["count"] > 1:
+            draft.take_turns(index)
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
             draft.halve(index)
     _run_belts(draft)

@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause
-from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move
+from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move, turn_by
 from texvent_scenes.read.groups import Phrase
 from texvent_scenes.read.lexicon import NO_TOKEN, Token, VerbSense
 
@@ -79,8 +79,8 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
             name, move = ("pace", move | side) if "direction" in side else ("", move)
         elif name in ("pace", "speed_m_s"):
             move[name] = move.get("pace", 1.0) * value if name == "pace" else value
-        elif name == "turns_hz" and move["kind"] in ("pan", "tilt", "roll", "orbit"):
-            name, move["rate_deg_s"] = "pace", round(360.0 * float(value), 6)
+        elif (turned := turn_by(move, name, value)) != move:
+            name, move = "pace", turned
         if name in ("pace", "speed_m_s"):
             draft.show(one)
     means = [one.kind for one in senses if one.who == "plain" and one.kind in MEANS]

@@ -219,7 +219,9 @@ class _Parser(GroupReader):
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
             is_plural = bool(clause.subjects) and all(one.is_plural for one in clause.subjects)
-            return clause.has_subject and not (forms == {"s"} and is_plural)  # "cars and trucks"
+            is_new = clause == Clause(about="then") and bool(self._token(1).verbs("base", "s"))
+            is_many = forms == {"s"} and is_plural  # "cars and trucks"; "then smoke rises"
+            return clause.has_subject and not (is_many or is_new)
         acts = {(one.value.who, one.value.relation) for one in token.verbs("ing")}
         is_act = ("person", "act on") in acts <= {("person", "act on"), ("person", None)}
         is_ego = "ing" in forms and (is_act or not self._token(1).has("noun"))

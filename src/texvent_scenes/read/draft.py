@@ -29,6 +29,7 @@ from texvent_scenes.spec.scene import MoveDirection
 _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _UNTURNED, OPPOSITE = ("handheld", "static"), "opposite"
+_TURNING = ("spin", "roll", "slide")
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _NEAR = 3
@@ -39,6 +40,10 @@ _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
+PLURAL_COUNT = 3
+"""Copies that a bare plural means."""
+_TURNS, _TURN_S = 5, 0.25
+"""Copies of what does something one after another, and time between them, s."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -59,6 +64,16 @@ def split_move(phrase: str) -> dict[str, Any]:
         **({"direction": direction} if is_turned else {}),
         **({"means": means} if means else {}),
     }
+
+
+def turn_by(move: Mapping[str, Any], name: str, value: Any) -> dict[str, Any]:
+    """A move of the camera with a speed, a rate or an angle, if it reads one."""
+    turns = move["kind"] in ("pan", "tilt", "roll", "orbit")
+    if name == "turns_hz" and turns:
+        return {**move, "rate_deg_s": round(360.0 * float(value), 6)}
+    if name == "angle_deg" and turns:
+        return {**move, "rate_deg_s": float(value), "start_s": 0.0, "duration_s": 1.0}
+    return {**move, name: value} if name == "speed_m_s" and move["kind"] == "travel" else {**move}
 
 
 def names_place(head: Token, relation: str) -> bool:
@@ -118,6 +133,9 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     if goes_on and act.kind == "move" and is_way:
         motions[-1].update({"direction": act.direction} if act.direction else {})
         return
+    if motions and act.kind == "move" and act.end_pace == 0.0 and motions[-1]["kind"] in _TURNING:
+        motions[-1]["end_pace"] = 0.0  # "a spinning coin comes to rest"
+        return
     is_posture = act.kind not in (*MEANS, "move")
     if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
         motions.pop()  # "stands reading"
@@ -141,6 +159,8 @@ class SceneDraft:
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
     """Phase of moves of the camera: those said after "then" follow."""
+    phases: int = 0
+    """Times that "then" was said: effects begin in that phase, light and weather do not change."""
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
@@ -211,7 +231,10 @@ class SceneDraft:
             return False
         for sense in token.all("shot"):
             self.add_move({**split_move(sense.value), **self._pace_before(token)})
-        for part, name, value in (sense.value for sense in token.all("scene")):
+        said = [sense.value for sense in token.all("scene")]
+        if self.phases and any(part in ("light", "place") for part, _, _ in said):
+            return False  # "then it rains"
+        for part, name, value in said:
             self.parts[part][name] = value
         is_said = token.has("shot", "scene")
         self.show(*([token] if is_said else []))
@@ -239,11 +262,11 @@ class SceneDraft:
             self.parts["camera"].setdefault("view", "aerial")
 
     def set_journey(self, name: str, value: Any) -> bool:
-        """Set a field of the camera's way; False: it goes none."""
-        ways = [one for one in self.moves if one["kind"] == "travel"]
-        for one in ways[-1:]:
-            one[name] = value
-        return bool(ways)
+        """Set a speed or a rate of the camera's last move that has one; False: none has."""
+        moves = [one for one in self.moves if turn_by(one, name, value) != one]
+        for one in moves[-1:]:
+            one.update(turn_by(one, name, value))
+        return bool(moves)
 
     def can_go(self, index: int) -> bool:
         """Whether an object can go from place to place by itself."""
@@ -253,6 +276,10 @@ class SceneDraft:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         kinds = {one["kind"] for one in self.things[index]["motions"]}
         return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
+
+    def spins(self, index: int) -> bool:
+        """Whether an object turns in its place."""
+        return [one["kind"] for one in self.things[index]["motions"]] == ["spin"]
 
     def has_top(self, index: int) -> bool:
         """Whether an object stays, so that others may rise, jump or fall from on top of it."""
@@ -353,6 +380,20 @@ class SceneDraft:
         self.things += [part] if count else []
         return part
 
+    def take_turns(self, own: int) -> None:
+        """Let copies of an object begin one after the other; what topples stands in a row."""
+        thing = self.things[own]
+        if thing["count"] == PLURAL_COUNT and not any(one.has("field") for one in self.tokens):
+            thing["count"] = _TURNS
+        height = self.nouns[thing["noun"]].build(colour=None, scale=1.0, seed=0).height
+        is_row = thing["motions"][-1]["kind"] in ("topple", "fall")
+        parts = [thing, *(self._part(own, 1) for _ in range(thing["count"] - 1))]
+        for number, part in enumerate(parts):
+            part["motions"][-1]["start_s"] = round(_TURN_S * (number + 1), 6)
+            part |= {"heading_deg": 0.0} if is_row else {}
+            row = {"kind": "right of", "to": (own,), "distance_m": round(1.05 * number * height, 6)}
+            part["relations"] += [row] if is_row and number else []
+
     def halve(self, own: int) -> None:
         """Lead halves of an object's copies to the right and to the left."""
         for thing, side in (
@@ -381,30 +422,10 @@ class SceneDraft:
         things = [self.things[one] for one in subjects]
         names = {one["noun"] for one in things}
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
-        acts = word_set("things", "acts") if has_object else ()
-        match verb.who:
-            case "person" if verb.relation != "act on":
-                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
-                is_used = all(self.things[one]["noun"] in used for one in objects)
-                is_used |= verb.relation is not None
-                is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
-                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
-            case "hand":
-                return names <= HAND_NOUNS and not has_object
-            case "person" | "animal" if verb.relation == "act on":
-                return self._acts_on(verb, names, objects)
-            case "animal":
-                return all(verb.kind in self.nouns[one].acts for one in names)
-            case "machine":
-                return not has_object and all(self.nouns[one].is_working for one in names)
-            case "source" | "lamp":
-                is_able = verb.who != "lamp" or self._can_shine(verb.kind, names)
-                return is_able and not has_object and not is_acting
-        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        if (is_able := self._is_able(verb, subjects, objects, has_object)) is not None:
+            return is_able
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
         if goes_on and any(self.nouns[one].is_working for one in names):
-            return False
-        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:
             swings = nouns_with("swings")
@@ -456,6 +477,40 @@ class SceneDraft:
         upon = nouns_upon(verb.kind)
         return is_able and bool(objects) and {self.things[one]["noun"] for one in objects} <= upon
 
+    def _is_able(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool | None:
+        """Whether those whom a verb needs can do it; None: anything may."""
+        things = [self.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        match verb.who:
+            case "person" if verb.relation != "act on":
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self.things[one]["noun"] in used for one in objects)
+                is_used |= verb.relation is not None
+                is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "person" | "animal" if verb.relation == "act on":
+                return self._acts_on(verb, names, objects)
+            case "animal":
+                return all(verb.kind in self.nouns[one].acts for one in names)
+            case "machine":
+                return not has_object and all(self.nouns[one].is_working for one in names)
+            case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
+                return False  # no dart, which would go along the ground
+            case "source" | "lamp":
+                if verb.who == "lamp" and not self._can_shine(verb.kind, names):
+                    return False
+                return not has_object and not is_acting
+            case "camera":
+                return False
+        return False if is_unfit and names & PERSON_NOUNS else None
+
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""
         if kind in ("on", "off"):
@@ -474,7 +529,8 @@ class SceneDraft:
 
     def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
         """Add an effect, which comes from the first of the owners."""
-        self.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        phase = {"phase": self.phases} if self.phases else {}
+        self.effects.append({"kind": kind, "source": owners[0] if owners else None, **phase})
         self._effect_at = token.at
         self.show(token)
 

@@ -77,7 +77,7 @@ class VerbSense:
 
     who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
-    "machine" or "plain" (anything)."""
+    "machine", "body" (what rolls or drives) or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0

@@ -69,15 +69,18 @@ class _SentenceReader(ThingReader):
         self._was_camera = False
         self._verb: Token | None = None
         """The last verb: "then right", "then a truck" say no other."""
-        self._phases = 0  # times that "then" was said of things
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
-        if clause.about == "then" and clause.verb is None and not self._was_camera:
+        is_told = any(isinstance(one, Phrase) or not one.has("scene") for one in clause.after)
+        is_bare = clause.about == "then" and clause.verb is None and not self._was_camera
+        if is_bare and (is_told or clause.subjects):
             clause = replace(clause, verb=self._verb)
         self._verb = clause.verb or self._verb
         self._goes_on = clause.about in ("meanwhile", "company") or bool(clause.subjects)
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
+        is_later = bool(self._draft.things or self._draft.effects or self._draft.moves)
+        self._draft.phases += clause.about == "then" and is_later
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun") and not self._is_built_in(head, clause):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
@@ -145,11 +148,10 @@ class _SentenceReader(ThingReader):
             lose_ways(self._draft, clause.after, has_subject=is_known)
         for index in subjects if clause.about == "where" and where else ():
             relate_one(self._draft, self._draft.place_by(where[0]), index, where)
-        is_then = clause.about == "then"
-        self._phases += is_then
-        if is_then or (self._phases and self._is_joined(clause)):  # others wait until then
+        phases = self._draft.phases
+        if clause.about == "then" or (phases and self._is_joined(clause)):  # others wait until then
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
-                motions[:0] = [{"kind": "stand"} for _ in range(self._phases if motions else 0)]
+                motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
 
     def _add_doer(self, clause: Clause) -> list[int]:
         """Somebody who does what only people do, where nobody else is: "slicing a tomato"."""
@@ -178,6 +180,9 @@ class _SentenceReader(ThingReader):
         is_within = bool(clause.objects) and not objects and bool(ways & {"into", "out of"})
         is_known &= not is_within  # "enters a room", where it is already
         is_lost = clause.is_back and not objects  # "throws a wug and catches it"
+        is_first = not any(one.has("noun", "verb") for one in self._draft.tokens[: verb.at])
+        if not (subjects or clause.subjects) and is_first and verb.verbs("ing"):
+            subjects = self._imply_actor(verb, objects, has_object=not is_known)
         found = None if is_lost else self._act(verb, subjects, objects, has_object=not is_known)
         kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
         if mutual and kind is not None and found:  # "pass each other"

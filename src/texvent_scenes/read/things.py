@@ -21,7 +21,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
-from texvent_scenes.read.draft import BLINK_HZ, SceneDraft, add_motion, names_place
+from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
     NounSense,
@@ -40,8 +40,8 @@ from texvent_scenes.words import list_verb_forms
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
-PLURAL_COUNT = 3
-"""Copies that a bare plural means."""
+_BY_HAND = word_set("things", "of_people") | {"at", "push"}
+"""Relations to things that only who has hands brings about."""
 _SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
@@ -242,7 +242,7 @@ class ThingReader:
             is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
             draft.show(*([token] if all(is_blown) else []))
             return True
-        is_way = field == "speed_m_s" and not subjects and draft.set_journey(field, value)
+        is_way = not subjects and draft.set_journey(field, value)
         draft.show(*([token] if is_way else []))
         return is_way
 
@@ -267,6 +267,8 @@ class ThingReader:
     def _is_open(self, field: str, things: Sequence[Mapping[str, Any]]) -> bool:
         """Whether a field of things cannot be set: a second colour, a height at rest."""
         motions = [one for thing in things for one in thing["motions"]]
+        if field == "angle_deg":
+            return True  # a camera turns by it
         if field == "rate_hz":
             works = any(self._nouns[one["noun"]].is_working for one in things)
             is_lamp = any("blink_hz" in one or one["noun"] in LAMPS for one in things)
@@ -286,7 +288,7 @@ class ThingReader:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
         act = self._choose_act(verb, subjects, objects, has_object=has_object)
-        if act is None or (has_object and not objects and act.who == "plain"):
+        if act is None or (has_object and not objects and act.who in ("plain", "body")):
             return None  # what it is done to is not known
         draft.show(verb)
         for index in objects if act.relation == "hit" else ():
@@ -367,6 +369,17 @@ class ThingReader:
             self._draft.relate(who, "act on", others or [who])
             self._draft.claim(verb, "act on", "", [who], others or [who])
 
+    def _imply_actor(self, verb: Token, objects: Sequence[int], *, has_object: bool) -> list[int]:
+        """A person who does what nobody else is said to do: "chopping an onion with a knife"."""
+        draft, actor = self._draft, [len(self._draft.things)]
+        acts = [one.value for one in verb.all("verb")
+                if one.value.who == "person" or one.value.relation in _BY_HAND]  # fmt: skip
+        draft.things.append({"noun": "person", "count": 1, "motions": [], "relations": []})
+        if any(draft.fits(one, actor, objects, has_object or bool(objects)) for one in acts):
+            return actor
+        draft.things.pop()
+        return []
+
     def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""
         draft = self._draft
@@ -375,7 +388,7 @@ class ThingReader:
             draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
-        elif act.end_pace == 0.0 and act.kind == "move":
+        elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
             draft.claim(verb, "stop", "", [index])
         if act.relation in ("hold", "act on"):
             draft.claim(verb, act.relation, "", [index], objects)

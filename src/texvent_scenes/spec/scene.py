@@ -172,7 +172,9 @@ class Effect:
     source: str | None = None
     """Id of the object that it comes from; left out: all around, or the middle of the scene."""
     start_s: Seconds | None = None
-    """Start time, s; left out: time 0, or the first half for what happens once."""
+    """Start time, s; left out: that of its phase, or the first half for what happens once."""
+    phase: Annotated[int, Between(0, 100)] = 0
+    """Number of the phase in which it begins; phases share the clip evenly."""
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,9 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         kind = trait_value("own effect", one.noun)
         if kind is not None and one.is_lit is not False and (kind, id) not in named:
             said.append(Effect(kind, id))
+    moves = [one.phase for one in description.camera.moves]
+    acts = [len(one.motions) - 1 for one in description.objects]
+    phases = 1 + max([*(one.phase for one in said), *moves, *acts])
     effects: list[Emitter] = []
     kinds: list[str] = []
     for number, effect in enumerate(said):
@@ -50,7 +53,10 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         copies = [one for one in setting.actors if one.object_index == source]
         for copy, actor in enumerate(copies or [None]):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
-            effects += _make(effect, actor, setting, rng)
+            start_s = effect.start_s
+            if start_s is None and effect.phase:
+                start_s = setting.duration_s * effect.phase / phases
+            effects += _make(replace(effect, start_s=start_s), actor, setting, rng)
             kinds += [effect.kind] * (len(effects) - len(kinds))
     return Staged(tuple(effects), tuple(kinds))
 
