@@ -10,7 +10,7 @@ from typing import Any, get_args
 from texvent_scenes.description import SEEN, Claim
 from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
@@ -38,6 +38,11 @@ def is_grammar(token: Token) -> bool:
     """Whether a token says nothing by itself: "the", "is", "while", "footage"."""
     is_order = token.text in word_set("things", "order")
     return (token.has(*_GRAMMAR) and not is_order) or token.text in word_set("things", "grammar")
+
+
+def can_be_worn(noun: str) -> bool:
+    """Whether people wear it."""
+    return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
 def split_move(phrase: str) -> dict[str, Any]:
@@ -172,7 +177,10 @@ class SceneDraft:
             for motion in self.things[subject]["motions"][-1:]:
                 motion["end_pace"] = 0.0
             kind = "beside"
-        kind = "from" if is_alongside and kind == "out of" else kind
+        ways = {"out of": "from", "through": "past"} if is_alongside else {}
+        kind = ways.get(kind, kind)  # a train goes through a station along its platform
+        is_seat = self.things[targets[0]]["noun"] in nouns_with("works on demand")
+        kind = "on" if kind == "ride" and is_seat else kind  # "rides a swing"
         self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
         return True
 
@@ -377,10 +385,12 @@ class SceneDraft:
                     return False
                 return not has_object and not is_acting
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        is_ground = names <= nouns_with("of ground")
+        is_unfit |= is_ground and verb.kind in word_set("things", "in_place")  # "rolling hills"
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
         if goes_on and any(self.nouns[one].is_working for one in names):
             return False
-        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
+        if verb.who == "camera" or (is_unfit and (is_ground or names & PERSON_NOUNS)):
             return False
         if has_object:
             swings = nouns_with("swings")
@@ -394,6 +404,9 @@ class SceneDraft:
                 verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
             )
             is_moved &= verb.relation != "push" or all(map(self.can_go, subjects))
+            is_moved &= verb.relation != "wear" or all(
+                can_be_worn(self.things[n]["noun"]) for n in objects
+            )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1

@@ -70,6 +70,7 @@ class _SentenceReader(ThingReader):
         self._verb: Token | None = None
         """The last verb: "then right", "then a truck" say no other."""
         self._phases = 0  # times that "then" was said of things
+        self._is_later = False  # whether "then" was said at all
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
@@ -87,12 +88,23 @@ class _SentenceReader(ThingReader):
         is_own = not is_named and is_ego(self._draft, clause)
         is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera
+        before = self._list_at_once()
         if self._says_of_parts(clause):
             pass
         elif is_camera or is_own:
             self._apply_to_camera(clause, is_own=is_own)
         else:
             self._apply_to_things(clause)
+        self._is_later |= clause.about == "then"
+        if self._is_later and self._list_at_once() != before:
+            then = [one for one in self._draft.tokens if one.text == "then"]
+            self._draft.mark(then[-1], "lost")
+
+    def _list_at_once(self) -> list[object]:
+        """What has no time at which it begins: effects, weather and light."""
+        parts = self._draft.parts
+        sky = {key: parts["place"].get(key) for key in ("weather", "has_snow", "clouds", "is_wet")}
+        return [len(self._draft.effects), sky, dict(parts["light"])]
 
     def _is_built_in(self, head: Token, clause: Clause) -> bool:
         """Whether a body has what it is said to be without: "a car without wheels"."""
