@@ -36,6 +36,15 @@ def test_two_that_go_apart_do_not_overtake_follow_or_accompany(text, word):
     assert word not in report(text).shown
 
 
+def test_two_on_a_seesaw_sit_at_its_ends_and_go_up_in_turn():
+    objects = thing("child", ("sit",), count=2), thing("seesaw", ("work",))
+    first, second = stage(*objects, relations=(("on", 0, 1),)).actors[:2]
+    places = [[one.middle(at) for at in (0.3, 0.9)] for one in (first, second)]
+    assert 2.0 < np.linalg.norm(places[0][0] - places[1][0]) < 3.0
+    risen = [float((last - begun)[2]) for begun, last in places]
+    assert risen[0] * risen[1] < 0.0
+
+
 @pytest.mark.parametrize("kind", ["walk", "run"])
 @pytest.mark.parametrize("nouns", [("girl", "woman"), ("man", "dog"), ("cat", "horse", "cow")])
 def test_those_on_foot_go_the_same_way_unless_it_is_said(nouns, kind):

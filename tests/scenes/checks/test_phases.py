@@ -99,6 +99,8 @@ def test_who_rides_in_a_closed_vehicle_is_hidden():
         ("a girl swings on a swing in a playground", "on", True),
         ("a girl on a swing is pushed by her brother", "on", False),  # she is moved off it
         ("a tram passes a church and stops", "stops", True),
+        ("a boy and a girl ride a seesaw", "ride", True),
+        ("two children ride swings", "ride", True),
     ],
 )
 def test_a_swing_bears_on_its_seat_and_what_passes_may_stop(text, word, is_shown):
