@@ -29,6 +29,8 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 _AT_HAND = frozenset({"hold", "wear", "act on"})
 _GOING = {"stand": "slide", "float": "fly"}
 _UPRIGHT = {"up": "rise", "down": "sink"}
+_VERTICAL = {**_UPRIGHT, "up and down": "fly"}
+"""Direction of what goes by no means of its own → its motion."""
 _AFLOAT = ("sail", "paddle")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
@@ -195,13 +197,17 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         lives_there = noun.habitat in ("air", "water") and noun.motion != "stand"
         return (Motion(noun.motion),) if lives_there else ()
     if motion.kind == "move":
-        motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
+        is_lifted = motion.direction in _VERTICAL and noun.motion in ("stand", "roll")
+        usual = "slide" if is_lifted else _GOING.get(noun.motion, noun.motion)
+        motion = replace(motion, kind=usual)
+    else:
+        is_lifted = motion.kind == "slide" and noun.name in nouns_with("flat pattern")
     if motion.kind in ("hover", "float") and motion.direction in _UPRIGHT:
         motion = replace(motion, kind=_UPRIGHT[motion.direction], direction=None)
     if motion.kind in ("hover", "float") and noun.motion in _AFLOAT:
         motion = replace(motion, kind="sway", pace=_ROCKING * motion.pace)
-    if motion.kind == "slide" and noun.name in nouns_with("flat pattern"):  # in its own plane
-        kind = {"up": "rise", "down": "sink", "up and down": "fly"}.get(motion.direction or "")
+    if is_lifted:  # what is flat goes in its own plane
+        kind = _VERTICAL.get(motion.direction or "")
         way = motion.direction if kind in (None, "fly") else None
         motion = replace(motion, kind=kind or motion.kind, direction=way)
     if motion.kind == "turn" and noun.habitat == "fixed":

@@ -209,8 +209,8 @@ class _Bodies:
         top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * size[2]])
         return any(
             self._meets(foot, top, other, at)
-            for other in range(len(self._actors))
-            if other != number
+            for other, body in enumerate(self._actors)
+            if other != number and body.track.anchor is None  # it may carry that one
         )
 
     def is_bound(self, number: int) -> bool:

@@ -292,6 +292,7 @@ def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 
 RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
+    "on a slope": _is_on,
     "on": _is_on, "on a face": _is_on_face, "under": _is_under, "around": _is_around,
     "overtake": _overtakes, "going beside": _goes_beside,
     "facing": _faces, "sent": _is_sent,

@@ -17,7 +17,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.data import PLACING
-from texvent_scenes.spec.scene import SceneObject
+from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, STEERED, ends_at_rest
 
@@ -25,6 +25,8 @@ _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "p
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
                        "fall"})  # fmt: skip
 """Motions whose direction is that of the displacement."""
+_ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
+"""Motions of which "up and down" means back and forth."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
@@ -97,12 +99,22 @@ def find_violations(
             yield Violation("placement", str(thing.placement), f"{names[index]} on the "
                             f"{thing.placement}")  # fmt: skip
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
-        if own and motion and motion.kind in _DIRECTED and motion.direction in _AXES:
-            axis, way = _AXES[motion.direction]
-            all_moved = [one.displacement for one in own]
-            if not any(way * one[axis] > 0.33 * np.linalg.norm(one) for one in all_moved):
-                yield Violation("direction", motion.direction, f"{names[index]} going "
-                             f"{motion.direction}")  # fmt: skip
+        if own and motion and not any(goes_so(one, motion) for one in own):
+            line = f"{names[index]} going {motion.direction}"
+            yield Violation("direction", str(motion.direction), line)
+
+
+def goes_so(body: BodyBoxes, motion: Motion) -> bool:
+    """Whether a body goes in the direction of its motion, as far as its way tells it."""
+    kind, direction = motion.kind, motion.direction
+    if direction in _AXES and kind in _DIRECTED:
+        axis, sign = _AXES[direction]
+        moved = body.displacement
+        return bool(sign * moved[axis] > 0.33 * np.linalg.norm(moved))
+    if direction == "up and down" and kind in _DIRECTED - _ON_GROUND:
+        extent = np.ptp(body.middle, axis=0)
+        return bool(extent[2] > max(extent[:2]))
+    return True
 
 
 def _list_read_as(kind: str, description: SceneDescription) -> Iterator[Violation]:
@@ -142,6 +154,9 @@ def _rule_on(who: SceneObject, what: SceneObject) -> str:
     """Name of the rule for what is on another thing."""
     if what.noun in nouns_with("swings"):
         return "on a seat"
+    goes = bool(who.motions) and who.motions[0].kind in PATH_KINDS
+    if goes and trait_value("slope", what.noun) is not None:
+        return "on a slope"  # and past its foot
     if is_before_face(who, what):
         return "never"  # who writes there has a pad in hand
     if hangs_on(who.noun, what.noun):

@@ -57,6 +57,8 @@ class EmitterStyle:
     """Half extents by the radius; the last one is upright, of drops along the flight."""
     turns: float = 1.0
     """Rate at which flakes tumble."""
+    is_oval: bool = False
+    """Whether flakes are oval, as leaves are, not pieces of paper."""
     colours: tuple[Colour, ...] = ()
     """Colours of media at birth and at the end; of solid bodies those that occur."""
     emission: tuple[float, float] = (0.0, 0.0)

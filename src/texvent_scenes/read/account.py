@@ -154,7 +154,16 @@ def _run_belts(draft: SceneDraft) -> None:
 
 
 def _give_each(draft: SceneDraft) -> None:
-    """One of what has no singular, such as "glasses", for each who wears it."""
+    """One of what has no singular, such as "glasses", for each who wears it.
+
+    So do two who hold umbrellas or ride bicycles have one each, of which no number is said.
+    """
+    plural = {n for n, one in enumerate(draft.things) if one.pop("is_open", False)}
+    for one in (each for each in draft.things if each["noun"] in PERSON_NOUNS):
+        had = (n for each in one["relations"] if each["kind"] in word_set("things", "each_has")
+               for n in each["to"])  # fmt: skip
+        for target in plural & {*had} if one["count"] > 1 else ():
+            draft.things[target]["count"] = one["count"]
     for one in draft.things:
         worn = (n for each in one["relations"] if each["kind"] == "wear" for n in each["to"])
         for target in (draft.things[n] for n in worn):

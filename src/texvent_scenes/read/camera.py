@@ -54,6 +54,15 @@ def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) 
     return True
 
 
+def _lead(move: dict[str, Any], preposition: Token) -> dict[str, Any]:
+    """The move after a preposition: around what it shows, or towards it."""
+    kinds, pace = {one.value for one in preposition.all("relation")}, move.get("pace", 1.0)
+    if preposition.text == "around" and move["kind"] in ("truck", "travel"):
+        return {"kind": "orbit", "pace": pace}
+    is_open = move["kind"] == "truck" and "direction" not in move
+    return {**split_move("dolly in"), "pace": pace} if is_open and "towards" in kinds else move
+
+
 def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
     """The move of a clause with its direction and pace; these words are counted as shown.
 
@@ -69,8 +78,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     turned = read_table("words", "read")["turned_moves"]
     for one in clause.after:
         if isinstance(one, Phrase):
-            if one.preposition.text == "around" and move["kind"] in ("truck", "travel"):
-                move = {"kind": "orbit", "pace": move.get("pace", 1.0)}
+            move = _lead(move, one.preposition)
             continue
         name, value = sense.value if (sense := one.first("adverb")) else ("", "")
         if name == "direction":

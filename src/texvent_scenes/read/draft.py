@@ -17,7 +17,7 @@ from texvent_scenes.models.activities import (
     nouns_upon,
 )
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
@@ -52,6 +52,11 @@ def is_grammar(token: Token) -> bool:
     """Whether a token says nothing by itself: "the", "is", "while", "footage"."""
     is_order = token.text in word_set("things", "order")
     return (token.has(*_GRAMMAR) and not is_order) or token.text in word_set("things", "grammar")
+
+
+def can_be_worn(noun: str) -> bool:
+    """Whether people wear it."""
+    return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
 def split_move(phrase: str) -> dict[str, Any]:
@@ -214,7 +219,10 @@ class SceneDraft:
             for motion in self.things[subject]["motions"][-1:]:
                 motion["end_pace"] = 0.0
             kind = "beside"
-        kind = "from" if is_alongside and kind == "out of" else kind
+        ways = {"out of": "from", "through": "past"} if is_alongside else {}
+        kind = ways.get(kind, kind)  # a train goes through a station along its platform
+        is_seat = self.things[targets[0]]["noun"] in nouns_with("works on demand")
+        kind = "on" if kind == "ride" and is_seat else kind  # "rides a swing"
         self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
         return True
 
@@ -441,6 +449,9 @@ class SceneDraft:
             )
             is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
+            is_moved &= verb.relation != "wear" or all(
+                can_be_worn(self.things[n]["noun"]) for n in objects
+            )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
@@ -486,6 +497,8 @@ class SceneDraft:
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
         acts = word_set("things", "acts") if has_object else ()
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        is_ground = names <= nouns_with("of ground")
+        is_unfit |= is_ground and verb.kind in word_set("things", "in_place")  # "rolling hills"
         match verb.who:
             case "person" if verb.relation != "act on":
                 used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
@@ -509,7 +522,7 @@ class SceneDraft:
                 return not has_object and not is_acting
             case "camera":
                 return False
-        return False if is_unfit and names & PERSON_NOUNS else None
+        return False if is_unfit and (is_ground or names & PERSON_NOUNS) else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""

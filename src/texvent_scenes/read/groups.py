@@ -207,8 +207,11 @@ class GroupReader:
         return bool(before & after - {"count"}) and is_noun and not head.has("relation")
 
     def _stands_before(self, token: Token) -> bool:
-        """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
-        after = self._token()
+        """Whether a word that may be a head, just read, is a modifier: "orange welding robot"."""
+        ahead = 0
+        while self._token(ahead).is_unknown and not self._has_object(ahead):
+            ahead += 1
+        after = self._token(ahead)
         is_before = token.has(*MODIFIERS) and not after.has("relation")
         return is_before and after.has(*_HEADS, "field")
 
@@ -222,8 +225,11 @@ class GroupReader:
         is_head = is_head and self._agrees(article, first) and not self._has_object()
         nouns = [one.value for one in self._token(-1).all("noun")]
         is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
-        is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
+        is_lone = is_inert and not article and self._at == first + 1  # "wears oven gloves"
+        is_lone &= self._token(-2).has("verb", "relation") and not self._token(-2).has("noun")
+        is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
+        is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
         is_word &= after.text.isalpha() and not is_verb and not self._tail()
         is_word = is_word and not self._token(1).has("articles")  # "a table outside a cafe"

@@ -203,18 +203,26 @@ def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
     return [*filter(None, parts)]
 
 
+def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
+    """Relation of what is with something to it: "a horse with a rider", "a tray with glasses"."""
+    bearer, first = draft.things[index]["noun"], draft.things[targets[0]]["noun"]
+    if all(map(draft.walks, targets)):
+        is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
+        return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
+    if draft.can_go(targets[0]):
+        return ""
+    is_put = bearer in word_set("things", "tables") and first not in nouns_with("seat")
+    return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
+
+
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with":
-        is_table = thing["noun"] in word_set("things", "tables")
-        if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
-            return all([draft.relate(one, "on", [index]) for one in targets])
-        is_vessel = thing["noun"] in word_set("things", "vessels")
-        if is_vessel and not draft.can_go(targets[0]):  # "a tray with two glasses"
-            return all([draft.relate(one, "in", [index]) for one in targets])
+        if borne := _bear(draft, index, targets):
+            return all([draft.relate(one, borne, [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
         if not any(map(draft.can_go, (index, *targets))):

@@ -24,9 +24,20 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
-    chosen = [_choose(one, tokens, nouns) if not one.senses else one for one in tokens]
+    plain = [_see_as_verb(one, tokens) for one in tokens]
+    chosen = [_choose(one, plain, nouns) if not one.senses else one for one in plain]
     seen = [_see_beside(one, chosen) for one in chosen]
     return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
+
+
+def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as a word that is not known, if it says what is done: "and then darts away"."""
+    before, after = (tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
+                     for at in (token.at - 1, token.at + 1))  # fmt: skip
+    is_plural = any(one.value.is_plural for one in token.all("noun"))
+    is_verb = before.text in word_set("things", "begun") and is_plural
+    is_verb &= not (after.has("verb") or after.text == "and")  # "then cars drive by"
+    return replace(token, senses=()) if is_verb and not token.has("verb") else token
 
 
 def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Token:

@@ -150,7 +150,11 @@ class ThingReader:
             who, activity = head.all("pose")[0].value
             thing = {"noun": who, "motions": [{"kind": activity}]}
         count = PLURAL_COUNT if group.is_plural else 1
-        draft.things.append({**thing, "count": count, "relations": []})
+        is_open = group.is_plural and not any(
+            each.value[0] == "count" for one in group.modifiers for each in one.all("field")
+        )
+        own = {"is_open": True} if is_open else {}
+        draft.things.append({**thing, **own, "count": count, "relations": []})
         index = len(draft.things) - 1
         self._say_modifiers(group, index)
         for token in group.unknown if not self._draft.can_go(index) else ():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from tests.scenes.checks.test_words import check, report, told
+from tests.scenes.staged import DURATION_S, stage, thing
 
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.relations import find_violations
@@ -33,6 +34,27 @@ def test_who_overtakes_goes_the_same_way(text):
 )
 def test_two_that_go_apart_do_not_overtake_follow_or_accompany(text, word):
     assert word not in report(text).shown
+
+
+def test_two_on_a_seesaw_sit_at_its_ends_and_go_up_in_turn():
+    objects = thing("child", ("sit",), count=2), thing("seesaw", ("work",))
+    first, second = stage(*objects, relations=(("on", 0, 1),)).actors[:2]
+    places = [[one.middle(at) for at in (0.3, 0.9)] for one in (first, second)]
+    assert 2.0 < np.linalg.norm(places[0][0] - places[1][0]) < 3.0
+    risen = [float((last - begun)[2]) for begun, last in places]
+    assert risen[0] * risen[1] < 0.0
+
+
+@pytest.mark.parametrize("kind", ["walk", "run"])
+@pytest.mark.parametrize("nouns", [("girl", "woman"), ("man", "dog"), ("cat", "horse", "cow")])
+def test_those_on_foot_go_the_same_way_unless_it_is_said(nouns, kind):
+    objects = [thing(noun, (kind,)) for noun in nouns]
+    ways = [one.middle(DURATION_S) - one.middle(0.0) for one in stage(*objects).actors]
+    assert all(way @ ways[0] > 0.0 for way in ways)
+    objects[1] = thing(nouns[1], (kind, "left"))
+    objects[0] = thing(nouns[0], (kind, "right"))
+    ways = [one.middle(DURATION_S) - one.middle(0.0) for one in stage(*objects).actors]
+    assert ways[1] @ ways[0] < 0.0
 
 
 @pytest.mark.parametrize(

@@ -237,7 +237,11 @@ def test_relations_hold_however_the_world_is_turned_and_left_is_right_in_a_mirro
     assert holds("between", one, others) == stays
 
 
-@pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])
+@pytest.mark.parametrize(
+    ("way", "other"),
+    [("left", "right"), ("towards", "away"), ("up", "down"), ("up and down", "left"),
+     ("left", "up and down")],
+)  # fmt: skip
 def test_a_direction_holds_where_it_is_staged(way, other):
     scene = stage(thing("drone", ("fly", way)), place="plain")
     for said, faults in ((way, ()), (other, (other,))):

@@ -99,6 +99,8 @@ def test_who_rides_in_a_closed_vehicle_is_hidden():
         ("a girl swings on a swing in a playground", "on", True),
         ("a girl on a swing is pushed by her brother", "on", False),  # she is moved off it
         ("a tram passes a church and stops", "stops", True),
+        ("a boy and a girl ride a seesaw", "ride", True),
+        ("two children ride swings", "ride", True),
     ],
 )
 def test_a_swing_bears_on_its_seat_and_what_passes_may_stop(text, word, is_shown):
@@ -132,6 +134,16 @@ def test_what_flashes_is_hidden_by_nothing():
         ("a bird eats in the sky", "eats", False),
         ("a cow eats", "eats", True),
         ("a chicken eats", "eats", True),
+        ("a box moves up and down", "up and down", True),
+        ("a ball goes up and down", "up and down", True),
+        ("a cube moves up", "up", True),
+        ("a girl rides a scooter across the road", "across", False),
+        ("a boy rides a skateboard across the street", "across", False),
+        ("a man walks across the road", "across", True),
+        ("a man runs down the stairs", "down", True),
+        ("a woman walks down the stairs", "down", True),
+        ("a ball bounces down the stairs", "down", False),
+        ("a house with a red roof", "red", False),
     ],
 )
 def test_an_act_is_shown_where_its_body_can_do_it(text, word, is_shown):

@@ -254,7 +254,8 @@ def perform_acts(
     for each in description.relations:
         seats = [n for n, one in cast.items() if one.object_index in each.targets]
         riders = [n for n, one in cast.items() if one.object_index == each.subject]
-        for rider, below in zip(riders, seats, strict=False) if each.kind == "on" else ():
+        places = itertools.cycle(seats)  # as `relations._line_up` shares them out
+        for rider, below in zip(riders, places, strict=False) if each.kind == "on" else ():
             is_swing = cast[below].noun.name in nouns_with("swings")
             if is_swing and cast[rider].noun.name in PERSON_NOUNS:
                 _swing_along(cast, rider, below)

@@ -143,7 +143,8 @@ class Emitter:
         rate = style.turns * math.sqrt(GRAVITY_M_S2 / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
-        return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+        shape = Shape.ELLIPSOID if style.is_oval else Shape.BOX
+        return many_shapes(tumbling(flown.places, angles, half), shape, self.colours[which])
 
     def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
         """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -147,6 +147,24 @@ def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
     height = 2.0 * float(group.half[2])
     low = float(centre[2]) - (0.5 * height if is_centred(group.noun) else 0.0)
     return low, low + height
+
+
+def join_way(group: ObjectGroup, others: Iterable[ObjectGroup]) -> None:
+    """Turn who walks or runs the way in which others do so already: "a girl and her mother"."""
+    alike = (one for one in others if _walks_freely(one)
+             and one.plan.motion.kind == group.plan.motion.kind)  # fmt: skip
+    other = next(alike, None) if _walks_freely(group) else None
+    if other is not None:
+        group.plan = replace(group.plan, yaw=other.plan.yaw)
+        group.fit()
+
+
+def _walks_freely(group: ObjectGroup) -> bool:
+    """Whether one who goes on foot goes a straight way, of which no direction is said."""
+    plan, said = group.plan, group.scene_object
+    is_open = said.heading_deg is None and said.position_m is None and len(said.motions) == 1
+    on_foot = group.noun.motion == "walk" and plan.motion.kind in ("walk", "run")
+    return is_open and on_foot and plan.path is None and plan.motion.direction is None
 
 
 def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:

@@ -28,6 +28,7 @@ from texvent_scenes.staging.placement.object_groups import (
     choose_props,
     dressed,
     half_extents_over_clip,
+    join_way,
     match_pace,
     overlap,
     part_in_midst,
@@ -162,6 +163,7 @@ class ObjectPlacer:
         for relation in related:
             for target in relation.targets if relation.kind in ON_TARGET else ():
                 self._place(target, waiting | {index})
+        join_way(group, self.groups.values())
         goal = self._choose_goal(group, related)
         self._match_paces(group)
         group.centre = self._find_free_position(group, goal)

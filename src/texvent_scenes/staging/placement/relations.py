@@ -16,7 +16,7 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
-from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.protocol import Model, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
@@ -224,6 +224,10 @@ def place_at_distance(
     return Goal(np.array([*place, goal.position[2]]), _FIXED)
 
 
+_ENDS = 0.87
+"""From one end to the other of what is sat on at its ends, of its length."""
+
+
 def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """[3] the middle of a group that is put on the supporting surface of another object, m.
 
@@ -386,6 +390,12 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     return np.array([target.centre[0], target.centre[1], group.origin_m])
 
 
+def _slope_of(body: Model) -> float:
+    """Rise of the last part of a body at rest, along its length."""
+    turn = body.parts(Pose(0.0, 0.0, 0.0, "stand"))[-1].to_body
+    return float(turn[2, 0] / math.hypot(turn[0, 0], turn[1, 0]))
+
+
 def _line_up(
     group: ObjectGroup,
     target: ObjectGroup,
@@ -411,7 +421,9 @@ def _line_up(
     rows = math.ceil(1.05 * size * count / extent) if reach_m is None and not is_person else 1
     rows = max(min(rows, int(deep / (1.05 * size))), 1)
     count = math.ceil(count / rows)
-    spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
+    spacing, climb = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent)), 0.0
+    if is_person and target.noun.name in nouns_with("sat on at its ends") and count > 1:
+        spacing, climb = _ENDS * body.length / (count - 1), _slope_of(body)
     yaw = target.plan.yaw + 0.5 * math.pi * axis
     group.offsets = []
     for number in range(first, first + own):
@@ -420,4 +432,5 @@ def _line_up(
         along = spacing * (place - 0.5 * (count - 1))
         aside = 1.05 * size * (row - 0.5 * (rows - 1))
         x, y = x + along * math.cos(yaw), y + along * math.sin(yaw)
+        z += climb * along
         group.offsets.append((x - aside * math.sin(yaw), y + aside * math.cos(yaw), z))

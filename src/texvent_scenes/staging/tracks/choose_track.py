@@ -24,6 +24,8 @@ _ORBIT_HASTE = 1.5
 """Most multiple of its usual speed at which a body goes round something large in the clip."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Ground motions for which "up and down" means back and forth."""
+_LIFT = 0.5
+"""Greatest usual reach up and down, in sizes of a body."""
 
 
 def choose_track(
@@ -109,6 +111,8 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Track:
     kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
     reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
     is_vertical = direction == "up and down" and kind not in _ON_GROUND
+    if is_vertical:
+        reach = min(reach, _LIFT * max(model.length, model.width, model.height))
     rate = rate or 1.0 / max(plan.duration_s, 1.0)
     if plan.motion.speed_m_s is not None:  # the greatest one
         reach = plan.motion.speed_m_s / (2.0 * math.pi * rate)
