@@ -9,7 +9,8 @@ from texvent_scenes.models.nouns import NOUNS
 ROOT = Path(texvent_scenes.__file__).parent
 OTHER_MEANINGS = {
     *("sink", "slide", "swing", "crane", "truck"),  # motions of bodies and of the camera
-    *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor"),  # shapes and words of part lines
+    # shapes and words of part lines
+    *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor"),
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
     *("table", "shirt", "hat", "clock"),  # a trait, parts of every outfit, the clock of a rig

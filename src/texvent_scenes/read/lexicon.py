@@ -178,8 +178,9 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
         for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
             base, _, pace = verb.partition("*")
             yield base, VerbSense(who, kind, float(pace or 1))
-    for base, fields in words["verbs"].items():
-        yield base, VerbSense(**fields)
+    for base, senses in words["verbs"].items():
+        for fields in senses if isinstance(senses, list) else [senses]:
+            yield base, VerbSense(**fields)
 
 
 _SHOWING = ("show", "make", "do", "give")
