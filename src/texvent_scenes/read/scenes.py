@@ -160,6 +160,10 @@ class _SentenceReader(ThingReader):
             return []
         nouns = [group.noun.noun for group in clause.objects if group.noun is not None]
         acts = [one.value for one in verb.verbs("ing")]
+        if not all(map(is_grammar, draft.tokens[: verb.at])):
+            return []  # "rain falling"
+        if not nouns and any(one.who != "person" for one in acts):
+            return []  # "falling": what?
         if len(nouns) < len(clause.objects) or not any(is_of_hands(one, nouns) for one in acts):
             return []
         draft.things.append({"noun": "person", "motions": [], "count": 1, "relations": []})

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from texvent_scenes.models.protocol import ModelPart, between
-from texvent_scenes.models.shapes import Affine, moved, shift, turn_about
+from texvent_scenes.models.shapes import Affine, affine, moved, turn_about
 
 Parts = Sequence[ModelPart]
 _GRAVITY_M_S2, _UNSEEN = 9.81, 1e-3
@@ -67,7 +67,7 @@ class Emission:
         count, found = max(round(self.hz * self.lasts_s), 1), list[ModelPart]()
         for number in range(count):
             cycle, age_s = divmod(time_s - self.start_s + number / self.hz, count / self.hz)
-            is_gone, age_s = age_s > self.lasts_s, min(age_s, self.lasts_s)
+            is_gone, age_s = age_s > self.lasts_s, age_s if age_s <= self.lasts_s else 0.0
             seed = int(number + count * cycle)
             gone_s = -math.expm1(-self.drag * age_s) / self.drag if self.drag else age_s
             x, y, z = (
@@ -77,7 +77,8 @@ class Emission:
             size = min(age_s / self.grows_s, 1.0) if self.grows_s else 1.0
             size = _UNSEEN if is_gone else max(size, _UNSEEN)
             fallen = 0.5 * self.gravity * _GRAVITY_M_S2 * age_s**2
-            found += moved(parts, np.hstack([size * np.eye(3), shift(x, y, z - fallen)[:, 3:]]))
+            away = np.array([x, y, z - fallen]) + (1.0 - size) * parts[0].to_body[:, 3]
+            found += moved(parts, affine(size * np.eye(3), away))
         return found
 
 

@@ -89,6 +89,12 @@ def test_an_act_that_only_people_do_brings_somebody_who_does_it(text):
     assert is_right(text)
 
 
+@pytest.mark.parametrize("text", ["rain falling on a window", "snow falling on a church"])
+def test_nobody_is_added_where_something_else_may_do_it(text):
+    nouns = {one.noun.name for one in staged(text)[0].actors}
+    assert not nouns & PERSON_NOUNS
+
+
 @pytest.mark.parametrize("text", [
     "a man chops wood with an axe", "a girl brushes hair with a hairbrush",
     "a worker rakes leaves with a rake",
