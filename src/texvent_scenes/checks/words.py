@@ -33,6 +33,7 @@ from texvent_scenes.checks.acts import (
     stops_before,
     swings,
 )
+from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
     has_colour,
@@ -201,6 +202,7 @@ def _sits_at(staged: StagedClip, claim: Claim) -> bool:
 
 CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
+    "look": _of_parts(has_look),
     "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
      "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": stops_before, "row": _is_row, "times": repeats,

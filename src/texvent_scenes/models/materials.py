@@ -76,7 +76,9 @@ class NamedMaterial:
     colour: Colour | None = None
     """Its usual colour; None = the object's own."""
     second_colour: Colour | None = None
-    """None = follows from the colour."""
+    """None = follows from the colour; of a pattern, it contrasts with it."""
+    scale: float = 1.0
+    """As of `Material`."""
 
 
 MATERIALS: dict[str, NamedMaterial] = {
@@ -89,13 +91,16 @@ MATERIALS: dict[str, NamedMaterial] = {
     "brass": NamedMaterial(Texture.METAL, (0.50, 0.33, 0.08)),
     "ceramic": NamedMaterial(Texture.WORN, (0.70, 0.67, 0.62)),
     "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
-    "glass": NamedMaterial(Texture.WORN, (0.10, 0.15, 0.17)),
+    "glass": NamedMaterial(Texture.PANE, (0.16, 0.27, 0.3)),
     "plastic": NamedMaterial(Texture.WORN),
     "rubber": NamedMaterial(Texture.LEATHER, (0.030, 0.030, 0.032)),
     "cloth": NamedMaterial(Texture.CLOTH),
     "leather": NamedMaterial(Texture.LEATHER, (0.20, 0.09, 0.04)),
     "paper": NamedMaterial(Texture.CLOTH, (0.70, 0.68, 0.62)),
     "ice": NamedMaterial(Texture.SNOW, (0.62, 0.74, 0.82)),
+    "striped": NamedMaterial(Texture.STRIPES, scale=3.0),
+    "checkered": NamedMaterial(Texture.CHECKS, scale=3.0),
+    "spotted": NamedMaterial(Texture.MOTTLED, scale=4.0),
 }
 
 
@@ -147,6 +152,15 @@ CLOTH_COLOURS: tuple[Colour, ...] = (
 )
 
 
+_PATTERNS = frozenset({Texture.STRIPES, Texture.CHECKS, Texture.MOTTLED})
+_BRIGHT = 0.3
+
+
+def _contrast(colour: Colour) -> Colour:
+    """The second colour of a pattern: white on what is dark, dark on what is bright."""
+    return shade(colour, 0.12) if sum(colour) / 3.0 > _BRIGHT else WHITE
+
+
 _OWN_SHARE = 0.25
 """Share of a part's own brightness that stays, so that parts can be told apart."""
 
@@ -182,13 +196,16 @@ class OverriddenModel:
             usual = sum(wanted) / 3.0
             factor = 1.0 + _OWN_SHARE * (min(own / max(usual, 1e-3), 2.0) - 1.0)
             colour = mix((0.0, 0.0, 0.0), wanted, factor)
-        surface = made_of(self._material.texture, colour, self._material.second_colour)
+        second = self._material.second_colour
+        if self._material.texture in _PATTERNS:
+            second = _contrast(colour)
+        surface = made_of(self._material.texture, colour, second, scale=self._material.scale)
         return replace(
             part,
             colour=surface.colour,
             second_colour=surface.second_colour,
             texture=surface.texture,
-            texture_scale=1.0,
+            texture_scale=surface.scale,
         )
 
 

@@ -24,8 +24,8 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
-    plain = [_see_as_verb(one, tokens) for one in tokens]
-    chosen = [_choose(one, plain, nouns) if not one.senses else one for one in plain]
+    related = [_relate(_see_as_verb(one, tokens), tokens) for one in tokens]
+    chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
     seen = [_see_beside(one, chosen) for one in chosen]
     return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
 
@@ -57,12 +57,17 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     return replace(token, senses=(Sense("noun", replace(senses[0], noun=row["noun"])),))
 
 
-def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> Token:
+def _relate(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as the preposition that it is before a noun group: "round a fire"."""
     like = read_table("words", "read")["like"]
     before = tokens[token.at - 1] if token.at else NO_TOKEN
     following = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
-    if token.text in like and following.has("articles") and not before.has("articles"):
-        return replace(token, senses=(Sense("relation", like[token.text]),))  # "round a fire"
+    if token.text not in like or before.has("articles") or not following.has("articles"):
+        return token
+    return replace(token, senses=(Sense("relation", like[token.text]),))
+
+
+def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> Token:
     found = find_nouns(token.text, nouns)
     after = tokens[token.at + 1 : token.at + 1 + _NEAR]
     kinds = {one.value.kind for each in after for one in each.all("verb")}

@@ -49,6 +49,7 @@ RelationKind: TypeAlias = Literal[
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
+    "striped", "checkered", "spotted",
 ]  # fmt: skip
 Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "lane"]
 MoveKind: TypeAlias = Literal[
