@@ -165,6 +165,7 @@ def _has_subject(reading: Reading) -> bool:
     place, lost = replace(scene.place, is_empty=False), reading.not_understood
     backgrounds = nouns_with("only a background")
     is_still = all(one.noun in backgrounds and not one.motions for one in scene.objects)
+    is_still &= not scene.camera.is_moving  # "zoom in on a wall"
     is_way = any(one.means is not None for one in scene.camera.moves)
     is_light = scene.light != Light() and not lost
     is_thing = bool(scene.objects) and not (is_still and lost)

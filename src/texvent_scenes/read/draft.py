@@ -204,6 +204,11 @@ class SceneDraft:
         """Leave it to the staged scene whether a word is shown of all subjects."""
         if kind == "times":
             self.repeat(value, [one for one in subjects if one is not None])
+        if kind == "in_air":
+            kind, value = "ground", False
+        for motions in (self.things[one]["motions"] for one in subjects if one is not None):
+            if kind == "stays" and motions and motions[-1]["kind"] == "turn":
+                motions[-1]["kind"] = "spin"  # "turns on the spot"
         said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
         self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
 
@@ -547,6 +552,11 @@ class SceneDraft:
         self._effect_at = token.at
         self.show(token)
 
+    def show_inherent(self, tokens: Sequence[Token], name: str) -> None:
+        """Show modifiers of a noun or a place that is so anyway: "a round plate"."""
+        true_of = read_table("words", "read")["inherent"]
+        self.show(*(one for one in tokens if name in true_of.get(one.text, ())))
+
     def _fill_place(self, token: Token) -> None:
         """Add those of whom a place is full: "a busy street"."""
         for noun, count in read_table("words", "read")["brings"].get(token.text, {}).items():
@@ -573,6 +583,7 @@ class SceneDraft:
         if name == "plain":  # "a plain black background": alone, the word has several senses
             said = (one for one in self.tokens if one.text == name and one.at < head.at)
             self.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
+        self.show_inherent(group.unknown, name)
         for token in group.unknown:
             self._fill_place(token)
         self.set_scene(head)

@@ -367,19 +367,28 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
 
 
 @cache
-def _owned() -> tuple[re.Pattern[str], re.Pattern[str]]:
-    """Owners before their parts, "a car's headlights", and after them, "the blades of a fan"."""
-    parts = "|".join(owned_parts())
+def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
+    """Owners before their parts, "a car's headlights", "a fan blade"; after them, "the blades of a
+    fan"; and behind a number of them, "a four-blade fan"; each as a thing with parts."""
+    parts, bare = "|".join(owned_parts()), "|".join(sorted(word_set("things", "bare_parts")))
+    numbers = "|".join(one for each in read_table("words", "read")["senses"]["field"]["count"].values()
+                       for one in each if " " not in one)  # fmt: skip
+    many = "|".join(one[:-1] for one in owned_parts() if one.endswith("s"))
     owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
-    before = rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b"
-    after = rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b"
-    return re.compile(before, re.I), re.compile(after, re.I)
+    rows = (
+        (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
+        (rf"\b({owners}) ({bare})\b", r"\1, its \2"),
+        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b", r"\2\3, its \1"),
+        (rf"\b({numbers}|\d+)[- ]({many}) ({owners})\b", r"\3 with \1 \2s"),
+    )  # fmt: skip
+    return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
 
 
 def _name_owners(text: str) -> str:
     """A text that says "a car, its headlights" for those of a car."""
-    before, after = _owned()
-    return after.sub(r"\2\3, its \1", before.sub(r"\1, its \2", text))
+    for pattern, said in _owned():
+        text = pattern.sub(said, text)
+    return text
 
 
 def _read_phrase(

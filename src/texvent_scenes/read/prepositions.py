@@ -97,6 +97,9 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
+        for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):
+            is_flyer = draft.nouns[one["noun"]].motion == "fly"
+            one["motions"] = one["motions"] or [{"kind": "hover"}] * is_flyer  # "its rotor turning"
         for one in (draft.things[n] for n in owners if is_lamp):
             if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
                 one |= {"is_lit": True, "blink_hz": BLINK_HZ}
@@ -166,7 +169,8 @@ def go_to_place(
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
-    if is_entered or is_home or (token.text == "from" and rises):
+    lands = token.text == "onto" and does and does <= _LANDING
+    if is_entered or is_home or lands or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
     elif is_in or not _shows_way(draft, token, place, subjects):

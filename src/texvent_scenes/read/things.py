@@ -156,6 +156,7 @@ class ThingReader:
         own = {"is_open": True} if is_open else {}
         draft.things.append({**thing, **own, "count": count, "relations": []})
         index = len(draft.things) - 1
+        draft.show_inherent(group.unknown, draft.things[index]["noun"])
         self._say_modifiers(group, index)
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
