@@ -12,7 +12,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import SceneDraft, is_grammar, is_of_hands, names_place
+from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
@@ -128,7 +128,7 @@ class _SentenceReader(ThingReader):
             if are_own_parts(self._draft, phrase, subjects):
                 continue
             told = self._relate(phrase, subjects, subjects) or subjects
-        told = subjects = subjects or self._add_doer(clause)
+        told = subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
         self._acted = objects or self._acted
@@ -152,22 +152,6 @@ class _SentenceReader(ThingReader):
         if clause.about == "then" or (phases and self._is_joined(clause)):  # others wait until then
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
                 motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
-
-    def _add_doer(self, clause: Clause) -> list[int]:
-        """Somebody who does what only people do, where nobody else is: "slicing a tomato"."""
-        draft, verb = self._draft, clause.verb
-        if clause.about or clause.subjects or verb is None or draft.things:
-            return []
-        nouns = [group.noun.noun for group in clause.objects if group.noun is not None]
-        acts = [one.value for one in verb.verbs("ing")]
-        if not all(map(is_grammar, draft.tokens[: verb.at])):
-            return []  # "rain falling"
-        if not nouns and any(one.who != "person" for one in acts):
-            return []  # "falling": what?
-        if len(nouns) < len(clause.objects) or not any(is_of_hands(one, nouns) for one in acts):
-            return []
-        draft.things.append({"noun": "person", "motions": [], "count": 1, "relations": []})
-        return [0]
 
     def _do_verb(
         self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]
