@@ -19,9 +19,6 @@ from zlib import crc32
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
-from tests.kept.plugin import pytest_configure
-
-__all__ = ["pytest_configure"]
 
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.

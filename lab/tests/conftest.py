@@ -4,11 +4,11 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from tests.conftest import moving_texture, pytest_configure, spawn
+from tests.conftest import moving_texture, spawn
 
 from texvent import _registry
 
-__all__ = ["moving_texture", "pytest_configure", "spawn"]
+__all__ = ["moving_texture", "spawn"]
 
 
 @pytest.fixture

@@ -1,7 +1,4 @@
-"""Light is linear: every material on every shape, every ground and kind of light.
-
-The pictures and their truth are kept as outcomes of these tests, see `tests/kept`.
-"""
+"""Light is linear: every material on every shape, every ground and kind of light."""
 
 from dataclasses import replace
 
