@@ -245,9 +245,16 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     """Lists of a table of tables, each with the keys that lead there."""
     for key, value in table.items():
         if isinstance(value, list):
-            yield (*path, key), value
+            yield (*path, key), [phrase for one in value for phrase in _expand(one)]
         else:
             yield from _walk(value, (*path, key))
+
+
+def _expand(phrase: str) -> Iterator[str]:
+    """Phrases with one of the words between brackets each: "(top|overhead) view( of|)"."""
+    parts = re.split(r"[()]", phrase)
+    choices = [one.split("|") if number % 2 else [one] for number, one in enumerate(parts)]
+    yield from (" ".join("".join(one).split()) for one in product(*choices))
 
 
 def _sense_of(kind: str, *rest: str) -> Sense:
@@ -355,17 +362,20 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
 
 @cache
 def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
-    """Owners before their parts, "a car's headlights", "a fan blade"; after them, "the blades of a
-    fan"; and behind a number of them, "a four-blade fan"; each as a thing with parts."""
+    """Things with parts as they are written, and as they are read: "a car, its headlights".
+
+    As in "a car's headlights", "the blades of a fan", "a fan blade", "a four-blade fan".
+    """
     parts, bare = "|".join(owned_parts()), "|".join(sorted(word_set("things", "bare_parts")))
-    numbers = "|".join(one for each in read_table("words", "read")["senses"]["field"]["count"].values()
-                       for one in each if " " not in one)  # fmt: skip
+    counts = read_table("words", "read")["senses"]["field"]["count"].values()
+    numbers = "|".join(one for each in counts for one in each if " " not in one)
     many = "|".join(one[:-1] for one in owned_parts() if one.endswith("s"))
     owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
     rows = (
         (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
         (rf"\b({owners}) ({bare})\b", r"\1, its \2"),
-        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b", r"\2\3, its \1"),
+        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b",
+         r"\2\3, its \1"),
         (rf"\b({numbers}|\d+)[- ]({many}) ({owners})\b", r"\3 with \1 \2s"),
     )  # fmt: skip
     return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
