@@ -245,9 +245,14 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     """Lists of a table of tables, each with the keys that lead there."""
     for key, value in table.items():
         if isinstance(value, list):
-            yield (*path, key), [phrase for one in value for phrase in _expand(one)]
+            around = _AROUND if "shot" in path or "camera" in path else "{}"
+            yield (*path, key), [each for one in value for each in _expand(around.format(one))]
         else:
             yield from _walk(value, (*path, key))
+
+
+_AROUND = "(from |by |with |in |){}( only|)"
+"""Words about a shot that say no more: "from an aerial view", "forward motion only"."""
 
 
 def _expand(phrase: str) -> Iterator[str]:
@@ -406,16 +411,8 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
-            found = tuple(
-                one
-                for one in found
-                if not (
-                    is_thing
-                    and one.kind == "shot"
-                    and words[end] == "camera"
-                    and words[at].endswith("ing")
-                )
-            )
+            is_thing = is_thing and words[end] == "camera" and words[at].endswith("ing")
+            found = tuple(one for one in found if not (is_thing and one.kind == "shot"))
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()

@@ -30,6 +30,8 @@ _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
+_BEARING = (("on", "tables"), ("in", "vessels"))
+"""Relations of what stands on or in what it is said to be with: "a tray with two glasses"."""
 _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
@@ -206,12 +208,9 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with":
-        is_table = thing["noun"] in word_set("things", "tables")
-        if is_table and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
-            return all([draft.relate(one, "on", [index]) for one in targets])
-        is_vessel = thing["noun"] in word_set("things", "vessels")
-        if is_vessel and not draft.can_go(targets[0]):  # "a tray with two glasses"
-            return all([draft.relate(one, "in", [index]) for one in targets])
+        bearing = [way for way, nouns in _BEARING if thing["noun"] in word_set("things", nouns)]
+        if bearing and not draft.can_go(targets[0]) and noun not in nouns_with("seat"):
+            return all([draft.relate(one, bearing[0], [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
         if not any(map(draft.can_go, (index, *targets))):
