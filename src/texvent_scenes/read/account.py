@@ -12,7 +12,7 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, deeds, word_set
+from texvent_scenes.read.lexicon import NO_TOKEN, deeds, word_set
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
@@ -52,8 +52,6 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _do_deeds(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
-    for token in draft.tokens:
-        _say_of_shot(draft, token)
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or is_grammar(token)
         is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
@@ -74,18 +72,6 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
         claims=tuple(_list_claims(draft)),
     )
-
-
-def _say_of_shot(draft: SceneDraft, token: Token) -> None:
-    """Show the small words about a shot: "from a static camera", "forward motion only"."""
-    if not token.has("shot") or not draft.shows(token):
-        return
-    words = [
-        one for one in draft.tokens[max(token.at - 2, 0) : token.at] if not one.has("articles")
-    ]
-    draft.show(*(one for one in words[-1:] if one.text in ("from", "by", "with")))
-    after = draft.tokens[token.at + 1 : token.at + 2]
-    draft.show(*(one for one in after if one.text == "only" and len(draft.moves) == 1))
 
 
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:

@@ -258,9 +258,21 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     """Lists of a table of tables, each with the keys that lead there."""
     for key, value in table.items():
         if isinstance(value, list):
-            yield (*path, key), value
+            around = _AROUND if "shot" in path or "camera" in path else "{}"
+            yield (*path, key), [each for one in value for each in _expand(around.format(one))]
         else:
             yield from _walk(value, (*path, key))
+
+
+_AROUND = "(from |by |with |in |){}( only|)"
+"""Words about a shot that say no more: "from an aerial view", "forward motion only"."""
+
+
+def _expand(phrase: str) -> Iterator[str]:
+    """Phrases with one of the words between brackets each: "(top|overhead) view( of|)"."""
+    parts = re.split(r"[()]", phrase)
+    choices = [one.split("|") if number % 2 else [one] for number, one in enumerate(parts)]
+    yield from (" ".join("".join(one).split()) for one in product(*choices))
 
 
 def _sense_of(kind: str, *rest: str) -> Sense:
@@ -368,8 +380,9 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
 
 @cache
 def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
-    """Owners and their parts, "a car's headlights", "a fan blade", "a four-blade fan", as a thing
-    with parts.
+    """Things with parts as they are written, and as they are read: "a car, its headlights".
+
+    As in "a car's headlights", "the blades of a fan", "a fan blade", "a four-blade fan".
     """
     parts, bare = "|".join(owned_parts()), "|".join(sorted(word_set("things", "bare_parts")))
     counts = read_table("words", "read")["senses"]["field"]["count"].values()
@@ -411,17 +424,10 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
-            found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
-            found = tuple(
-                one
-                for one in found
-                if not (
-                    is_thing
-                    and one.kind == "shot"
-                    and words[end] == "camera"
-                    and words[at].endswith("ing")
-                )
-            )
+            dropped = {"noun"} if is_thing else set()
+            if is_thing and words[end] == "camera" and words[at].endswith("ing"):
+                dropped.add("shot")
+            found = tuple(one for one in found if one.kind not in dropped)
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
