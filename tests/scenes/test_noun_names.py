@@ -9,10 +9,12 @@ from texvent_scenes.models.nouns import NOUNS
 ROOT = Path(texvent_scenes.__file__).parent
 OTHER_MEANINGS = {
     *("sink", "slide", "swing", "crane", "truck"),  # motions of bodies and of the camera
-    *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor"),  # shapes and words of part lines
+    *("ball", "bar", "box", "chain", "cone", "disc"),  # shapes and words of part lines
+    *("anchor", "plank", "wheel"),  # and others
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
-    *("table", "shirt", "hat", "clock"),  # a trait, parts of every outfit, the clock of a rig
+    *("table", "clock"),  # a trait, the clock of a rig
+    *("shirt", "hat", "shorts", "trousers"),  # parts of every outfit
     "square",  # a waveform
     *("person", "hand"),  # whose bodies are code
 }
