@@ -13,7 +13,8 @@ OTHER_MEANINGS = {
     *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor"),
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
-    *("table", "shirt", "hat", "clock"),  # a trait, parts of every outfit, the clock of a rig
+    *("table", "clock"),  # a trait, the clock of a rig
+    *("shirt", "hat", "shorts", "trousers"),  # parts of every outfit
     "square",  # a waveform
     *("person", "hand"),  # whose bodies are code
 }

@@ -32,9 +32,12 @@ MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
 HUNG = {"ceiling fan", "wall shelf"}
 """What hangs from above or on a wall."""
-LINES = {"runway markings", "basketball court lines", "pitch lines"}
+LINES = {
+    *("runway markings", "basketball court lines", "pitch lines"),
+    *("tennis court lines", "parking lines"),
+}
 """White paint on the ground."""
-PIECES = LINES | {"crosswalk", "firework", "expanding ring", "campfire", "ski", "toy train"}
+PIECES = LINES | {"crosswalk", "firework", "expanding ring", "campfire", "ski", "boot", "toy train"}
 """What consists of several pieces."""
 INSECTS = {"bee", "housefly", "dragonfly", "butterfly"}
 HOPPERS = {"frog"}

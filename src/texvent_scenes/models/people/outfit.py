@@ -58,6 +58,8 @@ class PersonKind:
     """Whether the shirt covers the forearms."""
     gloves: Colour | None = None
     shoes: Colour | None = None
+    boots: Colour | None = None
+    """Of what covers the shins; None = shoes."""
     garments: tuple[str, ...] = ()
     """Names in `garments` of the table."""
 
@@ -87,7 +89,9 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
     for noun, said in worn:
         row = CLOTHES[noun]
         colour = said or frozen(row.get("usual"))
-        kind = replace(kind, **{key: value for key, value in row.items() if key in _FIELDS})
+        changed = {key: frozen(value) for key, value in row.items() if key in _FIELDS}
+        garments = (*kind.garments, *changed.pop("garments", ()))
+        kind = replace(kind, garments=garments, **changed)
         if colour is not None:
             painted: dict[str, Any] = {
                 field: (colour,) if field == "shirts" else colour for field in row["painted"]
@@ -104,6 +108,7 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
     trousers = cloth(usual if kind.trousers is None else kind.trousers)
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
     legs = flesh if kind.dress == "skirt" else trousers
+    shins = trousers if kind.dress == "trousers" else flesh
     made = {
         "skin": flesh,
         "lips": Material(shade(flesh.colour, 0.45)),
@@ -111,7 +116,7 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
         "shirt": shirt,
         "pelvis": shirt if kind.dress == "skirt" else legs,
         "legs": legs,
-        "shins": trousers if kind.dress == "trousers" else flesh,
+        "shins": shins if kind.boots is None else Material(kind.boots),
         "shoes": shoes if kind.shoes is None else Material(kind.shoes),
         "forearms": shirt if kind.has_sleeves else flesh,
         "hands": flesh if kind.gloves is None else Material(kind.gloves),

@@ -1,0 +1,74 @@
+"""Looks that bodies have by themselves, patterns, and clothes: shown where they are to be seen."""
+
+from functools import cache
+
+import pytest
+
+from texvent.sensor import SensorSize
+from texvent_scenes.models.materials import MATERIALS
+from texvent_scenes.models.people.outfit import CLOTHES
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.staged_prompt import stage
+
+from ..every_row import for_every
+
+SIZE = SensorSize(173, 130)
+
+
+@cache
+def report(text):
+    return ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).report(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_so"),
+    [
+        ("colorful kites in the sky", "colorful", True),
+        ("three colored balls bouncing", "colored", True),
+        ("a colorful refrigerator", "colorful", False),
+        ("a round plate on a table", "round", True),
+        ("a round table in a kitchen", "round", True),
+        ("a round refrigerator", "round", False),
+        ("a long pencil on a table", "long", True),
+        ("a long sphere", "long", False),
+        ("a fluffy rabbit hops", "fluffy", True),
+        ("a fluffy car drives", "fluffy", False),
+        ("a flat plate on a table", "flat", True),
+        ("a flat tree", "flat", False),
+        ("a glowing lantern at night", "glowing", True),
+        ("a glowing sheep", "glowing", False),
+        ("a shiny van drives", "shiny", True),
+        ("a shiny sheep", "shiny", False),
+    ],
+)  # fmt: skip
+def test_a_look_is_shown_of_what_has_it(text, word, is_so):
+    said = report(text)
+    assert (word in " ".join(said.shown)) is is_so
+    assert (word in " ".join([*said.not_shown, *said.not_understood])) is not is_so
+
+
+@pytest.mark.parametrize("text", ["a dog runs round a tree", "a man walks round the car"])
+def test_round_before_a_thing_is_around_it(text):
+    assert "round" not in report(text).not_understood
+
+
+@for_every(("striped", "checkered", "spotted", "glass"))
+def test_a_pattern_has_two_colours_far_apart_in_any_colour(name):
+    for colour in ("white", "black", "yellow"):
+        nouns, text = list_nouns(), f"a {colour} {name} sphere"
+        scene = understand(text, nouns)
+        staged, said, *_ = stage(scene, scene.words, nouns, seed=0, size=SIZE, duration_s=1.0)
+        (part,) = staged.actors[0].model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+        assert part.texture is MATERIALS[name].texture
+        assert name in " ".join(said.shown)
+        gap = abs(sum(part.colour) - sum(part.second_colour)) / 3.0
+        assert gap > 0.25 or name == "glass"
+
+
+@for_every(CLOTHES)
+def test_clothes_show_on_who_wears_them_in_their_colour(name):
+    said = report(f"a man in a green {name} walks")
+    assert {"green", "man", "walks"} <= {*said.shown}
+    assert not (said.not_understood or said.not_shown or said.substituted)
