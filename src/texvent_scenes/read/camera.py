@@ -9,13 +9,13 @@ from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move, turn_by
 from texvent_scenes.read.groups import Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, VerbSense
+from texvent_scenes.read.lexicon import NO_TOKEN, Token
 
 
 def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
-    travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
+    travels = any(one.value.kind.startswith("travel") for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
     before = draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
@@ -74,7 +74,8 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     if verb is None or not moves:
         return None
     draft.show(verb)
-    move = split_move("travel forward" if is_ego else moves[0])
+    moves = [one for one in moves if one.startswith("travel")] if is_ego else moves
+    move = split_move(moves[0])
     turned = read_table("words", "read")["turned_moves"]
     for one in clause.after:
         if isinstance(one, Phrase):

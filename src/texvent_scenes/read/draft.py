@@ -544,9 +544,11 @@ class SceneDraft:
         true_of = read_table("words", "read")["inherent"]
         self.show(*(one for one in tokens if name in true_of.get(one.text, ())))
 
-    def _fill_place(self, token: Token) -> None:
+    def _fill_place(self, token: Token, place: str) -> None:
         """Add those of whom a place is full: "a busy street"."""
-        for noun, count in read_table("words", "read")["brings"].get(token.text, {}).items():
+        full = read_table("words", "read")["brings"]
+        brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
+        for noun, count in brought.items():
             self.things.append({"noun": noun, "motions": [], "relations": [], "count": count})
             self.show(token)
             self.claim(token, SEEN, "", [len(self.things) - 1])
@@ -564,7 +566,7 @@ class SceneDraft:
                     place |= {"colour": "black", "sky": "black"}
             elif field == "colour" and is_it and not is_room(name):
                 place["sky" if name == "sky" else "colour"] = value
-            elif not self.set_scene(token):
+            elif not (token.has("partitive") or self.set_scene(token)):
                 continue
             self.show(token)
         if name == "plain":  # "a plain black background": alone, the word has several senses
@@ -572,7 +574,7 @@ class SceneDraft:
             self.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
         self.show_inherent(group.unknown, name)
         for token in group.unknown:
-            self._fill_place(token)
+            self._fill_place(token, name)
         self.set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
         if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):

@@ -122,6 +122,8 @@ class GroupReader:
             return False
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
+        if token.has("partitive"):
+            return self._starts_group(ahead + 1)
         is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
         is_part = after.text in owned_parts()
         is_noun = is_part or after.has("noun", "place", *MODIFIERS)
@@ -133,8 +135,9 @@ class GroupReader:
         modifiers: list[Token] = []
         unknown: list[Token] = []
         head, article = None, self._token().text if self._token().has("articles") else ""
-        while self._token().has("articles"):
-            self._take()
+        while self._token().has("articles", "partitive"):
+            part = self._take()
+            modifiers += [part] if part.has("partitive") else []
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()

@@ -183,7 +183,6 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
             yield base, VerbSense(**fields)
 
 
-_SHOWING = ("show", "make", "do", "give")
 _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 
 
@@ -193,8 +192,6 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
             yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
             yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
             yield from _list_acts(who, name, activity)
-            for phrase in activity.named:  # "a hand shows a thumbs up"
-                yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, activity in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
         yield from _list_acts("animal", name, activity)
@@ -294,6 +291,8 @@ def _plain(value: str) -> str | float | bool:
     return float(value) if value.replace(".", "").isdigit() else value
 
 
+_NEAR = 4
+"""Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
 _NUMBER = (
@@ -373,9 +372,39 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
             sense = Sense("picture", ("picture", picture))
             found.append(Token(picture.value, len(found), (sense,)))
         start = end
+    found = _join_light_verbs(found, lexicon)
     if len(found) > MOST_WORDS:
         found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
+
+
+@cache
+def _light_verbs() -> Mapping[str, str]:
+    """Forms of verbs that say nothing before a noun of what is done → the names of the forms."""
+    words = read_table("words", "read")
+    verbs = ((one, words["irregular"].get(one, "")) for one in words["light"]["verbs"])
+    return {word: form for one in verbs for word, form in list_verb_forms(*one)}
+
+
+def _join_light_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
+    """The tokens, with a verb for "makes a sharp turn", before the words in between."""
+    nouns, found, skipped = read_table("words", "read")["light"]["nouns"], list[Token](), set[int]()
+    for token in tokens:
+        form, after = _light_verbs().get(token.text), tokens[token.at + 1 : token.at + 1 + _NEAR]
+        for done in after if form else ():
+            said = lexicon.get(tuple(nouns.get(done.text, done.text).split()), ())
+            acts = [VerbSense(*one.value) for one in said if one.kind == "pose"]
+            acts += [one.value for one in said if one.kind == "verb" and one.form == "base"]
+            if acts and not done.has("noun"):
+                senses = tuple(Sense("verb", one, form or "") for one in acts)
+                token = replace(token, text=f"{token.text} {done.text}", senses=senses)
+                skipped |= {one.at for one in after if one is done}
+                skipped |= {one.at for one in after if one.at < done.at and one.has("articles")}
+                break
+            if not (done.has("articles", "adverb", "field") or done.is_unknown):
+                break
+        found += [replace(token, at=len(found))] if token.at not in skipped else []
+    return found
 
 
 @cache

@@ -145,7 +145,7 @@ def claim_mutual(
 ) -> None:
     """Send things to each other, and leave it to the staged scene whether they are so."""
     does = {each["kind"] for one in subjects for each in draft.things[one]["motions"][-1:]}
-    if kind in ("past", "towards") and does & {*MEANS, "move"}:
+    if kind in ("past", "towards") and does & {*MEANS, "move", "roll", "slide"}:
         draft.part_ways(subjects)
     for token in tokens if subjects and kind else ():
         draft.claim(token, "mutual", kind, subjects[:1], subjects[1:])

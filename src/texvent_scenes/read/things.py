@@ -198,7 +198,7 @@ class ThingReader:
             if token.text in word_set("things", "rows"):
                 draft.claim(token, "row", "along", [index])
             is_side = token.text in ("left", "right")  # "the left ball"
-            draft.show(*([token] if token.has("hollow") or is_side else []))
+            draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
             draft.things[index] |= {"placement": token.text} if is_side else {}
             self._say(token, [] if is_side else [index])
 
