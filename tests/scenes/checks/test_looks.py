@@ -71,4 +71,4 @@ def test_a_pattern_has_two_colours_far_apart_in_any_colour(name):
 def test_clothes_show_on_who_wears_them_in_their_colour(name):
     said = report(f"a man in a green {name} walks")
     assert {"green", "man", "walks"} <= {*said.shown}
-    assert [*said.not_understood, *said.not_shown, *said.substituted] == []
+    assert not [*said.not_understood, *said.not_shown, *said.substituted]
