@@ -332,7 +332,7 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
             thing["motions"][-1]["kind"] = "climb"  # "goes up a tree"
         return kind if can_climb else ""
     if kind == "off":
-        return kind if does & {"jump", "fall"} else ""
+        return kind if does & {"jump", "fall", "roll", "slide"} else ""
     acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push", "pull"})
     return "towards" if is_led or acts or not draft.goes(index) else kind
 
