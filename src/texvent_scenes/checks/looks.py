@@ -27,7 +27,8 @@ def has_look(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: 
     """Whether each, or all copies together, look so."""
     if claim.value == "colourful":
         return _count_hues([part for one in own for part in one.own_parts(_REST)]) >= _COLOURFUL
-    return bool(own) and all(_LOOKS[str(claim.value)](one) for one in own)
+    look = _LOOKS.get(str(claim.value))
+    return look is not None and bool(own) and all(map(look, own))
 
 
 def _count_hues(parts: Sequence[ModelPart]) -> int:

@@ -105,7 +105,7 @@ def strike(
     """Both bodies of an act of `IMPACTS`, bound by the instant of contact."""
     act = IMPACTS[kind]
     contact_s = contact_time(duration_s, act.share)
-    if kind == "hit":
+    if kind == "hit" and is_person(subject):  # others run against it
         return _bat(act, subject, thing, contact_s)
     if act.activity is None:
         return _run_together(subject, thing, contact_s)
