@@ -424,6 +424,11 @@ class SceneDraft:
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
         if (is_able := self._is_able(verb, subjects, objects, has_object)) is not None:
             return is_able
+        seats = [n for each in things for one in each["relations"] for n in one["to"]
+                 if one["kind"] == "on"]  # fmt: skip
+        is_swung = any(self.things[n]["noun"] in nouns_with("swings") for n in seats)
+        if is_swung and verb.kind == "move":
+            return False  # it goes with its seat: "a girl on a swing going high"
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
         if goes_on and any(self.nouns[one].is_working for one in names):
             return False
