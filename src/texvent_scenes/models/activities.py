@@ -26,7 +26,7 @@ class Activity:
     verbs: tuple[str, ...] = ()
     """Verbs of an act on something, which is an object of the sentence."""
     upon: Mapping[str, Any] | None = None
-    """What it is done to, and where that is: fields of `Upon`."""
+    """Object of the act and its place: fields of `Upon`."""
     effect: str = ""
     """Effect that comes from who does it."""
     named: tuple[str, ...] = ()
@@ -55,7 +55,7 @@ class Activity:
 
 @dataclass(frozen=True)
 class Upon:
-    """What an act is done to, and where that is while it lasts."""
+    """Object of an act, and its place while it lasts."""
 
     nouns: tuple[str, ...]
     """Nouns, and traits of nouns."""
@@ -101,7 +101,7 @@ def motion_of(table: str, activity: str) -> dict[str, Any]:
 
 
 def upon_of(activity: str) -> Upon | None:
-    """What an activity of people or animals is done to; None = nothing."""
+    """Object of an activity of people or animals; None: it has none."""
     row = ACTIVITIES.get(activity) or ANIMAL_ACTIVITIES.get(activity)
     return Upon(**row.upon) if row is not None and row.upon else None
 

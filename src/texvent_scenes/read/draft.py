@@ -91,6 +91,19 @@ def names_place(head: Token, relation: str) -> bool:
     return bool(relation) or not is_thing
 
 
+def is_of_hands(act: VerbSense, nouns: Sequence[str]) -> bool:
+    """Whether only people do an act, to nouns or to nothing."""
+    if act.object in TIMED and act.relation == "at":
+        return bool(nouns)
+    if act.relation == "act on":
+        return bool(nouns) and act.who == "person" and {*nouns} <= nouns_upon(act.kind)
+    if nouns and act.relation is None:
+        used = {noun for prop in list_props(act.kind) for noun in prop.nouns}
+        return act.who == "person" and {*nouns} <= used
+    is_handled = bool(nouns or act.brings) and act.relation in word_set("things", "of_people")
+    return is_handled or (act.who == "person" and not nouns)
+
+
 def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     """Set a field of an object, or an adverb of its last motion."""
     is_lamp = thing["noun"] in LAMPS and not thing["motions"]

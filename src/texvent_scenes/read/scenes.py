@@ -12,7 +12,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
+from texvent_scenes.read.draft import SceneDraft, is_grammar, is_of_hands, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import (
     NO_TOKEN,
@@ -128,7 +128,7 @@ class _SentenceReader(ThingReader):
             if are_own_parts(self._draft, phrase, subjects):
                 continue
             told = self._relate(phrase, subjects, subjects) or subjects
-        told = subjects
+        told = subjects = subjects or self._add_doer(clause)
         objects = [index for group in clause.objects for index in self._name(group)]
         objects = objects or (self._find_object(clause, subjects, where) if clause.is_back else [])
         self._acted = objects or self._acted
@@ -153,6 +153,22 @@ class _SentenceReader(ThingReader):
             for motions in (self._draft.things[n]["motions"] for n in subjects if n >= known):
                 motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
 
+    def _add_doer(self, clause: Clause) -> list[int]:
+        """Somebody who does what only people do, where nobody else is: "slicing a tomato"."""
+        draft, verb = self._draft, clause.verb
+        if clause.about or clause.subjects or verb is None or draft.things:
+            return []
+        nouns = [group.noun.noun for group in clause.objects if group.noun is not None]
+        acts = [one.value for one in verb.verbs("ing")]
+        if not all(map(is_grammar, draft.tokens[: verb.at])):
+            return []  # "rain falling"
+        if not nouns and any(one.who != "person" for one in acts):
+            return []  # "falling": what?
+        if len(nouns) < len(clause.objects) or not any(is_of_hands(one, nouns) for one in acts):
+            return []
+        draft.things.append({"noun": "person", "motions": [], "count": 1, "relations": []})
+        return [0]
+
     def _do_verb(
         self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]
     ) -> tuple[list[int], list[int]]:
@@ -168,9 +184,6 @@ class _SentenceReader(ThingReader):
         is_within = bool(clause.objects) and not objects and bool(ways & {"into", "out of"})
         is_known &= not is_within  # "enters a room", where it is already
         is_lost = clause.is_back and not objects  # "throws a wug and catches it"
-        is_first = not any(one.has("noun", "verb") for one in self._draft.tokens[: verb.at])
-        if not (subjects or clause.subjects) and is_first and verb.verbs("ing"):
-            subjects = self._imply_actor(verb, objects, has_object=not is_known)
         found = None if is_lost else self._act(verb, subjects, objects, has_object=not is_known)
         kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
         if mutual and kind is not None and found:  # "pass each other"

@@ -40,8 +40,6 @@ from texvent_scenes.words import list_verb_forms
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
-_BY_HAND = word_set("things", "of_people") | {"at", "push"}
-"""Relations to things that only who has hands brings about."""
 _SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
@@ -373,17 +371,6 @@ class ThingReader:
         elif is_mutual(act.kind):
             self._draft.relate(who, "act on", others or [who])
             self._draft.claim(verb, "act on", "", [who], others or [who])
-
-    def _imply_actor(self, verb: Token, objects: Sequence[int], *, has_object: bool) -> list[int]:
-        """A person who does what nobody else is said to do: "chopping an onion with a knife"."""
-        draft, actor = self._draft, [len(self._draft.things)]
-        acts = [one.value for one in verb.all("verb")
-                if one.value.who == "person" or one.value.relation in _BY_HAND]  # fmt: skip
-        draft.things.append({"noun": "person", "count": 1, "motions": [], "relations": []})
-        if any(draft.fits(one, actor, objects, has_object or bool(objects)) for one in acts):
-            return actor
-        draft.things.pop()
-        return []
 
     def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""

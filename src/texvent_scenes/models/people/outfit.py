@@ -59,7 +59,7 @@ class PersonKind:
     gloves: Colour | None = None
     shoes: Colour | None = None
     boots: Colour | None = None
-    """Of what covers the shins; None = shoes."""
+    """Colour of what covers the shins; None = shoes."""
     garments: tuple[str, ...] = ()
     """Names in `garments` of the table."""
 

@@ -150,7 +150,7 @@ def _swinging(
     kind: str, pair: tuple[int, int], objects: Sequence[SceneObject],
     relations: Sequence[IndexedRelation],
 ) -> SceneObject:  # fmt: skip
-    """Who hits something, with the act of what it has in its hands, or of the usual implement."""
+    """Subject that hits, with the act of the implement in its hands, or of the usual one."""
     who, target = objects[pair[0]], objects[pair[1]].noun
     if kind != "hit":
         return who

@@ -45,7 +45,7 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             said.append(Effect(kind, id))
     moves = [one.phase for one in description.camera.moves]
     acts = [len(one.motions) - 1 for one in description.objects]
-    phases = 1 + max([*(one.phase for one in said), *moves, *acts])
+    phases = 1 + max([0, *(one.phase for one in said), *moves, *acts])
     effects: list[Emitter] = []
     kinds: list[str] = []
     for number, effect in enumerate(said):
