@@ -17,6 +17,7 @@ import numpy as np
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.looks import find_unlike
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
     find_undone,
@@ -148,6 +149,7 @@ def find_unseen(
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
     seen = {number: view.at for number, view in views.items()}
     violations = [*_list_words_of(description, unseen, partly)]
+    violations += find_unlike(description, scene.actors, scene.missing)
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
     violations += find_near(scene, description, cameras, times)

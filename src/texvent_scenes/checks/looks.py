@@ -1,15 +1,17 @@
-"""Looks of bodies that their models have by themselves: round, long, colourful, shiny."""
+"""Looks of bodies that their models have by themselves, and of what others wear or have in hand."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from texvent_scenes.checks.parts import Place
+from texvent_scenes.checks.relations import Violation
 from texvent_scenes.colours import SURFACES, find_colour
-from texvent_scenes.description import Claim
-from texvent_scenes.models.materials import has_colour
+from texvent_scenes.description import Claim, SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.materials import MATERIALS, has_colour
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.rendered_scene import Shape, Texture
 from texvent_scenes.staging.actors import Actor
@@ -29,6 +31,26 @@ def has_look(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: 
         return _count_hues([part for one in own for part in one.own_parts(_REST)]) >= _COLOURFUL
     look = _LOOKS.get(str(claim.value))
     return look is not None and bool(own) and all(map(look, own))
+
+
+def find_unlike(
+    description: SceneDescription, actors: Sequence[Actor], missing: Container[int]
+) -> Iterator[Violation]:
+    """Colours and materials that what is part of another body, as a coat is, does not have."""
+    bodied = {one.object_index for one in actors}
+    for index, thing in enumerate(description.objects):
+        if index in bodied or index in missing:
+            continue
+        own = [part for one in actors for prop in one.props if thing.noun in prop.nouns
+               for part in prop.draw(0.0)]  # fmt: skip
+        parts = own or [part for one in actors if one.noun.name in PERSON_NOUNS
+                        for part in one.own_parts(_REST)]  # fmt: skip
+        rgb = find_colour(thing.colour, SURFACES) if thing.colour else None
+        if rgb is not None and not any(has_colour([part], rgb) for part in parts):
+            yield Violation("colour", str(thing.colour), "")
+        named = MATERIALS.get(thing.material or "")
+        if named is not None and named.texture not in {part.texture for part in parts}:
+            yield Violation("material", str(thing.material), "")
 
 
 def _count_hues(parts: Sequence[ModelPart]) -> int:

@@ -72,3 +72,12 @@ def test_clothes_show_on_who_wears_them_in_their_colour(name):
     said = report(f"a man in a green {name} walks")
     assert {"green", "man", "walks"} <= {*said.shown}
     assert not [*said.not_understood, *said.not_shown, *said.substituted]
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [("a man juggles four green balls", "green"), ("a drummer plays a blue drum", "blue"),
+     ("a girl in a striped dress walks", "striped"), ("a man in a leather jacket", "leather")],
+)  # fmt: skip
+def test_what_is_part_of_another_body_is_not_said_to_look_otherwise(text, word):
+    assert word in report(text).not_shown
