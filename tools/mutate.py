@@ -105,6 +105,8 @@ def run_tests(
     words += ["-o", f"faulthandler_timeout={TEST_PATIENCE_S + 60}"]
     paths = [str(tree / "src"), str(tree / LAB / "src"), str(tree), os.environ.get("PYTHONPATH")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+    # Bytecode of a change that was made within the second of the right text would be taken for it.
+    environment["PYTHONDONTWRITEBYTECODE"] = "1"
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
             words,
