@@ -18,7 +18,8 @@ from texvent.errors import ConfigError, InputError, TexventError, one_line, show
 from texvent.prompt_report import PromptReport
 from texvent_scenes.meanings import list_meanings, meanings_of
 from texvent_scenes.read.draft import is_grammar
-from texvent_scenes.read.lexicon import Token, lexicon_of, split_prompt
+from texvent_scenes.read.lexicon import lexicon_of
+from texvent_scenes.read.tokens import Token, split_prompt
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.tables import field_types, inner_type, plain_type, required_fields

@@ -12,7 +12,8 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
-from texvent_scenes.read.lexicon import NO_TOKEN, deeds, word_set
+from texvent_scenes.read.lexicon import deeds, word_set
+from texvent_scenes.read.tokens import NO_TOKEN
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.read.abilities import MEANS
 from texvent_scenes.read.clauses import Clause
-from texvent_scenes.read.draft import MEANS, SceneDraft, names_place, split_move, turn_by
+from texvent_scenes.read.draft import SceneDraft, names_place, split_move, turn_by
 from texvent_scenes.read.groups import Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
 def is_ego(draft: SceneDraft, clause: Clause) -> bool:

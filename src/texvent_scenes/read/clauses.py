@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from texvent_scenes.read.groups import MODIFIERS, Group, GroupReader, Phrase
-from texvent_scenes.read.lexicon import NO_TOKEN, Token, owned_parts, word_set
+from texvent_scenes.read.lexicon import owned_parts, word_set
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 _IS = ("is", "are", "was", "were")
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Token, owned_parts, states, word_set
+from texvent_scenes.read.lexicon import NounSense, owned_parts, states, word_set
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""

@@ -11,9 +11,11 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.draft import BLINK_HZ, MEANS, SceneDraft
+from texvent_scenes.read.abilities import MEANS
+from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Token, owned_parts, word_set
+from texvent_scenes.read.lexicon import owned_parts, word_set
+from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})

@@ -9,18 +9,13 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.read.abilities import is_of_hands
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
 from texvent_scenes.read.clauses import Clause, read_clauses
-from texvent_scenes.read.draft import SceneDraft, is_grammar, is_of_hands, names_place
+from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import (
-    NO_TOKEN,
-    Token,
-    lexicon_of,
-    split_prompt,
-    word_set,
-)
+from texvent_scenes.read.lexicon import lexicon_of, word_set
 from texvent_scenes.read.prepositions import (
     are_own_parts,
     claim_mutual,
@@ -36,6 +31,7 @@ from texvent_scenes.read.prepositions import (
 )
 from texvent_scenes.read.senses import choose_senses
 from texvent_scenes.read.things import ThingReader
+from texvent_scenes.read.tokens import NO_TOKEN, Token, split_prompt
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
 
@@ -154,7 +150,7 @@ class _SentenceReader(ThingReader):
                 motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
 
     def _add_doer(self, clause: Clause) -> list[int]:
-        """Somebody who does what only people do, where nobody else is: "slicing a tomato"."""
+        """A person for what only people do, where no subject is said: "slicing a tomato"."""
         draft, verb = self._draft, clause.verb
         if clause.about or clause.subjects or verb is None or draft.things:
             return []

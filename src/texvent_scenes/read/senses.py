@@ -9,7 +9,8 @@ from dataclasses import replace
 from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table, trait_value
-from texvent_scenes.read.lexicon import NO_TOKEN, NounSense, Sense, Token, word_set
+from texvent_scenes.read.lexicon import NounSense, Sense, word_set
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
 
 _NEAR = 3

@@ -26,7 +26,6 @@ from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
     NounSense,
     Sense,
-    Token,
     VerbSense,
     deeds,
     owned_parts,
@@ -34,6 +33,7 @@ from texvent_scenes.read.lexicon import (
     word_set,
 )
 from texvent_scenes.read.prepositions import ridden_by
+from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
@@ -348,7 +348,7 @@ class ThingReader:
         self, acts: Sequence[VerbSense], subjects: Sequence[int], objects: Sequence[int], *,
         has_object: bool,
     ) -> VerbSense | None:  # fmt: skip
-        """An act of people that hands do: "hands typing"; somebody is there who has them."""
+        """An act of people that hands do, "hands typing": those of a person."""
         things = [self._draft.things[one] for one in subjects]
         acts = [one for one in acts if one.who == "person"]
         if not (things and acts) or not all(one["noun"] in HAND_NOUNS for one in things):

@@ -12,7 +12,8 @@ from texvent.errors import InputError
 from texvent_scenes import read as reader
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.draft import is_grammar
-from texvent_scenes.read.lexicon import lexicon_of, split_prompt
+from texvent_scenes.read.lexicon import lexicon_of
+from texvent_scenes.read.tokens import split_prompt
 from texvent_scenes.scene_input import list_words, read
 from texvent_scenes.spec.data import checked_scene
 

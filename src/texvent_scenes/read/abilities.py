@@ -1,0 +1,181 @@
+"""Abilities: whether the objects of a draft can do what a verb says of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TIMED,
+    is_mutual,
+    nouns_upon,
+)
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.lexicon import VerbSense, word_set
+from texvent_scenes.read.tokens import Token
+from texvent_scenes.spec.data import ACTED
+
+MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+_ALONG = ("push", "pull")
+"""Relations to what goes along."""
+
+
+def can_be_worn(noun: str) -> bool:
+    """Whether people wear it."""
+    return noun in CLOTHES or trait_value("worn", noun) is not None
+
+
+def is_of_hands(act: VerbSense, nouns: Sequence[str]) -> bool:
+    """Whether only people do an act, to nouns or to nothing."""
+    if act.object in TIMED and act.relation == "at":
+        return bool(nouns)
+    if act.relation == "act on":
+        return bool(nouns) and act.who == "person" and {*nouns} <= nouns_upon(act.kind)
+    if nouns and act.relation is None:
+        used = {noun for prop in list_props(act.kind) for noun in prop.nouns}
+        return act.who == "person" and {*nouns} <= used
+    is_handled = bool(nouns or act.brings) and act.relation in word_set("things", "of_people")
+    return is_handled or (act.who == "person" and not nouns)
+
+
+class Abilities:
+    """Objects of which verbs are said, and what they can do."""
+
+    nouns: Mapping[str, Noun]
+    things: list[dict[str, Any]]
+
+    def can_go(self, index: int) -> bool:
+        """Whether an object can go from place to place by itself."""
+        return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
+
+    def goes(self, index: int) -> bool:
+        """Whether an object is said to go somewhere, by itself or as what it rides."""
+        kinds = {one["kind"] for one in self.things[index]["motions"]}
+        return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
+
+    def spins(self, index: int) -> bool:
+        """Whether an object turns in its place."""
+        return [one["kind"] for one in self.things[index]["motions"]] == ["spin"]
+
+    def walks(self, index: int) -> bool:
+        """Whether an object is a person or an animal on feet."""
+        return self.nouns[self.things[index]["noun"]].motion == "walk"
+
+    def fits(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool:
+        """Whether the subjects can do it, with an object or without one."""
+        things = [self.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        if (is_able := self._is_able(verb, subjects, objects, has_object)) is not None:
+            return is_able
+        seats = [n for each in things for one in each["relations"] for n in one["to"]
+                 if one["kind"] == "on"]  # fmt: skip
+        is_swung = any(self.things[n]["noun"] in nouns_with("swings") for n in seats)
+        if is_swung and verb.kind == "move":
+            return False  # it goes with its seat: "a girl on a swing going high"
+        goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
+        if goes_on and any(self.nouns[one].is_working for one in names):
+            return False
+        if has_object:
+            swings = nouns_with("swings")
+            needs_hands = verb.relation in word_set("things", "of_people")
+            is_rider = names <= nouns_with("person on a vehicle") and verb.relation == "wear"
+            needs_hands &= not is_rider
+            needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
+            is_acting &= not needs_body or names <= PERSON_NOUNS
+            needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
+            is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            is_moved &= verb.object not in TIMED or all(
+                verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
+            )
+            is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
+            is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
+            is_moved &= verb.relation != "wear" or all(
+                can_be_worn(self.things[n]["noun"]) for n in objects
+            )
+            is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
+            return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
+        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
+        meets |= bool(verb.brings) and names <= PERSON_NOUNS
+        needs_object = verb.object or verb.relation in word_set("things", "doing")
+        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
+
+    def names_tool(self, subjects: Sequence[int], words: Sequence[Token]) -> bool:
+        """Whether words name what is drawn with an act: "chops wood with an axe"."""
+        kinds = {each["kind"] for one in subjects for each in self.things[one]["motions"]}
+        does = {each["kind"] for one in subjects for each in self.things[one]["relations"]}
+        kinds |= {name for name, one in ACTIVITIES.items() if one.reach_m and "hit" in does}
+        tools = {part for kind in kinds for prop in list_props(kind)
+                 for part in (prop.name, prop.name.rpartition(" ")[2])}  # fmt: skip
+        return bool(words) and all(one.text in tools and not one.has("noun") for one in words)
+
+    def _has_mouths(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+        """Whether animals have small things in their mouths."""
+        small = nouns_with("in hand or on something") | nouns_with("in a mouth")
+        names = {self.things[one]["noun"] for one in subjects}
+        is_animal = not names & (PERSON_NOUNS | HAND_NOUNS) and all(map(self.walks, subjects))
+        return is_animal and {self.things[one]["noun"] for one in objects} <= small
+
+    def _acts_on(self, verb: VerbSense, names: set[str], objects: Sequence[int]) -> bool:
+        """Whether nouns can do an act, and it can be done to these objects."""
+        is_able = names <= PERSON_NOUNS
+        if verb.who == "animal":
+            is_able = all(verb.kind in self.nouns[one].acts for one in names)
+        upon = nouns_upon(verb.kind)
+        return is_able and bool(objects) and {self.things[one]["noun"] for one in objects} <= upon
+
+    def _is_able(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool | None:
+        """Whether those whom a verb needs can do it; None: anything may."""
+        things = [self.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        is_ground = names <= nouns_with("of ground")
+        is_unfit |= is_ground and verb.kind in word_set("things", "in_place")  # "rolling hills"
+        match verb.who:
+            case "person" if verb.relation != "act on":
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self.things[one]["noun"] in used for one in objects)
+                is_used |= verb.relation is not None
+                is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "person" | "animal" if verb.relation == "act on":
+                return self._acts_on(verb, names, objects)
+            case "animal":
+                return all(verb.kind in self.nouns[one].acts for one in names)
+            case "machine":
+                return not has_object and all(self.nouns[one].is_working for one in names)
+            case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
+                return False  # no dart, which would go along the ground
+            case "source" | "lamp":
+                if verb.who == "lamp" and not self._can_shine(verb.kind, names):
+                    return False
+                return not has_object and not is_acting
+            case "camera":
+                return False
+        return False if is_unfit and (is_ground or names & PERSON_NOUNS) else None
+
+    def _can_shine(self, kind: str, names: set[str]) -> bool:
+        """Whether nouns have lamps that can be switched, or are patterns that can blink."""
+        if kind in ("on", "off"):
+            return names <= LAMPS.keys()
+        lit = nouns_with("own effect") | nouns_with("flat pattern") | word_set("things", "flames")
+        return names <= LAMPS.keys() | lit
+
+    def _are_moved(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+        """Whether subjects move objects already: what they do then is not shown."""
+        said = (one for index in subjects for one in self.things[index]["relations"])
+        return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)

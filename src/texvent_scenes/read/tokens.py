@@ -1,0 +1,235 @@
+"""Tokens: the phrases of a prompt, each the longest that the lexicon has, with all its senses."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.lexicon import (
+    LONGEST_PHRASE,
+    Lexicon,
+    Sense,
+    Senses,
+    VerbSense,
+    owned_parts,
+    word_set,
+)
+from texvent_scenes.read.quantities import Found, read_height, read_quantity, read_stated
+from texvent_scenes.words import find_literals, list_verb_forms
+
+_NEAR = 4
+"""Words after a light verb among which what is done is named."""
+MOST_WORDS = 1000
+"""Words of a prompt that are read; later ones are not understood, all together."""
+_NUMBER = (
+    r"(?:(?<!\S)[-−])?(?:(?:\d+ )?\d+(?:\.\d+)?(?:(?: ?[/⁄] ?|[-–])\d+(?:\.\d+)?)+(?![\w-])"
+    r"|\d+(?:,\d{3})*(?:\.\d+)?|(?<!\w)\.\d+)"
+)
+_WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
+_OWNER = re.compile(r"['’]s?$")
+_MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
+"""Between "1" and "½", which NFKC would join to 11/2."""
+
+
+@dataclass(frozen=True)
+class Token:
+    """Phrase of a prompt, with all its senses."""
+
+    text: str
+    """In lower case; of a picture as the prompt has it."""
+    at: int
+    """Number in the prompt, from 0."""
+    senses: tuple[Sense, ...] = ()
+
+    @property
+    def is_sign(self) -> bool:
+        """Whether it only separates words."""
+        return not self.senses and not any(map(str.isalnum, self.text))
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether it is a word that the reader does not know."""
+        return not self.is_sign and (not self.senses or self.has("other"))
+
+    @property
+    def is_time(self) -> bool:
+        """Whether it is a start: "after 2 seconds"."""
+        return ("start_s",) in [one.value[:1] for one in self.all("adverb")]
+
+    @property
+    def is_liquid(self) -> bool:
+        """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
+        return self.text in word_set("things", "liquids")
+
+    def all(self, kind: str) -> tuple[Sense, ...]:
+        """Senses of a kind."""
+        return tuple(one for one in self.senses if one.kind == kind)
+
+    def first(self, *kinds: str) -> Sense | None:
+        """The first sense of one of the kinds."""
+        return next((one for one in self.senses if one.kind in kinds), None)
+
+    def has(self, *kinds: str) -> bool:
+        """Whether it may be of one of the kinds."""
+        return any(one.kind in kinds for one in self.senses)
+
+    def verbs(self, *forms: str) -> tuple[Sense, ...]:
+        """Its senses as a verb in one of the forms."""
+        return tuple(one for one in self.senses if one.kind == "verb" and one.form in forms)
+
+
+NO_TOKEN = Token(".", -1)
+"""Stands before the first token and after the last one."""
+
+
+def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
+    """Tokens of a prompt, in order."""
+    text = _name_owners(unicodedata.normalize("NFKC", _MIXED.sub(" ", prompt)))
+    found: list[Token] = []
+    start = 0
+    for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
+        words, at = _WORD.findall(text[start:begin]), 0
+        while at < len(words):
+            length, senses = _read_phrase(words, at, lexicon, found)
+            text_of = " ".join(words[at : at + length]).casefold()
+            found.append(Token(text_of, len(found), senses))
+            at += length
+        if picture is not None:
+            sense = Sense("picture", ("picture", picture))
+            found.append(Token(picture.value, len(found), (sense,)))
+        start = end
+    found = _join_light_verbs(found, lexicon)
+    if len(found) > MOST_WORDS:
+        found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
+    return tuple(found)
+
+
+@cache
+def _light_verbs() -> Mapping[str, str]:
+    """Forms of verbs that say nothing before a noun of what is done → the names of the forms."""
+    words = read_table("words", "read")
+    verbs = ((one, words["irregular"].get(one, "")) for one in words["light"]["verbs"])
+    return {word: form for one in verbs for word, form in list_verb_forms(*one)}
+
+
+def _join_light_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
+    """The tokens, with a verb for "makes a sharp turn", before the words in between."""
+    nouns, found, skipped = read_table("words", "read")["light"]["nouns"], list[Token](), set[int]()
+    for token in tokens:
+        form, after = _light_verbs().get(token.text), tokens[token.at + 1 : token.at + 1 + _NEAR]
+        for done in after if form else ():
+            said = lexicon.get(tuple(nouns.get(done.text, done.text).split()), ())
+            acts = [VerbSense(*one.value) for one in said if one.kind == "pose"]
+            acts += [one.value for one in said if one.kind == "verb" and one.form == "base"]
+            if acts and not done.has("noun"):
+                senses = tuple(Sense("verb", one, form or "") for one in acts)
+                token = replace(token, text=f"{token.text} {done.text}", senses=senses)
+                skipped |= {one.at for one in after if one is done}
+                skipped |= {one.at for one in after if one.at < done.at and one.has("articles")}
+                break
+            if not (done.has("articles", "adverb", "field") or done.is_unknown):
+                break
+        found += [replace(token, at=len(found))] if token.at not in skipped else []
+    return found
+
+
+@cache
+def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
+    """Things with parts as they are written, and as they are read: "a car, its headlights".
+
+    As in "a car's headlights", "the blades of a fan", "a fan blade", "a four-blade fan".
+    """
+    parts, bare = "|".join(owned_parts()), "|".join(sorted(word_set("things", "bare_parts")))
+    counts = read_table("words", "read")["senses"]["field"]["count"].values()
+    numbers = "|".join(one for each in counts for one in each if " " not in one)
+    many = "|".join(one[:-1] for one in owned_parts() if one.endswith("s"))
+    owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
+    rows = (
+        (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
+        (rf"\b({owners}) ({bare})\b", r"\1, its \2"),
+        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b",
+         r"\2\3, its \1"),
+        (rf"\b({numbers}|\d+)[- ]({many}) ({owners})\b", r"\3 with \1 \2s"),
+    )  # fmt: skip
+    return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
+
+
+def _name_owners(text: str) -> str:
+    """A text that says "a car, its headlights" for those of a car."""
+    for pattern, said in _owned():
+        text = pattern.sub(said, text)
+    return text
+
+
+def _read_phrase(
+    words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
+) -> tuple[int, Senses]:
+    """Number of words of the longest phrase at a word, and its senses."""
+    length, senses, phrase = 1, tuple[Sense, ...](), list[str]()
+    for end in range(at, len(words)):
+        word = words[end].casefold()
+        if end > at and word in word_set("senses", "articles"):
+            continue
+        phrase.append(_OWNER.sub("", word))
+        if len(phrase) > LONGEST_PHRASE:
+            break
+        found = lexicon.get(tuple(phrase), ())
+        if end == at and _OWNER.search(word):
+            found = ()  # "the cat's" alone: whose, not what
+        if len(phrase) > 1 and found:
+            found = _without_chance(found, words, end, before)
+            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            dropped = {"noun"} if is_thing else set()
+            if is_thing and words[end] == "camera" and words[at].endswith("ing"):
+                dropped.add("shot")
+            found = tuple(one for one in found if one.kind not in dropped)
+        if found:
+            length, senses = end + 1 - at, found
+    is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
+    if length == 1 and (stated := read_stated(words, at, lexicon)):
+        return _as_senses(stated)
+    if is_number:
+        return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
+    return length, senses
+
+
+def _as_senses(found: Found) -> tuple[int, Senses]:
+    """A quantity with its senses."""
+    return found[0], tuple(Sense(kind, value) for kind, value in found[1])
+
+
+def _is_switched(who: str, words: Sequence[str]) -> bool:
+    """Whether a lamp follows its verb: "turns on the light", no "turns on the spot"."""
+    return who == "lamp" and any(one.casefold() in {*LAMPS, "light", "lights"} for one in words)
+
+
+def _without_chance(
+    senses: Senses, words: Sequence[str], end: int, before: Sequence[Token]
+) -> Senses:
+    """Senses of several words that do not stand together by chance.
+
+    As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
+    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall).
+    """
+    after = words[end + 1].casefold() if end + 1 < len(words) else ""
+    articles = word_set("senses", "articles")
+    goes_on = articles | word_set("things", "routes")
+    is_verb = words[end].endswith("ing") and (
+        after in goes_on or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+    )
+    is_single = any(one.text in ("a", "an") for one in before[-2:])
+    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
+    return tuple(
+        one for one in senses
+        if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
+        and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
+        and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
+        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
+                 and one.value.relation is None and words[end] in word_set("things", "particles")
+                 and not _is_switched(one.value.who, words[end + 1 : end + 5]))
+    )  # fmt: skip
