@@ -127,7 +127,8 @@ class VideoEncoder(AtomicOutput):
         else:
             stream.pix_fmt = "yuv420p"
             # No B-frames: their reordering would give the video an edit list and a late start.
-            stream.options = {"crf": CRF, "preset": "veryfast", "bf": "0"}
+            # No macroblock tree: x264's reads memory that it did not set, so files would differ.
+            stream.options = {"crf": CRF, "preset": "veryfast", "bf": "0", "mbtree": "0"}
             context = stream.codec_context
             context.colorspace, context.color_range = 1, 1
             context.color_primaries, context.color_trc = 1, 1
