@@ -67,6 +67,7 @@ class _Parser(GroupReader):
                 yield clause
                 clause = following
             elif self._token() is not NO_TOKEN:
+                self._has_verb = clause.verb is not None
                 done = next((one for step in steps if (one := step(clause)) is not None), None)
                 clause = self._read_rest(clause) if done is None else done
         yield clause

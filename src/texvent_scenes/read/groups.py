@@ -24,6 +24,11 @@ def _counts(token: Token) -> list[float]:
     return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
 
 
+def _is_plural_form(word: str) -> bool:
+    """Whether a word that is not known ends as a plural or a verb does, and as no adjective."""
+    return word.endswith("s") and not word.endswith(("ss", "us", "is", "’s", "'s", "sports"))
+
+
 @dataclass(frozen=True)
 class Group:
     """Noun group: a head with its determiner, number and adjectives."""
@@ -104,6 +109,8 @@ class GroupReader:
 
     _tokens: Sequence[Token]
     _at: int = 0
+    _has_verb: bool = False
+    """Whether the clause has its verb: what follows is none."""
 
     def _token(self, ahead: int = 0) -> Token:
         at = self._at + ahead
@@ -196,6 +203,8 @@ class GroupReader:
         if token.is_unknown and self._at > first and self._has_object():
             return True  # "a player in white serves the ball"
         before = self._token(-1)
+        if self._at > first and before.is_unknown and _is_plural_form(before.text):
+            return True  # "in blue kimonos wooden boxes": the colour is not that of the boxes
         is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
@@ -232,6 +241,8 @@ class GroupReader:
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
         is_lone = is_inert and not article and self._at == first + 1  # "wears oven gloves"
         is_lone &= self._token(-2).has("verb", "relation") and not self._token(-2).has("noun")
+        is_plural = self._has_verb or self._token(1).verbs("s")  # "with propeller guards hovers"
+        is_lone |= bool(is_plural)
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"

@@ -52,6 +52,10 @@ above, rad."""
 _TOGETHER, _STRAIGHT = 0.6, 0.5
 """Share of its way by which another one may get away from a subject that the camera goes along
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
+_PASSING, _TOLD = frozenset({"past", "through"}), 0.8
+"""Relations to what is seen at mid clip, and its prominence from which on all the way is shown."""
+_LEAST_PASSAGE = 0.4
+"""Least share of the clip that a passage lasts."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -150,7 +154,8 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     gone_m = float(np.linalg.norm(places[-1] - places[0]))
     is_tied = path.tie is not None or shooting.description.camera.framing in ("close", "medium")
     is_across = gone_m > max(_STRAIGHT * way_m, size_m) and not goes_in_depth(main)
-    if reached >= _STATIC or is_tied or not is_across:
+    told = min(reached / _STATIC, _prominence_of_passed(shooting, path, main) / _TOLD)
+    if told >= 1.0 or is_tied or not is_across:
         return path
     # Of what the image holds, the extent in metres times the prominence hardly changes.
     held_m = (way_m + size_m) * reached
@@ -160,10 +165,21 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
         tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
         share = 1.0 - max(extent_m - size_m, 0.0) / way_m
         return _watch(shooting.along(replace(path, tie=tie and replace(tie, share=share))), main)[0]
-    half_s = middle_s * max(held_m / _STATIC - size_m, 0.1 * size_m) / way_m
+    half_s = middle_s * max(((way_m + size_m) * told - size_m) / way_m, _LEAST_PASSAGE)
     passage_s = middle_s - half_s, middle_s + half_s
     near, enough = _watch(shooting.along(replace(path, passage_s=passage_s)), main)
     return near if enough >= _LEAST_GAIN * reached else path
+
+
+def _prominence_of_passed(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:
+    """Prominence of the least of what a subject goes past or through at mid clip."""
+    relations = shooting.description.relations
+    passed = {n for one in relations if one.subject == main.object_index and one.kind in _PASSING
+              for n in one.targets}  # fmt: skip
+    middle_s = 0.5 * path.duration_s
+    camera = path.at(middle_s)
+    boxes = [one.corners(middle_s)[None] for one in shooting.actors if one.object_index in passed]
+    return min((measure_prominence(camera, one, shooting.aspect) for one in boxes), default=1.0)
 
 
 def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTrack:
@@ -274,7 +290,9 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
         return
     begin_s, end_s = path.passage_s
     more_s = end_s - begin_s
-    times = np.linspace(max(begin_s - more_s, 0.0), min(end_s + more_s, path.duration_s), _CHECKS)
+    times = np.linspace(
+        max(begin_s - more_s, 0.0), min(end_s + more_s, path.duration_s), 4 * _CHECKS
+    )
     seen = np.array([image_of(path.at(float(t)), main.middle(float(t))) for t in times])
     reach = 0.5 * main.size_m * path.framing.focal / np.maximum(seen[:, 2], 1e-3)
     is_seen = np.all(np.abs(seen[:, :2]) < [0.5, 0.5 * aspect] + reach[:, None], axis=1)

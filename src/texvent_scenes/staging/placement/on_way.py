@@ -58,7 +58,7 @@ def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
 
 
 def _lay_alongside(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
-    """Along the way of a subject where it stops or begins, on the side of the camera."""
+    """Along the way of a subject where it stops or begins, beyond it if it would hide it."""
     yaw, path = subject.plan.yaw, subject.plan.path
     place = np.array(subject.centre)
     if path is not None:
@@ -68,6 +68,7 @@ def _lay_alongside(group: ObjectGroup, kind: str, subject: ObjectGroup, height: 
     group.fit()
     apart = 0.5 * (subject.models[0].width + group.models[0].width) + _EDGE_M
     side = -1.0 if math.cos(yaw) > 0.0 else 1.0
+    side *= -1.0 if group.models[0].height > subject.models[0].height else 1.0
     aside = side * apart * np.array([-math.sin(yaw), math.cos(yaw)])
     along = _AHEAD_M * np.array([math.cos(yaw), math.sin(yaw)])
     return Goal(np.array([*(place[:2] + aside + along), height]), _FIXED)
