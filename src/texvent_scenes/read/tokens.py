@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.lexicon import (
     LONGEST_PHRASE,
@@ -208,6 +209,17 @@ def _is_switched(who: str, words: Sequence[str]) -> bool:
     return who == "lamp" and any(one.casefold() in {*LAMPS, "light", "lights"} for one in words)
 
 
+def _is_act(words: Sequence[str], end: int, before: Sequence[Token]) -> bool:
+    """Whether a person and a participle begin a sentence that says how: "pedestrian crossing at dusk".
+
+    Alone, or with what a crossing has or where it is seen from, they are a place.
+    """
+    is_person = words[end - 1].casefold() in NOUNS["person"].synonyms
+    after = words[end + 1].casefold() if end + 1 < len(words) else "."
+    is_told = after[:1].isalpha() and after not in word_set("things", "of_places")
+    return is_person and is_told and all(one.has("articles") for one in before)
+
+
 def _without_chance(
     senses: Senses, words: Sequence[str], end: int, before: Sequence[Token]
 ) -> Senses:
@@ -220,7 +232,9 @@ def _without_chance(
     articles = word_set("senses", "articles")
     goes_on = articles | word_set("things", "routes")
     is_verb = words[end].endswith("ing") and (
-        after in goes_on or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+        after in goes_on
+        or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+        or _is_act(words, end, before)
     )
     is_single = any(one.text in ("a", "an") for one in before[-2:])
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
