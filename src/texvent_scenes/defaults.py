@@ -183,8 +183,16 @@ def _set_far(description: SceneDescription) -> SceneDescription:
 
 def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
     """Motions as they are staged, of one object by itself."""
-    later = (_at_rate(one, noun) for one in motions[1:])
+    later = [_at_rate(one, noun) for one in motions[1:]]
+    if [one.kind for one in motions] == ["break"] and _falls_to_break(noun):
+        return (Motion("fall", start_s=motions[0].start_s), replace(motions[0], start_s=None))
     return (*_decide_motion(motions[0] if motions else None, noun), *later)
+
+
+def _falls_to_break(noun: Noun) -> bool:
+    """Whether what breaks does so on the floor: no balloon, no window."""
+    stays = noun.habitat == "air" or noun.name in nouns_with("upright")
+    return not stays and trait_value("pieces", noun.name) is not None
 
 
 def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:

@@ -23,6 +23,8 @@ _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
 _HANDS, _REACH = ("left hand", "right hand"), 0.12
 """Places that act on things; from there to what is acted upon, in sizes of the body."""
+_SEEN = 0.9
+"""Share of the clip after which what breaks leaves no time to see its pieces."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
 """Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
 angle of that circle that it covers."""
@@ -232,6 +234,15 @@ def bounces(staged: StagedClip, claim: Claim) -> bool:
         if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
             return False
     return True
+
+
+def breaks(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it goes to pieces in the image, within the clip."""
+    return all(
+        one.breaks_s is not None and one.breaks_s < _SEEN * staged.duration_s
+        and staged.has_in_image(one, one.breaks_s)
+        for one in staged.own(claim)
+    )  # fmt: skip
 
 
 def falls(staged: StagedClip, claim: Claim) -> bool:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
@@ -225,7 +226,11 @@ class _Bodies:
 
     def list_unborne(self, number: int, place: PlaceModel) -> Iterator[Violation]:
         """Faults of a body that hangs in the air or is under the ground."""
-        if place.ground in (Ground.NONE, Ground.UNDERWATER):
+        index = self._actors[number].object_index
+        is_dropped = any(one.kind == "into" and one.subject == index
+                         and has_rim(self._description.objects[one.targets[0]].noun)
+                         for one in self._description.relations)  # fmt: skip
+        if place.ground in (Ground.NONE, Ground.UNDERWATER) or is_dropped:
             return
         if self.needs_support(number) and self._hangs(number):
             yield Violation("support", "", "above the ground with nothing below it")

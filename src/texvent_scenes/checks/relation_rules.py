@@ -71,6 +71,12 @@ def _changes_sides(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     return np.asarray(is_amid[-1:] & (_recedes(one, other, sign, 2)[-1:] | ~is_amid[:1]))
 
 
+def _comes_down_into(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it ends within the other, below its top, and was above that or beside it at first."""
+    is_amid, above_m = _is_amid(one, other), _clears(one, other, 0.5)
+    return np.asarray(is_amid[-1:] & (above_m[-1:] < 0.0) & ((above_m[:1] >= 0.0) | ~is_amid[:1]))
+
+
 def _is_in_lane(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     """Whether it is in one line with another vehicle, before it (1) or behind it (-1)."""
     off, ahead = (one.middle - other.middle)[:, :2], other.ahead
@@ -322,6 +328,7 @@ RULES: Mapping[str, _Rule] = {
     "away from": lambda one, other: _recedes(one, other, 1),
     "to": lambda one, other: _recedes(one, other, -1, 2)[-1:] & _is_near(one, other, 0.5)[-1:],
     "into": lambda one, other: _changes_sides(one, other, -1),
+    "down into": _comes_down_into,
     "out of": lambda one, other: _changes_sides(one, other, 1),
     "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
     "up": lambda one, other: _climbs(one, other, 1),

@@ -14,6 +14,7 @@ import numpy as np
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.data import PLACING
@@ -140,6 +141,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     is_driven = are_driven(target, target) and any(one.is_moving for one in what.motions)
     if kind == "front" and _is_walker(who) and is_driven:
         return "front of what drives"
+    if kind == "into" and has_rim(target):
+        return "down into"
     if kind == "through" and target in nouns_with("passage"):
         return "through an opening"
     if kind == "in" and trait_value("container", target) is not None:

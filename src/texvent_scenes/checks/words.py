@@ -15,6 +15,7 @@ import numpy as np
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.acts import (
     bounces,
+    breaks,
     descends,
     falls,
     goes_back,
@@ -50,7 +51,17 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _LEAST_CLIP_S = 1.0
-_DONE = ("act on", "bounce", "ground", "activity", "stop before", "stop", "land", "descend")
+_DONE = (
+    "act on",
+    "bounce",
+    "break",
+    "ground",
+    "activity",
+    "stop before",
+    "stop",
+    "land",
+    "descend",
+)
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
@@ -210,7 +221,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "lie": is_laid, "shine": _shines, "hold": _each_holds,
     "act on": handles, "in_mouth": has_in_mouth,
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
-    "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
+    "mutual": _are_mutual, "bounce": bounces, "break": breaks, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip

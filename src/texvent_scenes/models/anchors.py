@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.models.shapes import Affine, Point
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Shape
 
 _ON_BOX: dict[str, Point] = {
@@ -176,3 +178,38 @@ def _cut_round(
     root = np.sqrt(np.maximum(under, 0.0))
     entry = np.where(under < 0.0, np.inf, (-b - root) / a)
     return np.maximum(low, entry), np.minimum(high, (-b + root) / a)
+
+
+class Rim(NamedTuple):
+    """An opening to above of a model, body coordinates, m."""
+
+    x: float
+    height: float
+    radius: float
+    floor: float
+    """Height of what a body comes to rest on behind it."""
+
+
+def takes_in(noun: str) -> bool:
+    """Whether what is kicked or thrown at it ends up in it: a bin, a goal."""
+    return has_rim(noun) or noun in nouns_with("net")
+
+
+def find_rim(noun: str, model: Model) -> Rim | None:
+    """The rim of a noun, or of a container."""
+    row, scale = trait_value("rim", noun), float(getattr(model, "scale", 1.0))
+    if row is not None:
+        return Rim(*(scale * one for one in row))
+    hollow = trait_value("container", noun)
+    if hollow is None or not has_rim(noun):
+        return None
+    long, wide, floor, *_ = hollow
+    radius = 0.5 * min(long * model.length, wide * model.width)
+    return Rim(0.0, model.height, radius, floor * model.height)
+
+
+def has_rim(noun: str) -> bool:
+    """Whether small things come down into it, which has no lid or is drawn without one."""
+    is_closed = noun in nouns_with("lidded") and trait_value("drawn open", noun) is None
+    known = trait_value("rim", noun) or trait_value("container", noun)
+    return known is not None and not is_closed

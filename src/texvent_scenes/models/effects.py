@@ -30,6 +30,8 @@ class EmitterStyle:
     count: int
     life: float = 0.0
     """Lifetime of a particle; 0 = without end, and of drops until they reach the ground."""
+    at_once: bool = False
+    """Whether all are born when the effect begins, as the pieces of what breaks."""
     salvos: int = 0
     """Number of volleys that follow one another: in each all are born at once, from a new place and
     of one colour in each life; 0 = one after the other."""
@@ -60,7 +62,8 @@ class EmitterStyle:
     is_oval: bool = False
     """Whether flakes are oval, as leaves are, not pieces of paper."""
     colours: tuple[Colour, ...] = ()
-    """Colours of media at birth and at the end; of solid bodies those that occur."""
+    """Colours of media at birth and at the end; of solid bodies those that occur, none = those of
+    the object."""
     emission: tuple[float, float] = (0.0, 0.0)
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)

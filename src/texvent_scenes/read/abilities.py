@@ -16,7 +16,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.lexicon import VerbSense, word_set
 from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import ACTED
@@ -142,6 +142,7 @@ class Abilities:
         acts = word_set("things", "acts") if has_object else ()
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
         is_ground = names <= nouns_with("of ground")
+        is_unfit |= verb.kind == "break" and not names <= trait_values("pieces").keys()
         is_unfit |= is_ground and verb.kind in word_set("things", "in_place")  # "rolling hills"
         match verb.who:
             case "person" if verb.relation != "act on":
@@ -166,7 +167,8 @@ class Abilities:
                 return not has_object and not is_acting
             case "camera":
                 return False
-        return False if is_unfit and (is_ground or names & PERSON_NOUNS) else None
+        is_unfit &= is_ground or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
@@ -16,7 +17,7 @@ from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import owned_parts, word_set
 from texvent_scenes.read.tokens import Token
-from texvent_scenes.spec.data import ACTED, PLACING, SPACED, WAYS
+from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _AT_HOME = {
@@ -30,14 +31,14 @@ _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 _ARRIVALS = {"into": "in", "onto": "on"}
 _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
+_DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
+"""Motions by which small things come into what is open above."""
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
 """Motions of who climbs, as they are said."""
 _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
 """Relations of what comes down everywhere."""
-SENT = ("kick", "throw", "roll", "hit")
-"""Acts after which the object goes a way, not who does it."""
 _ALONG = ("along", "down", "up")
 """Prepositions of ways that lead on."""
 SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
@@ -321,7 +322,9 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
     if kind in ("into", "out of"):
         is_open = noun in trait_values("opening") or noun in nouns_with("closed")
-        is_open &= not any(one["kind"] in SENT for one in thing["relations"])
+        is_open |= kind == "into" and bool(does) and does <= _DROPPED and has_rim(noun)
+        if any(one["kind"] in SENT for one in thing["relations"]):
+            return "towards" if kind == "into" and takes_in(noun) else ""
         is_met = bool(does & _RUNNING) and draft.nouns[noun].habitat == "fixed"
         is_met &= trait_value("container", noun) is None
         other_kind = "from" if kind == "out of" else "collide" if is_met else ""
@@ -359,6 +362,8 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    if kind == "through" and noun in trait_values("rim"):
+        kind = "into"
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

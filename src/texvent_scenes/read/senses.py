@@ -51,11 +51,13 @@ def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Toke
 def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     """The token, with the noun that it means beside some others: the platform of a train."""
     senses = [one.value for one in token.all("noun")]
-    row = read_table("words", "read")["beside"].get(senses[0].noun) if senses else None
+    rows = read_table("words", "read")["beside"].get(senses[0].noun if senses else token.text, ())
     others = {one.value.noun for each in tokens for one in each.all("noun")}
-    if row is None or not others & {*row["nouns"]}:
+    row = next((one for one in rows if others & {*one["nouns"]}), None)
+    if row is None or not (senses or token.is_unknown):
         return token
-    return replace(token, senses=(Sense("noun", replace(senses[0], noun=row["noun"])),))
+    sense = senses[0] if senses else NounSense("")
+    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),))
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

@@ -389,7 +389,7 @@ class ThingReader:
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
-        elif act.kind in ("bounce", "reverse"):
+        elif act.kind in ("bounce", "reverse", "break"):
             draft.claim(verb, act.kind, "", [index])
         elif act.kind in ("walk", "run", "fly", "hover"):
             draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
@@ -416,7 +416,8 @@ class ThingReader:
                 self._draft.add_effect(verb, row.effect, [index])
             is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
             is_later = self._goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
-            if is_later and before and not is_seated:
+            is_end = act.kind == "break"  # of a fall: "falls, shattering"
+            if is_later and before and not (is_seated or is_end):
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
         elif act.who == "lamp" and act.kind in _SWITCHED:
             thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}

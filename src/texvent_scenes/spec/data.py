@@ -36,6 +36,9 @@ ACTED = frozenset(
 )
 """Relations in which the subject moves its target."""
 
+SENT = ("kick", "throw", "roll", "hit")
+"""Those after which the target goes on by itself."""
+
 SPACED = ("left of", "right of", "front", "behind", "beside")
 """Relations with a distance."""
 STEEPEST = 0.08

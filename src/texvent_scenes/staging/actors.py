@@ -60,6 +60,8 @@ CHANGE_S = 0.35
 _HIPS = 0.6
 """Height of the hips of a four-footed animal, as a share of its own with the head."""
 _HALVINGS = 24
+_GONE = 1e-4
+"""Size of what is broken, as a share of its own: the caster leaves it out."""
 
 
 def lowest_point(model: Model) -> float:
@@ -88,6 +90,10 @@ class Actor:
     """Whether it crosses the road."""
     haste: float = 1.0
     """Speed at which it runs up to a collision, as a multiple of its usual one."""
+    breaks_s: float | None = None
+    """Instant from which on only pieces of it are left, s."""
+    pieces_pace: float = 1.0
+    """Rate at which these fly, as a multiple of the real one: slow motion."""
     _corners: dict[float, Float64Array] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -134,6 +140,8 @@ class Actor:
     def place(self, time_s: float) -> PlacedModel:
         """All that is drawn of it in the world at that instant."""
         to_world = self.track.at(time_s).to_world()
+        if self.breaks_s is not None and time_s >= self.breaks_s:
+            to_world = compose(to_world, np.diag([_GONE, _GONE, _GONE, 1.0])[:3])
         return PlacedModel(self.own_parts(self.pose(time_s)), to_world, self.instance)
 
     def pose(self, time_s: float) -> Pose:

@@ -25,6 +25,7 @@ from texvent_scenes.staging.actors import Actor, PlacedModel, assemble, join_pri
 from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
+from texvent_scenes.staging.interactions.breaking import break_up
 from texvent_scenes.staging.particles.choose import (
     Staged,
     stage_effects,
@@ -136,6 +137,7 @@ def compose_scene(
     actors = placer.place_all()
     if travel is None:
         actors = keep_to_zones(description, PLACES[place], actors, duration_s)
+    actors = break_up(description, actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,

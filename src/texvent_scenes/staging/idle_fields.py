@@ -24,7 +24,7 @@ from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import MOTIONS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Model, Noun, Pose
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, scene_from_data, scene_to_data, steps_of
 from texvent_scenes.spec.scene import (
@@ -116,6 +116,8 @@ class _Body:
 
     def reads(self, one: SceneObject, number: int, name: str) -> bool:
         """Whether a field of a motion changes anything, at its value or at others of its kind."""
+        if one.motions[number].kind == "break":
+            return name in ("pace", "start_s")
         usual = Motion("stand")
         without = _with(one, number, **{name: getattr(usual, name)})
         given = getattr(one.motions[number], name)
@@ -128,6 +130,8 @@ class _Body:
     def does(self, one: SceneObject, number: int) -> bool:
         """Whether a motion of it is any other than rest, or, at the end of a list, than none."""
         motion = one.motions[number]
+        if motion.kind == "break":
+            return self.noun.name in trait_values("pieces")
         decided = decide_motions(one.motions, self.noun)
         works = self.noun.is_working and decided[0].kind == "work"
         if not number and (motion.kind in RESTS or works):

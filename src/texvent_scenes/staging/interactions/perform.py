@@ -11,15 +11,18 @@ import numpy as np
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES, AIMED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import handling, holding, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
+from texvent_scenes.staging.interactions.sending import send_into
 from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 from texvent_scenes.staging.tracks.track import attached
@@ -247,7 +250,7 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
-    sent = {one.subject: one for one in acts if one.kind in ("kick", "throw", "roll", "hit")}
+    sent = {one.subject: one for one in acts if one.kind in SENT}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
@@ -288,7 +291,11 @@ def _send_to(
                      for index in (act.targets[0], goal))  # fmt: skip
     for thing in things if goals else ():
         wall = cast[goals[0]]
-        if wall.noun.habitat == "fixed":
+        if takes_in(wall.noun.name) and said[goal].position_m is None:
+            cast[thing], cast[goals[0]] = send_into(
+                cast[thing], wall, duration_s, is_turned=said[goal].heading_deg is None
+            )
+        elif wall.noun.habitat == "fixed":
             cast[thing], cast[goals[0]] = striking.rebound(
                 cast[thing], wall, is_turned=said[goal].heading_deg is None,
                 is_moved=said[goal].position_m is None,

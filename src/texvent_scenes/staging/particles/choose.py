@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +17,11 @@ from texvent_scenes.staging.particles.effect import (
     Source,
 )
 from texvent_scenes.staging.particles.emitter import Emitter
+from texvent_scenes.staging.tracks.track import Term, steady
 
+_JUST_BEFORE_S, _LARGE = 1e-6, 0.02
+"""Time before the instant at which something breaks; share of its largest part from which on a part
+gives its colour to pieces."""
 FALLING = ("rain", "snow")
 """Weather that is an effect."""
 
@@ -58,6 +63,11 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
                 start_s = setting.duration_s * effect.phase / phases
             effects += _make(replace(effect, start_s=start_s), actor, setting, rng)
             kinds += [effect.kind] * (len(effects) - len(kinds))
+    for actor in setting.actors:
+        kind = trait_value("pieces", actor.noun.name) if actor.breaks_s is not None else None
+        if kind is not None:
+            effects += _scatter(kind, actor, setting)
+            kinds += [kind] * (len(effects) - len(kinds))
     return Staged(tuple(effects), tuple(kinds))
 
 
@@ -74,6 +84,27 @@ def _make(
         )
         for style in words.emitters
         for volley in range(max(style.salvos, 1))
+    ]  # fmt: skip
+
+
+def _scatter(kind: str, actor: Actor, setting: Setting) -> list[Emitter]:
+    """Pieces of what breaks, from where it is then; on what it stands on, or on the ground."""
+    begin_s = actor.breaks_s or 0.0
+    state = actor.track.at(begin_s)
+    turned = (Term("pitch", offset=state.pitch), Term("roll", offset=state.roll))
+    still = replace(steady(state.position, state.yaw), terms=turned, pivot_m=state.pivot_m)
+    body = replace(actor, track=still, breaks_s=None)
+    floor_m = -math.inf if actor.noun.habitat == "air" else actor.lowest_m(begin_s - _JUST_BEFORE_S)
+    source = replace(_source(kind, body, setting), floor_m=floor_m)
+    parts = actor.model.parts(actor.pose(begin_s))
+    bulks = np.array([abs(float(np.linalg.det(one.to_body[:, :3]))) for one in parts])
+    large = (parts[n] for n in np.flatnonzero(bulks >= _LARGE * bulks.max()))
+    colours = tuple(dict.fromkeys(tuple(float(c) for c in one.colour) for one in large))
+    rng = seeded(setting.seed, "pieces", actor.instance)
+    return [
+        Emitter.of(replace(style, colours=style.colours or colours), source, setting, rng,
+                   start_s=begin_s, pace=actor.pieces_pace)
+        for style in EFFECTS[kind].emitters
     ]  # fmt: skip
 
 

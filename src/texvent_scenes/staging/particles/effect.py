@@ -93,6 +93,8 @@ class Source:
     fixed: Float64Array
     """[3] the point, m, where there is no object; else in the object's body coordinates."""
     actor: Actor | None = None
+    floor_m: float = -math.inf
+    """Height of what the pieces of an object come to rest on, m; -inf = the ground."""
 
     @property
     def extents_m(self) -> Float64Array:

@@ -96,6 +96,8 @@ class Emitter:
     setting: Setting
     start_s: float = -math.inf
     """Birth of the first one, s."""
+    pace: float = 1.0
+    """Rate at which time goes on for them from then on: slow motion."""
 
     @classmethod
     def of(
@@ -107,6 +109,7 @@ class Emitter:
         *,
         start_s: float | None = None,
         volley: int = 0,
+        pace: float = 1.0,
     ) -> Emitter:
         """An emitter; `volley` is the number of the salvo that it is, where its style has some.
 
@@ -120,7 +123,14 @@ class Emitter:
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, salvo)
         start = -math.inf if start_s is None else start_s
-        return cls(source, style, lives, np.array(style.colours), setting, start)
+        if style.at_once:
+            lives.draws[:, :, 7] = -start / life_s % 1.0
+        return cls(source, style, lives, np.array(style.colours), setting, start, pace)
+
+    @property
+    def floor_m(self) -> float:
+        """Height of what its particles come down to, m."""
+        return max(self.setting.floor_m, self.source.floor_m)
 
     def at(self, time_s: float) -> Primitives:
         """Its drops or flakes at that instant: always as many, in the same order."""
@@ -195,12 +205,16 @@ class Emitter:
 
     def _fly(self, time_s: float) -> _Flown:
         """All particles at an instant."""
+        if self.pace != 1.0:
+            time_s = self.start_s + self.pace * (time_s - self.start_s)
         style, size = self.style, self.source.size_m
         unit_s, unit_m_s = math.sqrt(size / GRAVITY_M_S2), math.sqrt(size * GRAVITY_M_S2)
         age, draws = self.lives.at(time_s)
         age_s = age * self.lives.life_s
         born_s = time_s - age_s
         is_there = born_s >= self.start_s
+        if style.at_once:
+            is_there[:] = time_s >= self.start_s
         turn = self.source.turn(time_s)
         offset = self._offsets(draws) @ turn.T
         velocity = aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
@@ -210,7 +224,7 @@ class Emitter:
         start = self.source.at(born_s) + offset
         flown_s = age_s
         if style.body == "flake":
-            fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
+            fall = np.maximum(start[:, 2] - self.floor_m - 0.03 * size, 0.0)
             up, down = velocity[:, 2], max(GRAVITY_M_S2 * style.gravity, 1e-6)
             flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
         displacement, heading = flight(flown_s, velocity, drag_s, pull)
@@ -220,7 +234,7 @@ class Emitter:
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
         if style.body == "drop":
-            is_there &= places[:, 2] > self.setting.floor_m - style.radius[1] * size
+            is_there &= places[:, 2] > self.floor_m - style.radius[1] * size
         return _Flown(places, heading, age, flown_s, draws, is_there)
 
     def _offsets(self, draws: Float64Array) -> Float64Array:

@@ -18,7 +18,7 @@ from texvent_scenes.staging.tracks.track import Track, centred
 
 _TURN_SHARE = 0.16
 """Share of the clip in which what goes to and fro in a container turns round."""
-_SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
+SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 """Share of the height of what is in something that looks out of it; of an animal, whose ears reach
 above its head."""
 
@@ -50,7 +50,7 @@ def depth_in(group: ObjectGroup, target: ObjectGroup) -> float:
         return 0.5 * (body.height - own.height) if group.noun.habitat == "water" else floor_m
     if is_open:
         return floor_m
-    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
+    seen = SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
     return max(find_support(body).height - (1.0 - seen) * own.height, floor_m)
 
 

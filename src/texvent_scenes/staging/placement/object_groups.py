@@ -20,6 +20,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
 from texvent_scenes.staging.tracks.choose_track import orbit_radius
@@ -296,8 +297,10 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
     objects = description.objects
     noun = nouns[objects[index].noun]
     opened, put = trait_value("drawn open", noun.name), trait_value("drawn put up", noun.name)
+    sends = {one.subject for one in description.relations if one.kind in SENT}
     for one in description.relations if opened or put else ():
-        if opened and one.kind == "in" and index in one.targets:
+        is_filled = one.kind in ("in", "into") or (one.kind == "towards" and one.subject in sends)
+        if opened and is_filled and index in one.targets:
             return replace(nouns[opened], name=noun.name)
         if put and one.kind == "on" and index == one.subject:
             return replace(nouns[put], name=noun.name)

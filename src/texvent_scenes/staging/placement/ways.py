@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS
-from texvent_scenes.models.anchors import find_support
+from texvent_scenes.models.anchors import find_rim, find_support
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.models.shapes import (
@@ -30,6 +30,7 @@ from texvent_scenes.rendered_scene import Float64Array, Shape
 from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.along_surface import go_down
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
+from texvent_scenes.staging.placement.rims import fits, go_through
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.phase_keys import DULL, QUARTER
 from texvent_scenes.staging.tracks.phases import GOING, YAWS, activity_of, speeds_of, usual_speed
@@ -55,7 +56,10 @@ def has_fault(group: ObjectGroup, kind: str, target: ObjectGroup) -> bool:
     """Whether there is no such way: the target goes off or has none, or more is said of the way."""
     later = {one.kind for one in group.scene_object.motions[1:]} & (GOING | {"jump", "fall"})
     noun, is_led = target.noun.name, target.plan.is_path or target.plan.path is not None
+    rim = find_rim(noun, target.models[0]) if kind == "into" else None
+    is_open = rim is not None and fits(group.models[0], rim)
     is_closed = kind in ("into", "out of") and find_opening(noun, target.models[0]) is None
+    is_closed &= not is_open
     rows = (trait_value("slope", noun), trait_value("climbed", noun))
     is_flat = kind in ("up", "down") and rows == (None, None)
     is_bound = is_led or is_closed or is_flat
@@ -68,6 +72,9 @@ def lead(group: ObjectGroup, kind: str, target: ObjectGroup, ahead_m: float) -> 
     `ahead_m` is the length of what it pushes, m.
     """
     opening = find_opening(target.noun.name, target.models[0])
+    rim = find_rim(target.noun.name, target.models[0])
+    if kind == "into" and opening is None and rim is not None:
+        return go_through(group, target, rim)
     if kind in ("into", "out of") and opening is not None:
         return _pass_opening(group, target, opening, is_in=kind == "into")
     if kind == "to":
