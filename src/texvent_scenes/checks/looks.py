@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
-import numpy as np
-
-from texvent_scenes.checks.parts import Place
+from texvent_scenes.checks.parts import Place, is_made_of
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.colours import SURFACES, find_colour
 from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.materials import MATERIALS, has_colour
+from texvent_scenes.models.materials import MATERIALS, has_colour, share_of
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.rendered_scene import Shape, Texture
 from texvent_scenes.staging.actors import Actor
@@ -20,9 +18,10 @@ _REST = Pose(0.0, 0.0, 0.0, "stand")
 _HUES = ("red", "orange", "yellow", "green", "blue", "purple", "pink")
 _COLOURFUL = 2
 """Hues of what is colourful."""
-_EVEN, _LONG, _FLAT, _MOST = 0.8, 2.5, 0.3, 0.5
+_EVEN, _LONG, _FLAT, _MOST, _TINGE = 0.8, 2.5, 0.3, 0.5, 0.02
 """Ratio of two extents that are about equal; of the longest to the middle one of what is long; of
-the height to the others of what is flat; share of a surface that makes its look."""
+the height to the others of what is flat; shares of a surface that make its look, and its colour:
+a bicycle is red by its frame."""
 
 
 def has_look(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
@@ -36,36 +35,37 @@ def has_look(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: 
 def find_unlike(
     description: SceneDescription, actors: Sequence[Actor], missing: Container[int]
 ) -> Iterator[Violation]:
-    """Colours and materials that what is part of another body, as a coat is, does not have."""
-    bodied = {one.object_index for one in actors}
+    """Colours, materials and numbers that objects do not have as they are drawn.
+
+    What has no body is part of another one's, as a coat is, or comes with an act.
+    """
     for index, thing in enumerate(description.objects):
-        if index in bodied or index in missing:
+        if index in missing:
             continue
-        own = [part for one in actors for prop in one.props if thing.noun in prop.nouns
-               for part in prop.draw(0.0)]  # fmt: skip
-        parts = own or [part for one in actors if one.noun.name in PERSON_NOUNS
-                        for part in one.own_parts(_REST)]  # fmt: skip
+        bodies = [one.own_parts(_REST) for one in actors if one.object_index == index]
+        props = [prop for one in actors for prop in one.props if thing.noun in prop.nouns]
+        parts = [part for prop in props for part in prop.draw(0.0)]
+        parts = parts or [part for one in actors if one.noun.name in PERSON_NOUNS
+                          for part in one.own_parts(_REST)]  # fmt: skip
         rgb = find_colour(thing.colour, SURFACES) if thing.colour else None
-        if rgb is not None and not any(has_colour([part], rgb) for part in parts):
+        drawn = bodies or [[part] for part in parts]
+        is_so = all if bodies else any
+        if rgb is not None and not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
             yield Violation("colour", str(thing.colour), "")
         named = MATERIALS.get(thing.material or "")
-        if named is not None and named.texture not in {part.texture for part in parts}:
+        if named is not None and not is_so(
+            share_of(each, lambda part, kind=named.texture: part.texture is kind) >= _MOST
+            for each in drawn
+        ):  # fmt: skip
             yield Violation("material", str(thing.material), "")
+        counts = [prop.count for prop in props] if not bodies else []
+        if counts and thing.count not in (sum(counts), *counts):
+            yield Violation("count", thing.count, "")
 
 
 def _count_hues(parts: Sequence[ModelPart]) -> int:
     """Number of hues that enough of the surfaces have."""
     return sum(has_colour(parts, find_colour(hue, SURFACES)) for hue in _HUES)
-
-
-def _share(actor: Actor, is_counted: Callable[[ModelPart], bool]) -> float:
-    """Share of the surface whose parts count."""
-    counted = whole = 0.0
-    for part in actor.own_parts(_REST):
-        sides = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
-        whole += sides[1] * sides[2]
-        counted += sides[1] * sides[2] * is_counted(part)
-    return counted / max(whole, 1e-12)
 
 
 def _sides(actor: Actor) -> tuple[float, float, float]:
@@ -79,7 +79,8 @@ def _is_round(actor: Actor) -> bool:
     """Whether two extents are about equal, and most of it is curved."""
     least, middle, greatest = _sides(actor)
     is_even = least >= _EVEN * middle or middle >= _EVEN * greatest
-    return is_even and _share(actor, lambda part: part.shape is not Shape.BOX) >= _MOST
+    curved = share_of(actor.own_parts(_REST), lambda part: part.shape is not Shape.BOX)
+    return is_even and curved >= _MOST
 
 
 def _is_long(actor: Actor) -> bool:
@@ -93,7 +94,7 @@ def _is_flat(actor: Actor) -> bool:
 
 
 def _made_of(*textures: Texture) -> Callable[[Actor], bool]:
-    return lambda actor: _share(actor, lambda part: part.texture in textures) >= _MOST
+    return lambda actor: is_made_of(actor, *textures)
 
 
 _LOOKS: Mapping[str, Callable[[Actor], bool]] = {

@@ -17,9 +17,9 @@ from texvent_scenes.staging.actors import Actor, PlacedModel
 Place: TypeAlias = Callable[[Actor, float], PlacedModel]
 """A body at an instant, s, with its lamps as bright as they are then."""
 _REST = Pose(0.0, 0.0, 0.0, "stand")
-_STILL, _DARK = 1e-3, 0.5
+_STILL, _DARK, _MOST = 1e-3, 0.5, 0.5
 """Way of a part that does not move, in sizes of its body; share of its greatest light below which a
-lamp is off."""
+lamp is off; share of a surface that makes its look."""
 
 
 def has_colour(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
@@ -33,8 +33,12 @@ def is_of_material(
 ) -> bool:
     """Whether most of each has the texture of a material."""
     texture = materials.MATERIALS[str(claim.value)].texture
-    parts = [part.texture is texture for one in own for part in one.own_parts(_REST)]
-    return texture is not Texture.PLAIN and sum(parts) > 0.5 * len(parts)
+    return texture is not Texture.PLAIN and all(is_made_of(one, texture) for one in own)
+
+
+def is_made_of(actor: Actor, *textures: Texture) -> bool:
+    """Whether most of the surface of a body has one of the textures."""
+    return materials.share_of(actor.own_parts(_REST), lambda one: one.texture in textures) >= _MOST
 
 
 def is_moving_inside(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -79,6 +79,11 @@ class NamedMaterial:
     """None = follows from the colour; of a pattern, it contrasts with it."""
     scale: float = 1.0
     """As of `Material`."""
+
+    def in_colour(self, colour: Colour) -> Material:
+        """It in a colour, with which a pattern contrasts."""
+        second = _contrast(colour) if self.texture in _PATTERNS else self.second_colour
+        return made_of(self.texture, colour, second, scale=self.scale)
 
 
 MATERIALS: dict[str, NamedMaterial] = {
@@ -196,10 +201,7 @@ class OverriddenModel:
             usual = sum(wanted) / 3.0
             factor = 1.0 + _OWN_SHARE * (min(own / max(usual, 1e-3), 2.0) - 1.0)
             colour = mix((0.0, 0.0, 0.0), wanted, factor)
-        second = self._material.second_colour
-        if self._material.texture in _PATTERNS:
-            second = _contrast(colour)
-        surface = made_of(self._material.texture, colour, second, scale=self._material.scale)
+        surface = self._material.in_colour(colour)
         return replace(
             part,
             colour=surface.colour,
@@ -217,21 +219,40 @@ def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
 _NEAR, _LEAST_PART = 0.28, 0.06
 """Distance of cube roots of linear RGB within which two colours have one name; least share of a
 body's surface that has a colour."""
+_REPAINTED = 0.25
+"""Share of a surface from which on the parts of one colour are painted in another."""
 
 
-def has_colour(parts: Sequence[ModelPart], colour: Colour) -> bool:
+def share_of(parts: Sequence[ModelPart], is_counted: Callable[[ModelPart], bool]) -> float:
+    """Share of the surface of some parts that those have which count, 0 of nothing."""
+    counted = whole = 0.0
+    for part in parts:
+        sides = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
+        whole += sides[1] * sides[2]
+        counted += sides[1] * sides[2] * is_counted(part)
+    return float(counted / max(whole, 1e-12))
+
+
+def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST_PART) -> bool:
     """Whether enough of the surface of some parts has about that colour.
 
     Args:
         parts: of a body.
         colour: linear-light RGB.
+        least: share of the surface.
     """
-    areas, found = 0.0, 0.0
-    for one in parts:
-        sides = np.sort(np.linalg.norm(one.to_body[:, :3], axis=0))
-        area = float(sides[1] * sides[2])
-        both = (one.colour, *([] if one.texture is Texture.PLAIN else [one.second_colour]))
-        areas += area
-        off = (np.linalg.norm(np.cbrt(each) - np.cbrt(colour)) for each in both)
-        found += area if min(off) <= _NEAR else 0.0
-    return found >= _LEAST_PART * areas > 0.0
+
+    def is_like(part: ModelPart) -> bool:
+        both = (part.colour, *([] if part.texture is Texture.PLAIN else [part.second_colour]))
+        return any(np.linalg.norm(np.cbrt(one) - np.cbrt(colour)) <= _NEAR for one in both)
+
+    return share_of(parts, is_like) >= least
+
+
+def repaint(parts: Sequence[ModelPart], colour: Colour) -> list[ModelPart]:
+    """The parts, those of their main colours in another one."""
+    main = {
+        each for each in {one.colour for one in parts}
+        if share_of(parts, lambda part, each=each: part.colour == each) >= _REPAINTED
+    }  # fmt: skip
+    return [replace(one, colour=colour) if one.colour in main else one for one in parts]

@@ -300,7 +300,10 @@ class _Parser(GroupReader):
     # Noun groups
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
-        """Groups with "and", up to a subject: "a girl with a hat and a boy with a ball"."""
+        """Groups with "and", up to a subject: "a girl with a hat and a boy with a ball".
+
+        Clothes are none: "in a shirt and black trousers walks".
+        """
         found = [self._group()]
         if preposition.text == "with" and self._token().text == ",":
             found = self._listed(found[0])
@@ -309,7 +312,8 @@ class _Parser(GroupReader):
             self._take()
             group = self._group()
             is_subject = group.article or group.is_plural
-            is_subject = is_subject and not self._share_verb((*found, group))
+            is_worn = group.noun is not None and group.noun.noun in word_set("things", "worn")
+            is_subject = is_subject and not (is_worn or self._share_verb((*found, group)))
             if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
                 break

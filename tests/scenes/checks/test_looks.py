@@ -6,7 +6,7 @@ import pytest
 
 from texvent.sensor import SensorSize
 from texvent_scenes.models.materials import MATERIALS
-from texvent_scenes.models.people.outfit import CLOTHES
+from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import list_nouns, understand
@@ -75,9 +75,21 @@ def test_clothes_show_on_who_wears_them_in_their_colour(name):
 
 
 @pytest.mark.parametrize(
-    ("text", "word"),
-    [("a man juggles four green balls", "green"), ("a drummer plays a blue drum", "blue"),
-     ("a girl in a striped dress walks", "striped"), ("a man in a leather jacket", "leather")],
+    ("text", "words", "is_so"),
+    [("a man juggles four green balls", {"four", "green"}, True),
+     ("a drummer plays a blue drum", {"blue"}, True),
+     ("a drummer plays seven drums", {"seven"}, False),
+     ("a girl in a striped dress walks", {"striped"}, True),
+     ("a man in leather trousers", {"leather"}, False)],
 )  # fmt: skip
-def test_what_is_part_of_another_body_is_not_said_to_look_otherwise(text, word):
-    assert word in report(text).not_shown
+def test_what_is_part_of_another_body_looks_as_is_said(text, words, is_so):
+    said = report(text)
+    assert words <= {*(said.shown if is_so else said.not_shown)}
+
+
+@pytest.mark.parametrize("count", [1, 3, 8])
+def test_props_come_in_the_number_and_colour_that_is_said(count):
+    (prop,) = list_props("juggle")
+    drawn = prop.as_said(count, (0.0, 1.0, 0.0)).draw(0.3)
+    assert [one.colour for one in drawn] == count * [(0.0, 1.0, 0.0)]
+    assert len({tuple(one.to_body[:, 3]) for one in drawn}) == count

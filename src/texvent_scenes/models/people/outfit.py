@@ -6,14 +6,16 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cache, partial
+from itertools import cycle
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from texvent_scenes.models.materials import (
     BLUE,
     CLOTH_COLOURS,
     DARK,
     HAIR_COLOURS,
+    MATERIALS,
     ORANGE,
     RED,
     SKIN_TONES,
@@ -21,6 +23,7 @@ from texvent_scenes.models.materials import (
     Material,
     cloth,
     fur,
+    repaint,
     shade,
     skin,
     striped,
@@ -54,6 +57,8 @@ class PersonKind:
     """None = as the seed has it."""
     trousers: Colour | None = None
     """None = dark."""
+    fabric: str = ""
+    """Material of the shirt, one of `MATERIALS`; "" = plain cloth."""
     has_sleeves: bool = False
     """Whether the shirt covers the forearms."""
     gloves: Colour | None = None
@@ -79,18 +84,25 @@ CLOTHES: Mapping[str, Mapping[str, Any]] = read_table("outfits")["worn"]
 """Noun of clothes that show on a body and not as a thing of their own → what they change."""
 
 
-def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> PersonKind:
-    """A kind of person in what it wears.
+Worn: TypeAlias = tuple[str, Colour | None, str]
+"""A noun of `CLOTHES`, its colour, None for the usual one, and its material, or ""."""
 
-    Args:
-        kind: the person.
-        worn: nouns of `CLOTHES` with their colours; None = the usual one.
-    """
-    for noun, said in worn:
+
+_DARKER = 0.3
+"""Colour of a material in clothes, as a multiple of its usual one."""
+
+
+def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
+    """A kind of person in what it wears."""
+    for noun, said, material in worn:
         row = CLOTHES[noun]
-        colour = said or frozen(row.get("usual"))
+        own = MATERIALS[material].colour if material else None
+        own = own and shade(own, _DARKER)  # no bare skin
+        colour = said or own or frozen(row.get("usual"))
         changed = {key: frozen(value) for key, value in row.items() if key in _FIELDS}
         garments = (*kind.garments, *changed.pop("garments", ()))
+        if material and "shirts" in row["painted"]:
+            changed["fabric"] = material
         kind = replace(kind, garments=garments, **changed)
         if colour is not None:
             painted: dict[str, Any] = {
@@ -103,7 +115,8 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
 def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Painted:
     """Skin, hair and clothes of one person: surfaces of the parts of a figure."""
     flesh = skin(choose(seed, "skin", SKIN_TONES))
-    shirt = cloth(paint(colour, seed, "shirt", kind.shirts))
+    dyed = paint(colour, seed, "shirt", kind.shirts)
+    shirt = MATERIALS[kind.fabric].in_colour(dyed) if kind.fabric else cloth(dyed)
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
     trousers = cloth(usual if kind.trousers is None else kind.trousers)
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
@@ -132,7 +145,8 @@ def draw_shape(name: str) -> Sequence[ModelPart]:
     return Painted(FIXED_HUES, table["surfaces"]).draw_lines(table["shapes"][name])
 
 
-Draw = Callable[[float], Sequence[ModelPart]]
+Draw = Callable[..., Sequence[ModelPart]]
+"""Parts at a time, s; of several things, with their number as "count"."""
 
 
 @dataclass(frozen=True)
@@ -149,6 +163,16 @@ class Prop:
     """Name of its shape."""
     is_own: bool = False
     """Whether it is drawn in place of a named one, not left out for it."""
+    count: int = 1
+    """Number of its nouns' things."""
+
+    def as_said(self, count: int, colour: Colour | None) -> Prop:
+        """The prop in a colour, None for its own, and in a number if it has several."""
+        many = count if self.count > 1 else 1
+        draw = partial(self.draw, count=count) if many != self.count else self.draw
+        if colour is None:
+            return replace(self, draw=draw, count=many)
+        return replace(self, draw=lambda time_s: repaint(draw(time_s), colour), count=many)
 
 
 _BASKETBALL = striped(ORANGE, (0.05, 0.03, 0.02), 2.0)
@@ -166,12 +190,12 @@ def _dribbled(time_s: float) -> list[ModelPart]:
     return [ball(_BASKETBALL, (0.66, -0.30, height), (_BALL_M,) * 3)]
 
 
-def _juggled(time_s: float) -> list[ModelPart]:
-    """Three balls in turn from hand to hand, each in free flight half of the time."""
+def _juggled(time_s: float, count: int = 3) -> list[ModelPart]:
+    """Balls in turn from hand to hand, each in free flight half of the time."""
     parts = []
-    for index, colour in enumerate((RED, YELLOW, BLUE)):
-        cycle = (time_s * _JUGGLE_HZ + index / 1.5) / 2.0 % 1.0
-        half, into = divmod(2.0 * cycle, 1.0)
+    for index, colour in zip(range(count), cycle((RED, YELLOW, BLUE))):
+        share = (0.5 * time_s * _JUGGLE_HZ + index / count) % 1.0
+        half, into = divmod(2.0 * share, 1.0)
         across = 0.22 * (1.0 if half < 1.0 else -1.0) * (1.0 - 2.0 * into)
         rise = 4.0 * into * (1.0 - into)
         parts.append(ball(Material(colour), (0.42, across, 1.14 + 0.62 * rise), (0.12,) * 3))
@@ -198,7 +222,8 @@ def _read_prop(row: Mapping[str, Any]) -> Prop:
         shape = row["shape"]
         draw = partial(_draw_moving, motion, shape) if motion else lambda _: draw_shape(shape)
     nouns = tuple(row.get("nouns", ()))
-    return Prop(row["at"], draw, nouns, row["shape"], row.get("is_own", False))
+    own, count = row.get("is_own", False), row.get("count", 1)
+    return Prop(row["at"], draw, nouns, row["shape"], own, count)
 
 
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
@@ -233,7 +258,7 @@ def _scaled(prop: Prop, size: float) -> Prop:
     if size == 1.0 or prop.anchor not in ("ground", "torso"):
         return prop
 
-    def draw(time_s: float) -> list[ModelPart]:
-        return [part.at(size * part.to_body) for part in prop.draw(time_s)]
+    def draw(time_s: float, **said: int) -> list[ModelPart]:
+        return [part.at(size * part.to_body) for part in prop.draw(time_s, **said)]
 
     return replace(prop, draw=draw)

@@ -15,7 +15,7 @@ from texvent_scenes.models.gait import read_gaits
 from texvent_scenes.models.joints import Instant
 from texvent_scenes.models.limbs import read_limbs
 from texvent_scenes.models.materials import STEEL, Material
-from texvent_scenes.models.people.outfit import ADULT, KINDS, PersonKind, dress_person, put_on
+from texvent_scenes.models.people.outfit import ADULT, KINDS, PersonKind, Worn, dress_person, put_on
 from texvent_scenes.models.postures import Postures
 from texvent_scenes.models.protocol import ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import Affine, ArticulatedModel, Point, point, rod, spike
@@ -161,13 +161,8 @@ def read_rider(table: Mapping[str, Any]) -> Rider:
     return Rider(hips, neck, grip, crank, float(table["wheel"]))
 
 
-def dress(noun: Noun, worn: Iterable[tuple[str, Colour | None]]) -> Noun:
-    """The noun of a person in what it wears.
-
-    Args:
-        noun: a person; its builder is made of its `PersonKind`.
-        worn: nouns of `outfit.CLOTHES` with their colours; None = the usual one.
-    """
+def dress(noun: Noun, worn: Iterable[Worn]) -> Noun:
+    """The noun of a person, whose builder is made of its `PersonKind`, in what it wears."""
     build: Any = noun.build
     return replace(noun, build=partial(build.func, put_on(build.args[0], worn)))
 

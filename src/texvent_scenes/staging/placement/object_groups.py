@@ -305,7 +305,7 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if put and one.kind == "on" and index == one.subject:
             return replace(nouns[put], name=noun.name)
     worn = [
-        (objects[target].noun, rgb_of(objects[target].colour))
+        (objects[target].noun, rgb_of(objects[target].colour), objects[target].material or "")
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets
@@ -318,18 +318,22 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     """Props of a person's activities, or else its usual ones, that the scene does not show."""
     if group.noun.name not in PERSON_NOUNS:
         return ()
-    shown = {scene_object.noun for scene_object in description.objects}
+    shown = {scene_object.noun: scene_object for scene_object in description.objects}
     said = group.scene_object.motions or (STANDING,)
     kinds = dict.fromkeys(motion.kind for motion in said)
     size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
     props = props or list(HOLDS.get(group.noun.name, ()))
-    if group.on_chairs and not shown & nouns_with("seat at a table"):
+    if group.on_chairs and not shown.keys() & nouns_with("seat at a table"):
         props.append(_draw_chair(size))
+    kept = (
+        prop for prop in props
+        if prop.anchor == "ground" or prop.is_own or shown.keys().isdisjoint(prop.nouns)
+    )  # fmt: skip
+    named = [(prop, next((shown[one] for one in prop.nouns if one in shown), None))
+             for prop in kept]  # fmt: skip
     return tuple(
-        prop
-        for prop in props
-        if prop.anchor == "ground" or prop.is_own or not shown.intersection(prop.nouns)
+        prop if one is None else prop.as_said(one.count, rgb_of(one.colour)) for prop, one in named
     )
 
 
