@@ -210,7 +210,7 @@ def _is_switched(who: str, words: Sequence[str]) -> bool:
 
 
 def _is_act(words: Sequence[str], end: int, before: Sequence[Token]) -> bool:
-    """Whether a person and a participle begin a sentence that says how: "pedestrian crossing at dusk".
+    """Whether a person and a participle begin what says how: "pedestrian crossing at dusk".
 
     Alone, or with what a crossing has or where it is seen from, they are a place.
     """
