@@ -32,6 +32,7 @@ _UPRIGHT = {"up": "rise", "down": "sink"}
 _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
 _AFLOAT = ("sail", "paddle")
+_ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _IN_WATER = ("swim", "surf", *_AFLOAT)
@@ -59,6 +60,8 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
+    if PLACES[place].corridor_m:
+        description = _lead_along(description)
     if description.place.has_snow or PLACES[place].ground is Ground.SNOW:
         description = _snow_over(description)
     if PLACES[place].has_surface:
@@ -87,6 +90,17 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
     """Hills without a colour of their own, under the snow that lies on all."""
     new = {n: replace(one, colour="white") for n, one in enumerate(description.objects)
            if one.colour is None and one.noun in nouns_with("of ground")}  # fmt: skip
+    return _change(description, new)
+
+
+def _lead_along(description: SceneDescription) -> SceneDescription:
+    """Those who go somewhere in a corridor come along it."""
+    new = {
+        n: replace(one, motions=(replace(one.motions[0], direction="towards"), *one.motions[1:]))
+        for n, one in enumerate(description.objects)
+        if one.motions and one.motions[0].direction in (None, "down", "forward")
+        and one.motions[0].kind in _ALONG and one.heading_deg is None
+    }  # fmt: skip
     return _change(description, new)
 
 

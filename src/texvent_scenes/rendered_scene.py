@@ -181,6 +181,10 @@ MEDIUM_RECORD = np.dtype(
 """One participating medium: a translucent ellipsoid of smoke, steam, mist or flame."""
 
 
+CORRIDOR_HEIGHT_M = 2.7
+"""Height of a corridor, metres."""
+
+
 @dataclass(frozen=True)
 class Environment:
     """Surroundings and light at one instant."""
@@ -221,7 +225,10 @@ class Environment:
     time_s: float
     """For waves, clouds and grass."""
     room_half_size: float = 9.0
-    """Half the side of the square room around (0, 0) that `Ground.FLOOR` stands in, metres."""
+    """Half the side of the square room around (0, 0) that `Ground.FLOOR` stands in, metres; half
+    the length of a corridor, which lies along y."""
+    corridor_half_width: float | None = None
+    """Half the width of a corridor, metres; None = the room is square."""
     road_crossings: Float64Array = field(default_factory=lambda: np.zeros((0, 3)))
     """[k, 3] straight roads that cross the main one: x, y of a point on the centre line (metres)
     and direction (radians)."""

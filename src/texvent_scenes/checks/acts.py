@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED
 from texvent_scenes.rendered_scene import Float64Array
@@ -234,6 +234,14 @@ def bounces(staged: StagedClip, claim: Claim) -> bool:
         if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
             return False
     return True
+
+
+def comes_out(staged: StagedClip, claim: Claim) -> bool:
+    """Whether the camera is in something at first and no more at the end."""
+    bodies = [one for n in claim.targets for one in staged.list_actors(n)]
+    ends = [[is_inside(one, staged.scene.camera(at).position, at) for one in bodies]
+            for at in (0.0, staged.duration_s)]  # fmt: skip
+    return any(ends[0]) and not any(ends[1])
 
 
 def breaks(staged: StagedClip, claim: Claim) -> bool:

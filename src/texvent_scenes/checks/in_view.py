@@ -29,6 +29,7 @@ from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.checks.places import find_near, find_unseen_place
 from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
+from texvent_scenes.checks.staged_clip import is_inside
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import STANDING, SceneDescription
@@ -36,6 +37,7 @@ from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
@@ -138,6 +140,8 @@ def find_unseen(
         if own:
             part = _PART if index in climbed else math.inf
             found = _judge(own, seen_own, clip, is_related=index in related, part=part)
+            if any(_is_entered(*each, clip) for each in zip(own, seen_own, strict=True)):
+                found = _Judged(is_unseen=False)
             lines = small if found.is_small else outside
             lines += [f"{thing.noun}{found.words}"] if found.words is not None else []
             unseen |= {index} if found.is_unseen else set()
@@ -210,6 +214,15 @@ def _judge(
     if inside < 2 and (not is_related or most < _FILLED[inside == 0] * area):
         return _Judged(" (cut off)", is_partly=bool(inside) or most >= part * area)
     return _Judged(is_unseen=False)
+
+
+def _is_entered(one: Actor, view: View, clip: _Clip) -> bool:
+    """Whether the camera goes through a passage, of which the image is never all but much."""
+    is_large = view.pixels >= _FILLED[0] * clip.size.width * clip.size.height
+    if one.noun.name not in nouns_with("passage") or not (clip.is_camera_moving and is_large):
+        return False
+    return any(is_inside(one, camera.position, time_s)
+               for camera, time_s in zip(clip.cameras, clip.times, strict=True))  # fmt: skip
 
 
 def _find_unrealised(
@@ -365,7 +378,8 @@ def _list_without(
     def without(**fields: Any) -> ComposedScene:
         other = build_environment(
             replace(description, **fields), place=scene.place, road=road,
-            room_m=scene.camera_path.room_m, distance_m=scene.camera_path.framing.distance_m,
+            room_m=scene.camera_path.room_m, corridor_m=scene.camera_path.corridor_m,
+            distance_m=scene.camera_path.framing.distance_m,
         )  # fmt: skip
         return replace(scene, animated_environment=other)
 

@@ -26,6 +26,10 @@ _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
 
+_WIDE = 2.0
+"""Width of a corridor, as a multiple of the usual one, from which on it looks like a room."""
+
+
 def find_unseen_place(
     scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float]
 ) -> Iterator[Violation]:
@@ -45,6 +49,9 @@ def find_unseen_place(
     points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
     if said.road and not any(is_any_inside(points, one, _SIZE) for one in cameras):
         yield Violation("road", "", f"the {said.road}: it is out of view")
+    wide_m = scene.camera_path.corridor_m
+    if wide_m is not None and wide_m > _WIDE * scene.place.corridor_m:
+        yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
     if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"

@@ -21,6 +21,13 @@ _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
 
 
+def is_inside(actor: Actor, place: Float64Array, time_s: float) -> bool:
+    """Whether a place, [3] m, is in the box of a body, seen from above, at an instant."""
+    to_world = actor.track.at(time_s).to_world()
+    x, y, _ = (place - to_world[:, 3]) @ to_world[:, :3]
+    return abs(float(x)) <= 0.5 * actor.model.length and abs(float(y)) <= 0.5 * actor.model.width
+
+
 @dataclass(frozen=True)
 class StagedClip:
     """A staged scene over its clip, at the instants at which it is compared with its words."""

@@ -60,6 +60,8 @@ class PlaceModel:
     wall_colour: Colour = (0.75, 0.69, 0.61)
     road_m: float = 3.4
     """Half the width of its road or river."""
+    corridor_m: float = 0.0
+    """Half its width, of a room that is a corridor; 0 = it is none."""
     light: str = ""
     """Its daylight, where that is not that of the open air."""
     flight_m: float = 0.0

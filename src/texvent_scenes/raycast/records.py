@@ -16,7 +16,13 @@ from texvent.camera import Rays
 from texvent.lens import Lens, lens_limits
 from texvent_scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
 from texvent_scenes.raycast.surfaces.catalogue import SURFACE_COUNT, gloss_rows, surface_rows
-from texvent_scenes.rendered_scene import Environment, Ground, Primitives, Texture
+from texvent_scenes.rendered_scene import (
+    CORRIDOR_HEIGHT_M,
+    Environment,
+    Ground,
+    Primitives,
+    Texture,
+)
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
@@ -106,7 +112,10 @@ INSTANT_RECORD = np.dtype(
         ("fog_colour", "f8", 3),
         ("exposure", "f8"),
         ("highlights", "i8"),  # 1 = light above white is kept
-        ("room", "f8"),  # half the side of the room, metres
+        ("room", "f8"),  # half the side of the room, along y, metres
+        ("room_x", "f8"),  # half its side along x
+        ("ceiling", "f8"),  # its height
+        ("is_corridor", "i8"),
         ("time", "f8"),
     ],
     align=True,
@@ -344,7 +353,11 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["sun_radius"] = SUN_RADIUS
     instant["shadows"] = int(environment.shadows and shadows)
     instant["fog"] = 1.0 / float(environment.fog_distance)
-    instant["room"] = environment.room_half_size
+    instant["room"] = instant["room_x"] = environment.room_half_size
+    instant["ceiling"] = 0.6 * environment.room_half_size
+    instant["is_corridor"] = int(environment.corridor_half_width is not None)
+    if environment.corridor_half_width is not None:
+        instant["room_x"], instant["ceiling"] = environment.corridor_half_width, CORRIDOR_HEIGHT_M
     instant["time"] = environment.time_s
     for name in (
         "sky_top",

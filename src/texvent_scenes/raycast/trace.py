@@ -307,7 +307,7 @@ def background_from(instant: Record, origin: Vector, direction: Vector) -> tuple
         depth, what = -origin[2] / direction[2], GROUND
     if instant.ground == _FLOOR:
         for axis in range(3):
-            side = instant.room if axis < 2 else 0.6 * instant.room
+            side = (instant.room_x, instant.room, instant.ceiling)[axis]
             if axis < 2 or direction[2] > 0.0:
                 wall = side if direction[axis] > 0.0 else -side
                 step = direction[axis] if direction[axis] != 0.0 else 1e-300

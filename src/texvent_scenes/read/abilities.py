@@ -142,6 +142,7 @@ class Abilities:
         acts = word_set("things", "acts") if has_object else ()
         is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
         is_ground = names <= nouns_with("of ground")
+        is_way = bool(names & nouns_with("fits who goes through"))  # no tunnel exits
         is_unfit |= verb.kind == "break" and not names <= trait_values("pieces").keys()
         is_unfit |= is_ground and verb.kind in word_set("things", "in_place")  # "rolling hills"
         match verb.who:
@@ -167,7 +168,8 @@ class Abilities:
                 return not has_object and not is_acting
             case "camera":
                 return False
-        is_unfit &= is_ground or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        is_unfit |= is_way and verb.kind == "move"
+        is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
         return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:

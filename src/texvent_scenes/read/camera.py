@@ -41,8 +41,10 @@ def is_shot(clause: Clause) -> bool:
     return clause.verb is None or first.at < clause.verb.at
 
 
-def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) -> bool:
-    """Lead a camera that goes ahead through what has a way through; whether it has one."""
+def go_through(
+    draft: SceneDraft, move: dict[str, Any], targets: Sequence[int], *, is_out: bool = False
+) -> bool:
+    """Lead a camera that goes ahead through what has a way through, or out; whether it has one."""
     is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
     nouns = {draft.things[one]["noun"] for one in targets}
     if move.get("means") == "fly" or not (is_ahead and nouns <= nouns_with("passage")):
@@ -52,6 +54,7 @@ def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) 
     for thing in (draft.things[one] for one in targets):
         opens = "stand open" in draft.nouns[thing["noun"]].acts
         thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens
+        thing |= {"placement": "near"} if is_out else {}
     return True
 
 

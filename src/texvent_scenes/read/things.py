@@ -245,7 +245,9 @@ class ThingReader:
             is_blown = [self._blow(index) for index in subjects] or [bool(draft.effects)]
             draft.show(*([token] if all(is_blown) else []))
             return True
-        is_way = not subjects and draft.set_journey(field, value)
+        nouns = {draft.things[one]["noun"] for one in subjects}
+        is_still = nouns <= nouns_with("fits who goes through")  # "a tunnel exit, 60 km/h"
+        is_way = is_still and draft.set_journey(field, value)
         draft.show(*([token] if is_way else []))
         return is_way
 

@@ -152,7 +152,7 @@ def compose_scene(
     names |= {one.instance: one.rule.noun for one in items if one.instance}
     animated_environment = build_environment(
         description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
-        room_m=camera_path.room_m,
+        room_m=camera_path.room_m, corridor_m=camera_path.corridor_m,
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=ground,

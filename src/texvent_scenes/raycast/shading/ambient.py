@@ -30,7 +30,7 @@ def list_windows(instants: NDArray[Any]) -> None:
     """Write the windows of a room into its instant."""
     instant = instants[0]
     instant.window_count = 0
-    if instant.ground != _FLOOR:
+    if instant.ground != _FLOOR or instant.is_corridor:
         return
     room, last = instant.room, int(instant.room / HANGING_EVERY_M)
     for cell in range(-last, last):
@@ -76,10 +76,9 @@ def ambient_light(instant: Record, point: Vector, normal: Vector) -> Colour:
         return light
     share = _beside(point[2], normal[2])
     if instant.ground == _FLOOR:
-        room = instant.room
-        share *= _beside(room - abs(point[0]), normal[0]) * _INDOORS
-        share *= _beside(room - abs(point[1]), normal[1])
-        share *= _beside(0.6 * room - point[2], normal[2])
+        share *= _beside(instant.room_x - abs(point[0]), normal[0]) * _INDOORS
+        share *= _beside(instant.room - abs(point[1]), normal[1])
+        share *= _beside(instant.ceiling - point[2], normal[2])
         sky = mix(triple(instant.sky_top), triple(instant.sky_horizon), 0.5)
         return along(scaled(light, share), sky, _window_light(instant, point, normal))
     return scaled(light, share)

@@ -26,6 +26,10 @@ _SKIRTING = (0.3, 0.24, 0.2)
 _MOUNT_M = 0.04
 _PANEL, _PANEL_M, _RAIL_M = (0.34, 0.2, 0.1), 0.16, 0.86
 """Wood of panelled walls, width of a panel, and height of the rail above them, m."""
+_DOOR_EVERY_M, _LIGHT_EVERY_M = 2.9, 2.6
+_DOOR_FRAME, _LEAF, _HANDLE = (0.2, 0.19, 0.17), (0.32, 0.16, 0.07), (0.6, 0.6, 0.62)
+"""Colours of the doors of corridors; they and the luminous panels above follow one another so."""
+_LIGHT = (7.0, 7.0, 6.8)
 _CEILING = (1.7, 1.69, 1.64)
 """White, and lit from below by what floor and walls send back, which is not traced."""
 
@@ -129,6 +133,35 @@ def _panelled(colour: Colour, place: tuple[float, float], feet: Colour) -> Colou
 
 
 @jit(error_model="numpy", inner=True)
+def _from_middle(place: float, every: float) -> float:
+    """Distance from the nearest of the middles that follow one another at a period."""
+    return (place + 0.5 * every) % every - 0.5 * every
+
+
+@jit(error_model="numpy", inner=True)
+def _panel_share(point: Vector, feet: Colour) -> float:
+    """Share of a pixel of a corridor's ceiling within one of its luminous panels."""
+    return _box_share((point[0], _from_middle(point[1], _LIGHT_EVERY_M)), (0.16, 0.6), feet)
+
+
+@jit(error_model="numpy", inner=True)
+def _door(wall: Colour, at: tuple[float, float], feet: Colour, face: int) -> Colour:
+    """A wall with a closed door with a handle; at the end of a corridor with two panes."""
+    half, tall = (0.46, 1.03) if face == 0 else (0.8, 1.05)
+    low = (at[0], at[1] - tall)
+    colour = mix(wall, _DOOR_FRAME, _box_share(low, (half + 0.07, tall + 0.07), feet))
+    colour = mix(colour, _LEAF, _box_share(low, (half, tall), feet))
+    if face == 0:
+        handle = (at[0] - half + 0.1, at[1] - 1.05)
+        plate = (at[0] - half - 0.25, at[1] - 1.6)
+        colour = mix(colour, _FRAME, _box_share(plate, (0.1, 0.06), feet))
+        return mix(colour, _HANDLE, _box_share(handle, (0.06, 0.025), feet))
+    pane = (abs(at[0]) - 0.4, at[1] - 1.25)
+    colour = mix(colour, _FRAME, _box_share(pane, (0.26, 0.6), feet))
+    return mix(colour, _DARK_FRAME, box_coverage(at[0], -0.012, 0.012, feet[0]))
+
+
+@jit(error_model="numpy", inner=True)
 def wall_look(
     instant: Record, point: Vector, face: int, patch: tuple[Vector, Vector]
 ) -> tuple[Colour, Vector]:
@@ -146,13 +179,20 @@ def wall_look(
     if face == 2:
         sample = sample_material(instant, _PLASTER, point[0], point[1], axes, 1.0)
         look = painted(sample, _CEILING, scaled(_CEILING, 0.9), 1.0)
-        return look[0], (-look[1], -look[2], -1.0)
+        colour = look[0]
+        if instant.is_corridor:
+            feet = (abs(right[0]) + abs(down[0]), abs(right[1]) + abs(down[1]), 0.0)
+            colour = mix(colour, _LIGHT, _panel_share(point, feet))
+        return colour, (-look[1], -look[2], -1.0)
     plain = triple(instant.wall_colour)
     sample = sample_material(instant, instant.wall_surface, point[a], point[b], axes, 1.0)
     look = painted(sample, plain, scaled(plain, 0.82), 1.0)
     feet = (abs(right[a]) + abs(down[a]), abs(right[2]) + abs(down[2]), 0.0)
     colour = look[0]
-    if instant.wall_surface not in (_STONE, _CLOTH):
+    if instant.is_corridor:
+        every = _DOOR_EVERY_M if face == 0 else 1e3
+        colour = _door(colour, (_from_middle(point[a], every), point[2]), feet, face)
+    elif instant.wall_surface not in (_STONE, _CLOTH):
         place = (point[a], point[2])
         colour = _hang(instant, colour, place, feet, 2 * face + int(side > 0.0))
         if instant.ground_surface == _BOARDS:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.models.places import is_room
+from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import Actor, seeded
 
@@ -55,6 +55,8 @@ def choose_angles(
         azimuth = math.copysign(ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
+    if PLACES[place].corridor_m:
+        azimuth = 0.5 * wander
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)

@@ -311,10 +311,28 @@ def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | N
         middle = [0.5 * path.duration_s]
         corners = corners_over(actors, middle) if actors else np.zeros((1, 3))
         reach = float(np.abs(corners[:, :2]).max())
-        return replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8))
+        path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8))
+        return _keep_in_corridor(path, shooting)
     near = [one for one in actors if objects[one.object_index].placement != "far"]
     corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))
-    return path.in_room(corners, shooting.times)
+    return _keep_in_corridor(path.in_room(corners, shooting.times), shooting)
+
+
+def _keep_in_corridor(path: CameraTrack, shooting: _Shooting) -> CameraTrack:
+    """The path in a corridor that is as wide as camera and objects need, and goes on."""
+    usual_m = PLACES[shooting.place].corridor_m
+    if not usual_m:
+        return path
+    actors = shooting.actors
+    places = np.array([path.at(float(one)).position for one in shooting.times])
+    corners = corners_over(actors, shooting.times) if actors else places
+    reach = float(max(np.abs(places[:, 0]).max(), np.abs(corners[:, 0]).max()))
+    half_m = max(usual_m, reach + _BESIDE_M)
+    return replace(path, room_m=path.room_m + _GOES_ON_M, corridor_m=half_m)
+
+
+_BESIDE_M, _GOES_ON_M = 0.25, 7.0
+"""Room between what is in a corridor and its wall; from where that could end to its end, m."""
 
 
 def _plan_moves(

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.camera import PosedCamera
-from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.rendered_scene import CORRIDOR_HEIGHT_M, Float64Array
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.framing import Framing, direction, look_at
@@ -199,6 +199,8 @@ class CameraTrack:
     """Whether there is ground to stay above."""
     room_m: float = math.inf
     """Half the side of the room it must stay in, m."""
+    corridor_m: float | None = None
+    """Half the width of the corridor that it is in, whose length is that side."""
     journey: Journey | None = None
     """The route of what travels."""
     passage_s: tuple[float, float] | None = None
@@ -260,7 +262,8 @@ class CameraTrack:
         if math.isfinite(self.room_m):
             wall = self.room_m - 0.4
             position[:2] = np.clip(position[:2], -wall, wall)
-            position[2] = min(position[2], 0.6 * self.room_m - 0.3)
+            ceiling_m = 0.6 * self.room_m if self.corridor_m is None else CORRIDOR_HEIGHT_M
+            position[2] = min(position[2], ceiling_m - 0.3)
         return position
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from texvent_scenes.models.protocol import Model, ModelPart, Pose
+from texvent_scenes.models.shapes import moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred
@@ -15,8 +18,24 @@ from texvent_scenes.staging.placement.object_groups import ObjectGroup
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
 _GAP_M = 1.5
+_OUT_SHARE, _BEHIND_M = 0.45, 3.0
+"""Share of the route after which the camera comes out of a passage; how far that goes on behind
+it at first, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
+
+
+class Lengthened:
+    """A model that is longer than it is by itself: a tunnel."""
+
+    def __init__(self, model: Model, length_m: float) -> None:
+        self._model = model
+        self._share = max(length_m / model.length, 1.0)
+        self.length, self.width, self.height = self._share * model.length, model.width, model.height
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """Its parts, drawn out along its length."""
+        return moved(self._model.parts(pose), np.diag([self._share, 1.0, 1.0, 1.0])[:3])
 
 
 class RoutePlacer:
@@ -41,14 +60,20 @@ class RoutePlacer:
         is_passage = group.noun.name in nouns_with("passage")
         if not (is_goal or crosses or is_passage or group.scene_object.placement == "lane"):
             return self._place_beside(group, height)
-        along = 0.6 * travel.length_m
+        along, aside = 0.6 * travel.length_m, 0.0
+        if is_passage and group.noun.name in nouns_with("fits who goes through"):  # over the road
+            aside = float(travel.road.offset[0])
+        if is_passage and group.scene_object.placement == "near":  # the camera comes out of it
+            out_m = _OUT_SHARE * travel.length_m
+            group.models = [Lengthened(one, out_m + _BEHIND_M) for one in group.models]
+            along = out_m - 0.5 * (out_m + _BEHIND_M)
         if is_goal or not is_passage:
             # Just beyond the end of the route, where the camera does not come.
             along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
             self._beyond_m += 2.0 * float(group.half[1]) + 0.5
         if not crosses:
             group.plan = replace(plan, yaw=-NORTH if is_goal else NORTH)
-        return np.array([*travel.point(along, 0.0), height])
+        return np.array([*travel.point(along, aside), height])
 
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
         """Ahead of the camera or towards it: vehicles in lanes, others beside the road or aloft."""

@@ -310,11 +310,12 @@ def build_environment(
     road: RoadLine,
     distance_m: float,
     room_m: float,
+    corridor_m: float | None = None,
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
     Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
-    the room, where the place is one.
+    the room, where the place is one, or of its length, of a corridor that is half `corridor_m` wide.
     """
     lighting, said = choose_lighting(place, description.light), description.place
     colour, second = _ground_colours(place, said)
@@ -344,6 +345,7 @@ def build_environment(
         lamps=np.zeros(0, LAMP_RECORD),
         time_s=0.0,
         room_half_size=room_m if place.is_room else NO_ROOM_M,
+        corridor_half_width=corridor_m,
         ground_surface=Texture.SNOW if is_white else place.surface,
         has_stars=not place.is_backdrop,
         wall_surface=place.walls,
