@@ -97,7 +97,7 @@ MATERIALS: dict[str, NamedMaterial] = {
     "ceramic": NamedMaterial(Texture.WORN, (0.70, 0.67, 0.62)),
     "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
     "glass": NamedMaterial(Texture.PANE, (0.16, 0.27, 0.3)),
-    "plastic": NamedMaterial(Texture.WORN),
+    "plastic": NamedMaterial(Texture.WORN, (0.70, 0.72, 0.74)),
     "rubber": NamedMaterial(Texture.LEATHER, (0.030, 0.030, 0.032)),
     "cloth": NamedMaterial(Texture.CLOTH),
     "leather": NamedMaterial(Texture.LEATHER, (0.20, 0.09, 0.04)),
