@@ -310,7 +310,7 @@ def _find_unshown(
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
     is_bare = is_said and not _differs(scene, other, times, 0.0, 0.02)
-    if is_bare and is_shared and place.scenery and not said.is_empty:
+    if is_bare and is_shared and place.scenery and not (said.is_empty and place.is_cleared):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)

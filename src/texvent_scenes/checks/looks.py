@@ -53,14 +53,16 @@ def find_unlike(
         if rgb is not None and not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
             yield Violation("colour", str(thing.colour), "")
         named = MATERIALS.get(thing.material or "")
-        if named is not None and not is_so(
-            share_of(each, lambda part, kind=named.texture: part.texture is kind) >= _MOST
-            for each in drawn
-        ):  # fmt: skip
+        if named is not None and not is_so(_is_of(each, named.texture) for each in drawn):
             yield Violation("material", str(thing.material), "")
         counts = [prop.count for prop in props] if not bodies else []
         if counts and thing.count not in (sum(counts), *counts):
             yield Violation("count", thing.count, "")
+
+
+def _is_of(parts: Sequence[ModelPart], texture: Texture) -> bool:
+    """Whether most of the surface of some parts has a texture."""
+    return share_of(parts, lambda part: part.texture is texture) >= _MOST
 
 
 def _count_hues(parts: Sequence[ModelPart]) -> int:

@@ -172,6 +172,16 @@ def is_in_line(places: Float64Array) -> bool:
     return bool(is_straight and gaps.max() <= _UNEVEN * gaps.min())
 
 
+def _is_stack(staged: StagedClip, claim: Claim) -> bool:
+    """Whether bodies of its noun are on top of each other, not all on the same level."""
+    objects = staged.description.objects
+    noun = objects[claim.subject or 0].noun
+    low = [one.lowest_m(0.0) for one in staged.scene.actors
+           if objects[one.object_index].noun == noun]  # fmt: skip
+    least = min(one.model.height for one in staged.own(claim))
+    return max(low) - min(low) >= 0.5 * least
+
+
 def _is_in_water(staged: StagedClip, claim: Claim) -> bool:
     """Whether the place has water in which it may swim, or it is in another body: an aquarium."""
     said = staged.description.relations
@@ -217,7 +227,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "look": _of_parts(has_look),
     "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
      "relation": _is_related, "off": _leaves,
-    "arrive": _arrives, "stop before": stops_before, "row": _is_row, "times": repeats,
+    "arrive": _arrives, "stop before": stops_before, "row": _is_row, "stack": _is_stack,
+    "times": repeats,
     "again": returns, "stays": stays, "circle": is_circling, "parts": _of_parts(is_moving_inside),
     "lie": is_laid, "shine": _shines, "hold": _each_holds,
     "act on": handles, "in_mouth": has_in_mouth,

@@ -97,7 +97,7 @@ MATERIALS: dict[str, NamedMaterial] = {
     "ceramic": NamedMaterial(Texture.WORN, (0.70, 0.67, 0.62)),
     "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
     "glass": NamedMaterial(Texture.PANE, (0.16, 0.27, 0.3)),
-    "plastic": NamedMaterial(Texture.WORN),
+    "plastic": NamedMaterial(Texture.WORN, (0.70, 0.72, 0.74)),
     "rubber": NamedMaterial(Texture.LEATHER, (0.030, 0.030, 0.032)),
     "cloth": NamedMaterial(Texture.CLOTH),
     "leather": NamedMaterial(Texture.LEATHER, (0.20, 0.09, 0.04)),
@@ -251,8 +251,9 @@ def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST
 
 def repaint(parts: Sequence[ModelPart], colour: Colour) -> list[ModelPart]:
     """The parts, those of their main colours in another one."""
-    main = {
-        each for each in {one.colour for one in parts}
-        if share_of(parts, lambda part, each=each: part.colour == each) >= _REPAINTED
-    }  # fmt: skip
+
+    def is_main(old: Colour) -> bool:
+        return share_of(parts, lambda part: part.colour == old) >= _REPAINTED
+
+    main = {one for one in {part.colour for part in parts} if is_main(one)}
     return [replace(one, colour=colour) if one.colour in main else one for one in parts]

@@ -68,6 +68,8 @@ class PlaceModel:
     """Additional height of things that fly."""
     is_backdrop: bool = False
     """Whether it is a background without horizon and stars."""
+    is_cleared: bool = False
+    """Whether nothing stands in it where it is empty; else only people, animals and traffic go."""
     scenery: tuple[Scenery, ...] = field(default=())
 
     @property

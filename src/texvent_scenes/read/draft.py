@@ -351,6 +351,13 @@ class SceneDraft(Abilities):
         self.things += [part] if count else []
         return part
 
+    def stack(self, own: int) -> None:
+        """Put each copy of an object on top of another one."""
+        parts = [self._part(own, 1) for _ in range(self.things[own]["count"] - 1)]
+        below = [own, *range(len(self.things) - len(parts), len(self.things))]
+        for part, index in zip(parts, below, strict=False):
+            part["relations"] = [{"kind": "on", "to": (index,)}]
+
     def take_turns(self, own: int) -> None:
         """Let copies of an object begin one after the other; what topples stands in a row."""
         thing = self.things[own]

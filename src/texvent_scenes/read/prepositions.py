@@ -72,10 +72,20 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     if phrase.preposition.text == "with" and draft.names_tool(subjects, words):
         draft.show(phrase.preposition, *words)
         return True
+    if phrase.preposition.text == "with" and subjects and _are_built_in(draft, phrase, subjects):
+        return True
     is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
     if is_so and all(map(draft.shows, _list_words(phrase.groups[0]))):
         draft.show(phrase.preposition)
     return is_so
+
+
+def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether it names parts in a number that is not drawn: "a bus with two doors"."""
+    nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
+    is_own = any(word.text in owned_parts() for one in phrase.groups for word in _list_words(one))
+    is_body = not any(map(draft.walks, subjects))
+    return bool(nouns) and {*nouns} <= word_set("things", "built_in") and is_body and not is_own
 
 
 def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:

@@ -25,7 +25,8 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
-    related = [_relate(_see_as_verb(one, tokens), tokens) for one in tokens]
+    named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
+    related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
     seen = [_see_beside(one, chosen) for one in chosen]
     return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
@@ -39,6 +40,16 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     is_verb = before.text in word_set("things", "begun") and is_plural
     is_verb &= not (after.has("verb") or after.text == "and")  # "then cars drive by"
     return replace(token, senses=()) if is_verb and not token.has("verb") else token
+
+
+def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as a word that is not known, if it is no thing: "behind dusty glass"."""
+    if token.text not in word_set("things", "masses"):
+        return token
+    led = [one for one in tokens[: token.at] if one.has("relation", "articles", "small", "verb")]
+    before, last = ([NO_TOKEN, NO_TOKEN, *led])[-2:]
+    is_pane = last.text == "the" and before.text in ("through", "behind")
+    return replace(token, senses=()) if is_pane or not last.has("articles", "verb") else token
 
 
 def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Token:

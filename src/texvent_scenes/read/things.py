@@ -83,6 +83,9 @@ class ThingReader:
         if head is not None and relation in word_set("things", "by_effects"):
             head = _see_as_thing(head)
             group = replace(group, head=head)
+        if head is not None and (formed := _list_formed(group, head)):
+            self._draft.mark(head, "lost")
+            return [index for one in formed for index in self._name(one, relation, owners)]
         if head is not None and names_place(head, relation) and not is_trajectory(group):
             self._draft.set_place(group, head, relation)
         elif head is not None and head.has("noun", "pose"):
@@ -159,6 +162,8 @@ class ThingReader:
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
                 self._draft.set_place(Group(token), token, "")
+        if any(one.text in word_set("things", "stacks") for one in group.modifiers):
+            draft.stack(index)
         self._nearest = [index]
         return [index]
 
@@ -195,6 +200,8 @@ class ThingReader:
                 continue
             if token.text in word_set("things", "rows"):
                 draft.claim(token, "row", "along", [index])
+            if token.text in word_set("things", "heaps"):
+                draft.claim(token, "stack", "", [index])
             is_side = token.text in ("left", "right")  # "the left ball"
             draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
             draft.things[index] |= {"placement": token.text} if is_side else {}
@@ -233,8 +240,13 @@ class ThingReader:
         draft.show(token)
 
     def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
-        """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h"."""
+        """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h".
+
+        A dark tunnel is not painted.
+        """
         draft, state = self._draft, states().get(token.text)
+        if field == "colour" and token.text in word_set("things", "shades"):
+            return self._are_lit(subjects)
         acts = [self._nouns[draft.things[index]["noun"]].acts for index in subjects]
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
@@ -250,6 +262,13 @@ class ThingReader:
         is_way = is_still and draft.set_journey(field, value)
         draft.show(*([token] if is_way else []))
         return is_way
+
+    def _are_lit(self, subjects: Sequence[int]) -> bool:
+        """Whether some are dark where no light is, as what people go into and what shines."""
+        rooms = nouns_with("passage") | nouns_with("has a door") | nouns_with("closed")
+        nouns = {self._draft.things[index]["noun"] for index in subjects}
+        fixed = {one for one in nouns if self._nouns[one].speed_m_s == 0.0}
+        return bool(fixed & (rooms | LAMPS.keys()))
 
     def _blow(self, index: int) -> bool:
         """Let things sway in the wind; whether the wind shows in their motion."""
@@ -428,6 +447,16 @@ class ThingReader:
                 thing["blink_hz"] = BLINK_HZ
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+def _list_formed(group: Group, head: Token) -> Sequence[Group]:
+    """Groups of what has the shape that a head names, which is no thing: "a pyramid of cans"."""
+    parts = group.of.groups if group.of is not None else ()
+    is_shape = any(one.value.noun in word_set("things", "formed") for one in head.all("noun"))
+    return parts if is_shape and all(
+        one.head is not None and not one.article
+        and one.head.has("noun", "effect") and not one.head.has("field") for one in parts
+    ) else ()  # fmt: skip
 
 
 @cache

@@ -184,6 +184,7 @@ def _read_phrase(
             found = ()  # "the cat's" alone: whose, not what
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
+            found = () if _is_shade(words, end, lexicon) else found
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
             dropped = {"noun"} if is_thing else set()
             if is_thing and words[end] == "camera" and words[at].endswith("ing"):
@@ -197,6 +198,15 @@ def _read_phrase(
     if is_number:
         return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
     return length, senses
+
+
+def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
+    """Whether a phrase says what a thing is like that follows: "in a dark suit"."""
+    after = tuple(one.casefold() for one in words[end + 1 : end + 2])
+    senses = lexicon.get(after, ())
+    is_plural = not senses and any(one.endswith("s") and len(one) > 3 for one in after)  # "clothes"
+    is_led = words[end - 1] in ("a", "an") or is_plural or any(one.kind == "noun" for one in senses)
+    return is_led and words[end].casefold() in word_set("things", "shades")
 
 
 def _as_senses(found: Found) -> tuple[int, Senses]:

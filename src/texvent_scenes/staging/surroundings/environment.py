@@ -243,6 +243,8 @@ _SNOWED_OVER = (
     Ground.PLAIN, Ground.SAND,
 )  # fmt: skip
 """Grounds whose grass or paving is white when snow lies on it."""
+_SNOW_SHARES = {Ground.GRASS: 1.0, Ground.CITY: 0.5}
+"""Share of white in the second colour of grounds under snow: of blades, of a street."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _DARKER, _LEAST_CONTRAST = 0.1, 1.0
 """Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
@@ -386,7 +388,8 @@ def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
     colour, second = place.colours
     if said.has_snow and place.ground in _SNOWED_OVER:
         colour = SNOW
-        second = SNOW if place.ground is Ground.GRASS else second
+        share = _SNOW_SHARES.get(place.ground, 0.0)
+        second = mix(second, SNOW, share)
     paint = rgb_of(said.colour)
     if paint is not None:
         # Grass is darker than paint: blades shade one another.
