@@ -98,8 +98,8 @@ def _scatter(kind: str, actor: Actor, setting: Setting) -> list[Emitter]:
     source = replace(_source(kind, body, setting), floor_m=floor_m)
     parts = actor.model.parts(actor.pose(begin_s))
     bulks = np.array([abs(float(np.linalg.det(one.to_body[:, :3]))) for one in parts])
-    large = (parts[n] for n in np.flatnonzero(bulks >= _LARGE * bulks.max()))
-    colours = tuple(dict.fromkeys(tuple(float(c) for c in one.colour) for one in large))
+    large = [one for one, bulk in zip(parts, bulks, strict=True) if bulk >= _LARGE * bulks.max()]
+    colours = tuple(dict.fromkeys(one.colour for one in large))
     rng = seeded(setting.seed, "pieces", actor.instance)
     return [
         Emitter.of(replace(style, colours=style.colours or colours), source, setting, rng,
