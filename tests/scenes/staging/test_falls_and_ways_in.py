@@ -82,7 +82,7 @@ def test_what_goes_into_something_comes_down_through_its_rim(text, noun, target)
     to_world = goal.track.at(0.0).to_world()
     middle = to_world @ [rim.x, 0.0, rim.height, 1.0]
     places = np.array([ball.track.at(at).position for at in np.linspace(0.0, CLIP_S, 2001)])
-    places[:, 2] += ball.lift_m
+    places[:, 2] += 0.5 * ball.lift_m
     below = np.flatnonzero((places[:-1, 2] > middle[2]) & (places[1:, 2] <= middle[2]))
     aside = np.linalg.norm(places[below, :2] - middle[:2], axis=1)
     assert not faults(text)
