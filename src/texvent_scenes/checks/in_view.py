@@ -6,6 +6,7 @@ What is said of light, sky, ground, weather and effects must change the pixels o
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
@@ -134,7 +135,7 @@ def find_unseen(
     unseen, partly = {*scene.missing}, set[int]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
-        seen_own = [views[one.instance] for one in own]
+        seen_own = [_until_broken(one, views[one.instance], times) for one in own]
         bodies.append([body_of(one, cameras, times) for one, view in zip(own, seen_own, strict=True)
                        if view.pixels])  # fmt: skip
         if own:
@@ -214,6 +215,13 @@ def _judge(
     if inside < 2 and (not is_related or most < _FILLED[inside == 0] * area):
         return _Judged(" (cut off)", is_partly=bool(inside) or most >= part * area)
     return _Judged(is_unseen=False)
+
+
+def _until_broken(one: Actor, view: View, times: Sequence[float]) -> View:
+    """What is seen of a body until it breaks: then only its pieces are left."""
+    if one.breaks_s is None:
+        return view
+    return view._replace(at=tuple(itertools.compress(view.at, (t < one.breaks_s for t in times))))
 
 
 def _is_entered(one: Actor, view: View, clip: _Clip) -> bool:

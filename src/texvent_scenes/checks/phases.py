@@ -67,6 +67,8 @@ def find_undone(
             kind, line = phase.motion.kind, f"the {said.noun}'s {phase.motion.kind}"
             if kind == "break":
                 continue  # only pieces of it are left
+            ends_s = [one.breaks_s for one in own if one.breaks_s is not None]
+            within = [n for n in within if not ends_s or times[n] <= max(ends_s)]
             shown = [any(seen[one.instance][n] for one in own) for n in within] or [True]
             if not any(shown) or (kind not in GOING and np.mean(shown) < _MOST_SEEN):
                 yield Violation("motion", kind, f"{line}: it is not in view then")

@@ -233,8 +233,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "lie": is_laid, "shine": _shines, "hold": _each_holds,
     "act on": handles, "in_mouth": has_in_mouth,
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
-    "mutual": _are_mutual, "bounce": bounces, "break": breaks, "camera out": comes_out,
-    SEEN: lambda *_: True,
+    "mutual": _are_mutual, "bounce": bounces, "break": breaks, SEEN: lambda *_: True,
+    "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip

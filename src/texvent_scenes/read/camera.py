@@ -42,7 +42,7 @@ def is_shot(clause: Clause) -> bool:
 
 
 def go_through(
-    draft: SceneDraft, move: dict[str, Any], targets: Sequence[int], *, is_out: bool = False
+    draft: SceneDraft, move: dict[str, Any], preposition: Token, targets: Sequence[int]
 ) -> bool:
     """Lead a camera that goes ahead through what has a way through, or out; whether it has one."""
     is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
@@ -51,6 +51,8 @@ def go_through(
         return False
     if move["kind"] == "dolly":
         move |= split_move("travel forward") | {"means": "walk"}
+    is_out = preposition.text == "out of"
+    draft.claim(preposition, "camera out", "", [None] if is_out else [], targets)
     for thing in (draft.things[one] for one in targets):
         opens = "stand open" in draft.nouns[thing["noun"]].acts
         thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens

@@ -362,6 +362,13 @@ def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
     return "" if is_table else "beside"
 
 
+def _see_inside(kind: str, habitat: str, noun: str) -> str:
+    """A relation as that to what is in it: "fish swim around a bowl", "a ball through a hoop"."""
+    if kind == "around" and habitat == "water" and noun in nouns_with("see-through"):
+        return "in"
+    return "into" if kind == "through" and noun in trait_values("rim") else kind
+
+
 def _use(thing: Mapping[str, Any], noun: str) -> str:
     """Relation to what is used in an act: "pours milk into a cup"; "" = it is not."""
     props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
@@ -372,8 +379,7 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
-    if kind == "through" and noun in trait_values("rim"):
-        kind = "into"
+    kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]

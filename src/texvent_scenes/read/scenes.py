@@ -424,11 +424,8 @@ class _SentenceReader(ThingReader):
                 is_swept = turns and one.preposition.text in word_set("things", "swept")
                 targets += found if is_swept else []
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
-                is_out = kind == "out of"
-                if found and (is_out or kind == "through"):
-                    is_side = move is None or not go_through(draft, move, found, is_out=is_out)
-                if found and is_out:
-                    draft.claim(one.preposition, "camera out", "", [None], found)
+                if found and kind in ("through", "out of"):
+                    is_side = move is None or not go_through(draft, move, one.preposition, found)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

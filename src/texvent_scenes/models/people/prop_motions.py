@@ -28,17 +28,18 @@ class Toss:
     up: float
     """Greatest height, m."""
     turns: float = 0.0
-    """Turns about an axis along y through `centre` in each flight."""
+    """Turns about an axis through `centre` in each flight."""
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
     start: float = 0.0
     """Instant of the cycle at which it leaves, as a share."""
+    axis: str = "y"
 
     def place(self, parts: Parts, time_s: float) -> list[ModelPart]:
         """The parts at that instant."""
         flown_s = math.sqrt(8.0 * self.up / _GRAVITY_M_S2)
         into = min(((time_s * self.hz - self.start) % 1.0) / self.hz, flown_s)
         height = 0.5 * _GRAVITY_M_S2 * into * (flown_s - into)
-        turn = turn_about("y", 2.0 * math.pi * self.turns * into / flown_s, self.centre)
+        turn = turn_about(self.axis, 2.0 * math.pi * self.turns * into / flown_s, self.centre)
         turn[2, 3] += height
         return moved(parts, turn)
 

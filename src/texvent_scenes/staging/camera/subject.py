@@ -11,6 +11,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -142,6 +143,8 @@ def _tells_as_a_whole(kind: str, description: SceneDescription, index: int) -> b
         return True
     if kind == "through":
         return noun in nouns_with("passage")
+    if kind == "into":
+        return has_rim(noun)
     return kind == "in" and trait_value("container", noun) is not None
 
 

@@ -12,9 +12,10 @@ from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.tracks.phases import schedule
 
-_SHARE, _LEAST_FALL, _TOUCHING = 0.4, 0.5, 0.02
+_SHARE, _LEAST_FALL, _TOUCHING, _FALLEN = 0.4, 0.5, 0.02, 0.8
 """Share of the clip after which what only breaks does so; least fall, in heights of the body, that
-ends with it; height above the lowest point at which it touches the floor, in its own."""
+ends with it; height above its lowest place at which it touches the floor, in its own; share of the
+fall after which it may: what tumbles touches it with an edge first."""
 _RATE_HZ, _HALVINGS = 60.0, 14
 """Instants per second at which a contact is looked for, and steps that make it exact."""
 
@@ -41,7 +42,9 @@ def _find_instant(actor: Actor, said: Sequence[Motion], duration_s: float) -> fl
         phases = [one for one in schedule(said, duration_s) if one.motion.kind == "break"]
         begin_s = phases[0].start_s if phases else duration_s
         return begin_s or _SHARE * duration_s
-    level_m = float(low.min()) + _TOUCHING * size_m
+    deep = low <= low.min() + (1.0 - _FALLEN) * (low[0] - low.min())
+    lowest = deep & (low <= np.roll(low, 1)) & (low <= np.roll(low, -1))
+    level_m = float(low[np.argmax(lowest)]) + _TOUCHING * size_m
     later = int(np.argmax(low <= level_m))
     begin_s, end_s = float(times[max(later - 1, 0)]), float(times[later])
     for _ in range(_HALVINGS):

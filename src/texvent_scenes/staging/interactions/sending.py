@@ -10,10 +10,12 @@ from texvent_scenes.models.tables import trait_value
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, ahead
 
+_ABOVE_M = 0.35
+"""Height above a rim that what is thrown up to it reaches, m."""
 _LOB_S, _FAR_M, _NEAR_M, _LOW_NET, _NET_M, _IN_NET = 0.9, 4.5, 2.4, 0.4, 0.45, 0.25
 """Time and ways to what something is sent into, at most, the second to a rim below who throws;
-share of its height at which a net is hit; from a goal's line to the net; share of the speed that
-a bounce in there keeps."""
+share of its height at which a net is hit; from a goal's line to the net; share of the
+speed that a bounce in there keeps."""
 
 
 def send_into(
@@ -33,6 +35,9 @@ def send_into(
     flown_s = min(max(0.5 * (duration_s - sent_s), 0.3), _LOB_S)
     x, y, z = track.start
     is_near = rim is not None and level_m + rim.height < z
+    if rim is not None and not is_near:  # up over the rim, and down through it
+        risen_m = level_m + rim.height - thing.lift_m - z + _ABOVE_M
+        flown_s = math.sqrt(2.0 * risen_m / GRAVITY_M_S2) + math.sqrt(2.0 * _ABOVE_M / GRAVITY_M_S2)
     speed = min(track.keys[-1].speed_m_s, (_NEAR_M if is_near else _FAR_M) / flown_s)
     if rim is not None:  # down through it
         way_m, met_m = speed * flown_s, level_m + rim.height
@@ -47,7 +52,7 @@ def send_into(
     put = replace(goal.track, start=ahead((x, y, level_m), track.yaw, place_m, level_m), yaw=yaw)
     up = (met_m - thing.lift_m - z) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
     fly = replace(track.keys[-1], duration_s=flown_s, speed_m_s=speed, climb_m_s=up, ramp_s=0.0)
-    after = replace(fly, duration_s=1.0, speed_m_s=0.0, ramp_s=0.06, restitution=_IN_NET,
+    after = replace(fly, duration_s=1.0, speed_m_s=0.0, ramp_s=0.02, restitution=_IN_NET,
                     climb_m_s=min(up - GRAVITY_M_S2 * flown_s, 0.0))  # fmt: skip
     terms = (one._replace(end_s=sent_s + flown_s) if one.drift else one for one in track.terms)
     sent = replace(track, keys=(*track.keys[:-1], fly, after), terms=tuple(terms), floor_m=floor_m)

@@ -98,9 +98,8 @@ def _scatter(kind: str, actor: Actor, setting: Setting) -> list[Emitter]:
     source = replace(_source(kind, body, setting), floor_m=floor_m)
     parts = actor.model.parts(actor.pose(begin_s))
     bulks = np.array([abs(float(np.linalg.det(one.to_body[:, :3]))) for one in parts])
-    least = _LARGE * bulks.max()
-    large = (part.colour for part, bulk in zip(parts, bulks, strict=True) if bulk >= least)
-    colours = tuple(dict.fromkeys((float(r), float(g), float(b)) for r, g, b in large))
+    large = [one for one, bulk in zip(parts, bulks, strict=True) if bulk >= _LARGE * bulks.max()]
+    colours = tuple(dict.fromkeys(one.colour for one in large))
     rng = seeded(setting.seed, "pieces", actor.instance)
     return [
         Emitter.of(replace(style, colours=style.colours or colours), source, setting, rng,

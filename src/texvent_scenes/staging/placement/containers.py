@@ -18,6 +18,8 @@ from texvent_scenes.staging.tracks.track import Track, centred
 
 _TURN_SHARE = 0.16
 """Share of the clip in which what goes to and fro in a container turns round."""
+_LEAST_RING = 0.4
+"""Least radius of the ring in which swimmers follow each other, in their lengths."""
 SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 """Share of the height of what is in something that looks out of it; of an animal, whose ears reach
 above its head."""
@@ -57,6 +59,12 @@ def depth_in(group: ObjectGroup, target: ObjectGroup) -> float:
 def go_inside(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
     """Have what goes somewhere go to and fro in the container along its longer side."""
     plan, own = group.plan, group.models[0]
+    if group.noun.habitat == "water":  # one behind the other in a ring
+        group.orbits, group.offsets = target, [(0.0, 0.0, 0.0)] * len(group.models)
+        half_m = 0.5 * float(np.subtract(support.high, support.low).min())
+        group.ring_m = max(half_m - 0.5 * own.width, _LEAST_RING * own.length)
+        group.plan = replace(plan, motion=replace(plan.motion, kind="orbit"))
+        return
     sides = np.subtract(support.high, support.low)
     way_m = max(float(sides.max()) - 1.1 * max(own.length, own.width), 0.02)
     speed = way_m / (0.5 * (1.0 - _TURN_SHARE) * plan.duration_s)

@@ -54,6 +54,8 @@ class ObjectGroup:
     centre: Float64Array = field(default_factory=lambda: np.zeros(3))
     carrier: ObjectGroup | None = None
     orbits: ObjectGroup | None = None
+    ring_m: float | None = None
+    """Radius of the ring about that, m; None = outside of it."""
     yaws: list[float] | None = None
     """Heading of each copy, where they differ."""
     on_chairs: bool = False

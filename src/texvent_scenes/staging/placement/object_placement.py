@@ -383,6 +383,7 @@ class ObjectPlacer:
             reach += 0.1 * group.orbits.size_m
             if group.noun.name in PERSON_NOUNS:  # close round it, and so far round
                 reach = group.orbits.reach_below(group.top_m) + _PACE * group.size_m
+            reach = group.ring_m if group.ring_m is not None else reach
             home = (float(x), float(y), float(group.centre[2]))
             return orbit(group.plan, home, reach, number / len(group.models))
         if group.carrier is not None:

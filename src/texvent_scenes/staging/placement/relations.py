@@ -356,7 +356,8 @@ def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         is_long = group.models[0].length > reach_m
         turns = is_wide + is_long
         group.plan = replace(group.plan, yaw=target.plan.yaw + 0.5 * math.pi * turns)
-    if group.plan.is_path and group.carrier is None:
+    is_circling = group.plan.motion.kind == "orbit" and group.noun.habitat == "water"
+    if (group.plan.is_path or is_circling) and group.carrier is None:
         go_inside(group, target, support)
     group.fit()
     return target.to_world(*support.middle, depth_in(group, target) + group.origin_m)

@@ -317,7 +317,8 @@ def build_environment(
     """The surroundings of a scene.
 
     Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
-    the room, where the place is one, or of the length of a corridor, half `corridor_m` wide.
+    the room, where the place is one; half the length of a corridor, of which `corridor_m` is half
+    the width.
     """
     lighting, said = choose_lighting(place, description.light), description.place
     colour, second = _ground_colours(place, said)

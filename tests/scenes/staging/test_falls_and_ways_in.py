@@ -1,0 +1,163 @@
+"""What breaks, what comes down into something, and places that one moves through."""
+
+import itertools
+from functools import cache
+
+import numpy as np
+import pytest
+
+from texvent.sensor import SensorSize
+from texvent_scenes.models.anchors import find_rim
+from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.staged_prompt import stage
+
+SIZE, CLIP_S = SensorSize(173, 130), 2.0
+
+
+@cache
+def staged(text):
+    """The staged scene of a sentence, and its report."""
+    nouns = list_nouns()
+    scene = understand(text, nouns)
+    return stage(scene, scene.words, nouns, seed=0, size=SIZE, duration_s=CLIP_S)[:2]
+
+
+def faults(text):
+    said = staged(text)[1]
+    return [*said.not_understood, *said.not_shown, *said.out_of_view, *said.substituted]
+
+
+def actor_of(text, noun):
+    return next(one for one in staged(text)[0].actors if one.noun.name == noun)
+
+
+def pieces(scene, time_s):
+    """[n, 3] places of the pieces at an instant, those that are not there left out."""
+    places = [one.at(time_s).to_world for one in scene.particles.effects]
+    found = np.concatenate(places)
+    is_there = np.linalg.norm(found[:, :, :3], axis=(1, 2)) > 1e-4
+    return found[is_there][:, :, 3]
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "is_on_floor"),
+    [("a green balloon bursts", "balloon", False), ("a mug falls and breaks", "mug", True),
+     ("a bottle falls off the table and shatters", "bottle", True),
+     ("a girl drops a plate and it smashes", "plate", True)],
+)  # fmt: skip
+def test_pieces_of_what_breaks_fly_from_where_it_was_and_come_to_rest(text, noun, is_on_floor):
+    scene, one = staged(text)[0], actor_of(text, noun)
+    at = one.breaks_s
+    assert not faults(text)
+    assert 0.1 < at < 0.9 * CLIP_S
+    assert not len(pieces(scene, at - 1e-3))
+    corners, born = one.corners(at), pieces(scene, at + 1e-4)
+    room = 0.1 * one.size_m
+    assert len(born) >= 10
+    assert (born > corners.min(axis=0) - room).all()
+    assert (born < corners.max(axis=0) + room).all()
+    assert np.linalg.det(one.place(at + 1e-3).to_world[:, :3]) < 1e-9
+    assert (one.lowest_m(at - 1e-3) < 0.15 * one.size_m) == is_on_floor
+    last, before = pieces(scene, CLIP_S), pieces(scene, CLIP_S - 0.05)
+    assert last[:, 2].min() > -1e-3
+    assert (np.abs(last - before).max() < 1e-9) == is_on_floor
+
+
+@pytest.mark.parametrize("text", ["a dog breaks", "a car shatters", "a man bursts"])
+def test_what_has_no_pieces_does_not_break(text):
+    assert {"breaks", "shatters", "bursts"} & {*staged(text)[1].not_understood}
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "target"),
+    [("a basketball flies through the hoop", "basketball", "basketball hoop"),
+     ("a tennis ball drops into a bucket", "tennis ball", "bucket"),
+     ("a golf ball rolls into the hole", "golf ball", "golf hole"),
+     ("a woman throws a ball into a bin", "ball", "dustbin"),
+     ("a boy throws a basketball into the hoop", "basketball", "basketball hoop")],
+)  # fmt: skip
+def test_what_goes_into_something_comes_down_through_its_rim(text, noun, target):
+    ball, goal = actor_of(text, noun), actor_of(text, target)
+    rim = find_rim(goal.noun.name, goal.model)
+    to_world = goal.track.at(0.0).to_world()
+    middle = to_world @ [rim.x, 0.0, rim.height, 1.0]
+    places = np.array([ball.track.at(at).position for at in np.linspace(0.0, CLIP_S, 2001)])
+    places[:, 2] += 0.5 * ball.lift_m
+    below = np.flatnonzero((places[:-1, 2] > middle[2]) & (places[1:, 2] <= middle[2]))
+    aside = np.linalg.norm(places[below, :2] - middle[:2], axis=1)
+    assert not faults(text)
+    assert aside.min() < rim.radius
+    assert np.linalg.norm(places[-1, :2] - middle[:2]) < 0.5 * max(goal.size_m, 0.15)
+
+
+def test_what_is_too_large_for_a_cup_is_not_said_to_be_in_it():
+    assert "into" in " ".join(faults("a basketball falls into a cup"))
+
+
+def test_a_ball_that_is_kicked_into_a_net_stays_there():
+    text = "a girl kicks a football into the net"
+    ball, goal = actor_of(text, "football"), actor_of(text, "goal")
+    place = ball.middle(CLIP_S) - goal.track.at(0.0).to_world()[:, 3]
+    x, y, _ = place @ goal.track.at(0.0).to_world()[:, :3]
+    assert not faults(text)
+    assert -1.2 < x < 0.0
+    assert abs(y) < 2.5
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "walking down a hallway",
+        "a woman walks along a corridor",
+        "a dog runs down a hotel corridor",
+    ],
+)
+def test_a_corridor_is_narrow_and_leads_ahead(text):
+    scene, *_ = staged(text)
+    around = scene.environment(0.0)
+    camera = scene.camera(0.0)
+    assert not faults(text)
+    assert around.corridor_half_width < 2.5 < 0.3 * around.room_half_size
+    assert abs(camera.rotation[2][1]) > 0.9
+    assert abs(camera.position[0]) < around.corridor_half_width
+
+
+@pytest.mark.parametrize("text", ["driving out of a tunnel", "driving out of a tunnel at dusk"])
+def test_a_camera_comes_out_of_a_tunnel(text):
+    scene, tunnel = staged(text)[0], actor_of(text, "tunnel")
+    (_, first, _), (_, last, _) = (scene.camera(at).position for at in (0.0, CLIP_S))
+    low, high = tunnel.corners(0.0)[:, 1].min(), tunnel.corners(0.0)[:, 1].max()
+    assert not faults(text)
+    assert low < first < high < last
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "target"),
+    [("goldfish swimming in a bowl", "goldfish", "fish bowl"),
+     ("a clownfish swims around an aquarium", "clownfish", "aquarium")],
+)  # fmt: skip
+def test_fish_swim_round_in_their_bowl_and_apart(text, noun, target):
+    scene, bowl = staged(text)[0], actor_of(text, target)
+    fish = [one for one in scene.actors if one.noun.name == noun]
+    ways = np.array([[one.middle(at) for at in np.linspace(0.0, CLIP_S, 25)] for one in fish])
+    corners = bowl.corners(0.0)
+    assert not faults(text)
+    assert (ways > corners.min(axis=0)).all()
+    assert (ways < corners.max(axis=0)).all()
+    assert np.ptp(ways, axis=1).max() > 0.5 * fish[0].model.length
+    for one, other in itertools.pairwise(ways):
+        assert np.linalg.norm(one - other, axis=1).min() > 0.3 * fish[0].model.length
+
+
+@pytest.mark.parametrize(
+    ("text", "turns"),
+    [("a skateboarder does a kickflip", True), ("a boy doing an ollie", False)],
+)
+def test_a_board_leaves_the_ground_and_turns_over_in_a_kickflip(text, turns):
+    person, times = staged(text)[0].actors[0], np.linspace(0.0, CLIP_S, 61)
+    boards = [person.props[0].draw(at)[0].to_body for at in times]
+    height = np.array([one[2, 3] for one in boards])
+    tops = np.array([one[2, 2] for one in boards])
+    assert not faults(text)
+    assert np.ptp(height) > 0.2
+    assert (np.sign(tops).min() < 0.0) == turns
