@@ -52,11 +52,8 @@ def find_unlike(
         is_so = all if bodies else any
         if rgb is not None and not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
             yield Violation("colour", str(thing.colour), "")
-        named = MATERIALS.get(thing.material or "")
-        if named is not None and not is_so(
-            share_of(each, lambda part, kind=named.texture: part.texture is kind) >= _MOST
-            for each in drawn
-        ):  # fmt: skip
+        kind = MATERIALS[thing.material].texture if thing.material else None
+        if kind is not None and not is_so(is_made_of(each, kind) for each in drawn):
             yield Violation("material", str(thing.material), "")
         counts = [prop.count for prop in props] if not bodies else []
         if counts and thing.count not in (sum(counts), *counts):
@@ -94,7 +91,7 @@ def _is_flat(actor: Actor) -> bool:
 
 
 def _made_of(*textures: Texture) -> Callable[[Actor], bool]:
-    return lambda actor: is_made_of(actor, *textures)
+    return lambda actor: is_made_of(actor.own_parts(_REST), *textures)
 
 
 _LOOKS: Mapping[str, Callable[[Actor], bool]] = {

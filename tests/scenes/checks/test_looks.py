@@ -62,6 +62,7 @@ def test_a_look_is_shown_of_what_has_it(text, word, is_so):
         ("a pyramid in the desert", {"pyramid"}, set()),
         ("a bus with two doors", {"bus"}, {"two", "doors"}),
         ("a dark tunnel", {"tunnel"}, {"dark"}),
+        ("a square red box", {"red", "box"}, {"square"}),
         ("a man in a dark suit walks", {"dark", "suit", "walks"}, set()),
         ("a woman in a red dress and a white hat walks", {"white", "hat", "walks"}, set()),
     ],
