@@ -235,8 +235,9 @@ class GroupReader:
         nouns = [one.value for one in self._token(-1).all("noun")]
         is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
-        is_lone = is_inert and not article and self._at == first + 1  # "wears oven gloves"
-        is_lone &= self._token(-2).has("verb", "relation") and not self._token(-2).has("noun")
+        led = self._tokens[first - 1] if first else NO_TOKEN
+        is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
+        is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"

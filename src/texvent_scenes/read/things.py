@@ -97,7 +97,9 @@ class ThingReader:
             self._light_own(group)
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
-                if not self._draft.set_scene(token) and effect is not None:
+                is_mark = relation == "with" and any(map(self._draft.walks, owners))
+                is_mark &= effect is not None and effect.value in word_set("things", "marks")
+                if not (self._draft.set_scene(token) or is_mark) and effect is not None:
                     self._draft.add_effect(token, effect.value, owners)
         for content in group.of.groups if group.of is not None else ():
             self._fill(found, content)
