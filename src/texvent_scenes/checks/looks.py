@@ -52,17 +52,12 @@ def find_unlike(
         is_so = all if bodies else any
         if rgb is not None and not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
             yield Violation("colour", str(thing.colour), "")
-        named = MATERIALS.get(thing.material or "")
-        if named is not None and not is_so(_is_of(each, named.texture) for each in drawn):
+        kind = MATERIALS[thing.material].texture if thing.material else None
+        if kind is not None and not is_so(is_made_of(each, kind) for each in drawn):
             yield Violation("material", str(thing.material), "")
         counts = [prop.count for prop in props] if not bodies else []
         if counts and thing.count not in (sum(counts), *counts):
             yield Violation("count", thing.count, "")
-
-
-def _is_of(parts: Sequence[ModelPart], texture: Texture) -> bool:
-    """Whether most of the surface of some parts has a texture."""
-    return share_of(parts, lambda part: part.texture is texture) >= _MOST
 
 
 def _count_hues(parts: Sequence[ModelPart]) -> int:
@@ -96,7 +91,7 @@ def _is_flat(actor: Actor) -> bool:
 
 
 def _made_of(*textures: Texture) -> Callable[[Actor], bool]:
-    return lambda actor: is_made_of(actor, *textures)
+    return lambda actor: is_made_of(actor.own_parts(_REST), *textures)
 
 
 _LOOKS: Mapping[str, Callable[[Actor], bool]] = {

@@ -33,12 +33,14 @@ def is_of_material(
 ) -> bool:
     """Whether most of each has the texture of a material."""
     texture = materials.MATERIALS[str(claim.value)].texture
-    return texture is not Texture.PLAIN and all(is_made_of(one, texture) for one in own)
+    return texture is not Texture.PLAIN and all(
+        is_made_of(one.own_parts(_REST), texture) for one in own
+    )
 
 
-def is_made_of(actor: Actor, *textures: Texture) -> bool:
+def is_made_of(parts: Sequence[ModelPart], *textures: Texture) -> bool:
     """Whether most of the surface of a body has one of the textures."""
-    return materials.share_of(actor.own_parts(_REST), lambda one: one.texture in textures) >= _MOST
+    return materials.share_of(parts, lambda one: one.texture in textures) >= _MOST
 
 
 def is_moving_inside(

@@ -19,6 +19,8 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
 """Size of a coarse image; distance of a point of the horizon, m."""
+_LEAST_SKY = 0.02
+"""Least share of an image in which the sky is seen."""
 _LEVEL_M, _WAVES_M, _ROUNDING, _LEAST_SHARE, _LEAST_SHORE = 0.05, 0.4, 1e-3, 0.005, 0.03
 """Height up to which a point is of the ground, and of ground with waves, m, and more per metre of
 distance; least shares of an image that the ground takes, and the land or water of a shore."""
@@ -53,6 +55,9 @@ def find_unseen_place(
     if wide_m is not None and wide_m > _WIDE * scene.place.corridor_m:
         yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
+    if said.clouds and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
+        yield Violation("clouds", "", "clouds: the sky is out of view")
+        yield Violation("place", "sky", "")
     if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
@@ -100,6 +105,13 @@ def _has_shore(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool
     wet = wet_share(scene, ground_m) if len(ground_m) else 0.0
     own = wet if _has_water_name(scene) else 1.0 - wet
     return own * share >= _LEAST_SHORE
+
+
+def _share_of_sky(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:
+    """Share of an image that nothing stands before."""
+    x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
+    depth, _ = visible_instances(scene, time_s, _SIZE, np.stack([x, y], axis=-1).reshape(-1, 2))
+    return float(np.mean(~np.isfinite(depth)))
 
 
 def _share_of_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:

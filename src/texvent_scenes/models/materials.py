@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -249,11 +250,11 @@ def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST
     return share_of(parts, is_like) >= least
 
 
+def _is_like(one: ModelPart, other: ModelPart) -> bool:
+    return one.colour == other.colour
+
+
 def repaint(parts: Sequence[ModelPart], colour: Colour) -> list[ModelPart]:
     """The parts, those of their main colours in another one."""
-
-    def is_main(old: Colour) -> bool:
-        return share_of(parts, lambda part: part.colour == old) >= _REPAINTED
-
-    main = {one for one in {part.colour for part in parts} if is_main(one)}
+    main = {one.colour for one in parts if share_of(parts, partial(_is_like, one)) >= _REPAINTED}
     return [replace(one, colour=colour) if one.colour in main else one for one in parts]

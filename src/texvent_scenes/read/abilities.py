@@ -31,17 +31,10 @@ def can_be_worn(noun: str) -> bool:
     return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
-def is_of_hands(act: VerbSense, nouns: Sequence[str]) -> bool:
-    """Whether only people do an act, to nouns or to nothing."""
-    if act.object in TIMED and act.relation == "at":
-        return bool(nouns)
-    if act.relation == "act on":
-        return bool(nouns) and act.who == "person" and {*nouns} <= nouns_upon(act.kind)
-    if nouns and act.relation is None:
-        used = {noun for prop in list_props(act.kind) for noun in prop.nouns}
-        return act.who == "person" and {*nouns} <= used
-    is_handled = bool(nouns or act.brings) and act.relation in word_set("things", "of_people")
-    return is_handled or (act.who == "person" and not nouns)
+def is_of_people(act: VerbSense) -> bool:
+    """Whether only people do an act."""
+    is_timed = act.object in TIMED and act.relation == "at"
+    return act.who == "person" or is_timed or act.relation in word_set("things", "of_people")
 
 
 class Abilities:

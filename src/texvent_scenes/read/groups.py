@@ -229,7 +229,12 @@ class GroupReader:
         return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self, article: str, first: int) -> bool:
-        """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
+        """Whether the word that follows is the head: "dog house", "a square red box"."""
+        ahead = 0
+        while article and self._token(ahead).has("field") and not _counts(self._token(ahead)):
+            ahead += 1
+        if ahead and self._token(ahead).has("noun") and self._agrees(article, first, ahead):
+            return True
         after, before = self._token(), [one.value.noun for one in self._token(-1).all("noun")]
         is_base = {one.form for one in after.all("verb")} == {"base"} and not after.has("relation")
         is_named = is_base and article in ("a", "an")  # no verb of one: "across a car park"
@@ -239,10 +244,12 @@ class GroupReader:
         nouns = [one.value for one in self._token(-1).all("noun")]
         is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
-        is_lone = is_inert and not article and self._at == first + 1  # "wears oven gloves"
-        is_lone &= self._token(-2).has("verb", "relation") and not self._token(-2).has("noun")
-        is_plural = self._has_verb or self._token(1).verbs("s")  # "with propeller guards hovers"
-        is_lone |= bool(is_plural)
+        led = self._tokens[first - 1] if first else NO_TOKEN
+        is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
+        is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
+        is_lone |= self._has_verb or bool(
+            self._token(1).verbs("s")
+        )  # "with propeller guards hovers"
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
@@ -250,9 +257,9 @@ class GroupReader:
         is_word = is_word and not self._token(1).has("articles")  # "a table outside a cafe"
         return (is_head or is_word) and not is_many
 
-    def _agrees(self, article: str, first: int) -> bool:
+    def _agrees(self, article: str, first: int, ahead: int = 0) -> bool:
         """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
-        senses = [one.value for one in self._token().all("noun")]
+        senses = [one.value for one in self._token(ahead).all("noun")]
         words, is_one = self._tokens[first : self._at], article in ("a", "an")
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
         counts = [count for one in words for count in _counts(one) if not is_other]

@@ -9,7 +9,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.read.abilities import is_of_hands
+from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
 from texvent_scenes.read.clauses import Clause, read_clauses
@@ -160,10 +160,15 @@ class _SentenceReader(ThingReader):
             return []  # "rain falling"
         if not nouns and any(one.who != "person" for one in acts):
             return []  # "falling": what?
-        if len(nouns) < len(clause.objects) or not any(is_of_hands(one, nouns) for one in acts):
-            return []
-        draft.things.append({"noun": "person", "motions": [], "count": 1, "relations": []})
-        return [0]
+        things = [{"noun": noun, "motions": [], "count": 1, "relations": []}
+                  for noun in ("person", *nouns)]  # fmt: skip
+        draft.things += things
+        handled = range(1, len(things)) if len(nouns) == len(clause.objects) else None
+        is_so = handled is not None and any(
+            is_of_people(one) and draft.fits(one, [0], handled, bool(nouns)) for one in acts
+        )
+        del draft.things[is_so:]
+        return [0][:is_so]
 
     def _do_verb(
         self, clause: Clause, verb: Token, subjects: list[int], objects: list[int]

@@ -44,12 +44,11 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as a word that is not known, if it is no thing: "behind dusty glass"."""
-    if token.text not in word_set("things", "masses"):
-        return token
     led = [one for one in tokens[: token.at] if one.has("relation", "articles", "small", "verb")]
     before, last = ([NO_TOKEN, NO_TOKEN, *led])[-2:]
-    is_pane = last.text == "the" and before.text in ("through", "behind")
-    return replace(token, senses=()) if is_pane or not last.has("articles", "verb") else token
+    is_thing = last.has("articles", "verb") and {last.text, before.text} != {"the", "through"}
+    is_mass = token.text in word_set("things", "masses")
+    return token if is_thing or not is_mass else replace(token, senses=())
 
 
 def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Token:

@@ -97,7 +97,9 @@ class ThingReader:
             self._light_own(group)
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
-                if not self._draft.set_scene(token) and effect is not None:
+                is_mark = relation == "with" and any(map(self._draft.walks, owners))
+                is_mark &= effect is not None and effect.value in word_set("things", "marks")
+                if not (self._draft.set_scene(token) or is_mark) and effect is not None:
                     self._draft.add_effect(token, effect.value, owners)
         for content in group.of.groups if group.of is not None else ():
             self._fill(found, content)
@@ -150,7 +152,8 @@ class ThingReader:
         else:
             who, activity = head.all("pose")[0].value
             thing = {"noun": who, "motions": [{"kind": activity}]}
-        count = PLURAL_COUNT if group.is_plural else 1
+        many = trait_value("bodies of a plural", thing["noun"]) or PLURAL_COUNT
+        count = many if group.is_plural else 1
         is_open = group.is_plural and not any(
             each.value[0] == "count" for one in group.modifiers for each in one.all("field")
         )
@@ -240,10 +243,7 @@ class ThingReader:
         draft.show(token)
 
     def _say_at_once(self, token: Token, field: str, value: Any, subjects: Sequence[int]) -> bool:
-        """Apply a state of what opens, or the speed of a view: "a dashcam view at 50 km/h".
-
-        A dark tunnel is not painted.
-        """
+        """Apply a state of what opens, or the speed of a view; a dark tunnel is not painted."""
         draft, state = self._draft, states().get(token.text)
         if field == "colour" and token.text in word_set("things", "shades"):
             return self._are_lit(subjects)
@@ -264,11 +264,10 @@ class ThingReader:
         return is_way
 
     def _are_lit(self, subjects: Sequence[int]) -> bool:
-        """Whether some are dark where no light is, as what people go into and what shines."""
-        rooms = nouns_with("passage") | nouns_with("has a door") | nouns_with("closed")
-        nouns = {self._draft.things[index]["noun"] for index in subjects}
-        fixed = {one for one in nouns if self._nouns[one].speed_m_s == 0.0}
-        return bool(fixed & (rooms | LAMPS.keys()))
+        """Whether some are dark where no light is: rooms, tunnels and lamps."""
+        lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
+        fixed = (n for n in subjects if not self._draft.can_go(n))
+        return any(self._draft.things[n]["noun"] in lit for n in fixed)
 
     def _blow(self, index: int) -> bool:
         """Let things sway in the wind; whether the wind shows in their motion."""
@@ -452,11 +451,10 @@ class ThingReader:
 def _list_formed(group: Group, head: Token) -> Sequence[Group]:
     """Groups of what has the shape that a head names, which is no thing: "a pyramid of cans"."""
     parts = group.of.groups if group.of is not None else ()
-    is_shape = any(one.value.noun in word_set("things", "formed") for one in head.all("noun"))
-    return parts if is_shape and all(
-        one.head is not None and not one.article
-        and one.head.has("noun", "effect") and not one.head.has("field") for one in parts
-    ) else ()  # fmt: skip
+    is_shape = any(one.value.noun in nouns_with("formed of others") for one in head.all("noun"))
+    said = [one.head for one in parts if one.head and not (one.article or one.head.has("field"))]
+    is_shape &= len(said) == len(parts) and all(one.has("noun", "effect") for one in said)
+    return parts if is_shape else ()
 
 
 @cache

@@ -53,8 +53,7 @@ def test_a_second_colour_is_that_of_the_body(text, word, is_shown):
     [
         ("a vase on a wooden table", "wooden", True),
         ("a cat sits under a wooden table", "wooden", True),
-        ("a man in a leather suit walks", "leather", True),
-        ("a man in leather trousers walks", "leather", False),
+        ("a man in leather gloves walks", "leather", False),
         ("a brick cloud in the sky", "brick", False),
     ],
 )

@@ -59,6 +59,8 @@ class PersonKind:
     """None = dark."""
     fabric: str = ""
     """Material of the shirt, one of `MATERIALS`; "" = plain cloth."""
+    leg_fabric: str = ""
+    """The same of the trousers."""
     has_sleeves: bool = False
     """Whether the shirt covers the forearms."""
     gloves: Colour | None = None
@@ -101,8 +103,9 @@ def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
         colour = said or own or frozen(row.get("usual"))
         changed = {key: frozen(value) for key, value in row.items() if key in _FIELDS}
         garments = (*kind.garments, *changed.pop("garments", ()))
-        if material and "shirts" in row["painted"]:
-            changed["fabric"] = material
+        for field, part in (("fabric", "shirts"), ("leg_fabric", "trousers")):
+            if material and part in row["painted"]:
+                changed[field] = material
         kind = replace(kind, garments=garments, **changed)
         if colour is not None:
             painted: dict[str, Any] = {
@@ -118,7 +121,8 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
     dyed = paint(colour, seed, "shirt", kind.shirts)
     shirt = MATERIALS[kind.fabric].in_colour(dyed) if kind.fabric else cloth(dyed)
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
-    trousers = cloth(usual if kind.trousers is None else kind.trousers)
+    dyed = usual if kind.trousers is None else kind.trousers
+    trousers = MATERIALS[kind.leg_fabric].in_colour(dyed) if kind.leg_fabric else cloth(dyed)
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
     legs = flesh if kind.dress == "skirt" else trousers
     shins = trousers if kind.dress == "trousers" else flesh
