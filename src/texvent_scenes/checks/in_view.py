@@ -36,6 +36,7 @@ from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import render, world_and_shapes
 from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
@@ -126,6 +127,9 @@ def find_unseen(
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     clip = _Clip(cameras, times, size, description.camera.is_moving)
     related = {i for one in description.relations for i in one.targets}
+    if any(one.kind == "travel" for one in description.camera.moves):  # seen from within
+        related |= {n for n, one in enumerate(description.objects)
+                    if one.noun in nouns_with("passage")}  # fmt: skip
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down")}  # fmt: skip
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()

@@ -33,6 +33,8 @@ _LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
 """Least angle of an arc around something, and how much its radius may differ, by its mean."""
 _OBLIQUE = 0.5
 """Cosine of the angle up to which two go the same way."""
+_STRAIGHT, _BY_SIDE = 0.8, 1.5
+"""Cosine from which on something is straight before or behind a body; most gap then, in extents."""
 _SENT = 0.5
 """Share of the way that what is sent to something has left at most."""
 _BETWEEN = 24
@@ -166,6 +168,17 @@ def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
 def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     is_near = np.abs(_aside(one, other)) <= _BEFORE
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
+
+
+def _is_on_side(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it is before (1) or behind (-1) a body that has a face.
+
+    It is at that side of the body, or so in the image and not at the body's other side.
+    """
+    off = (one.middle - other.middle)[:, :2]
+    ahead = sign * (off * other.ahead).sum(axis=1) / np.maximum(np.linalg.norm(off, axis=1), 1e-6)
+    is_seen_so = _deeper(one, other, -sign) & (ahead > -_OBLIQUE)
+    return np.asarray(is_seen_so | ((ahead >= _STRAIGHT) & _is_near(one, other, _BY_SIDE)))
 
 
 def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
@@ -313,6 +326,8 @@ RULES: Mapping[str, _Rule] = {
     "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
     "behind": lambda one, other: _deeper(one, other, 1),
     "front": lambda one, other: _deeper(one, other, -1),
+    "behind a body": lambda one, other: _is_on_side(one, other, -1),
+    "front of a body": lambda one, other: _is_on_side(one, other, 1),
     "left of": lambda one, other: _aside(one, other) <= -0.5,
     "right of": lambda one, other: _aside(one, other) >= 0.5,
     "beside": _is_beside,

@@ -17,6 +17,7 @@ from texvent_scenes.checks.acts import (
     bounces,
     descends,
     falls,
+    goes_aside,
     goes_back,
     handles,
     has_in_mouth,
@@ -50,7 +51,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _LEAST_CLIP_S = 1.0
-_DONE = ("act on", "bounce", "ground", "activity", "stop before", "stop", "land", "descend")
+_DONE = ("aside", "act on", "bounce", "ground", "activity", "stop before", "stop", "land", "descend")
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""
@@ -212,6 +213,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "stop": stops, "sit at": _sits_at,
+    "land": lands, "aside": goes_aside, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -181,6 +181,10 @@ class SceneDraft(Abilities):
             self.repeat(value, [one for one in subjects if one is not None])
         if kind == "in_air":
             kind, value = "ground", False
+        goes = [*MEANS, "move", "orbit"]
+        for motions in (self.things[one]["motions"] for one in subjects if one is not None):
+            if kind == "circle" and motions and motions[-1]["kind"] in goes:
+                motions[-1]["kind"] = "orbit"
         for motions in (self.things[one]["motions"] for one in subjects if one is not None):
             if kind == "stays" and motions and motions[-1]["kind"] == "turn":
                 motions[-1]["kind"] = "spin"  # "turns on the spot"

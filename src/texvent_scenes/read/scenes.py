@@ -25,6 +25,8 @@ from texvent_scenes.read.prepositions import (
     find_relation,
     go_to_place,
     is_rained_on,
+    lose_drift,
+    names_formation,
     lose_ways,
     relate_one,
     say_parts,
@@ -138,6 +140,8 @@ class _SentenceReader(ThingReader):
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.is_of_effect and not subjects:
+            lose_drift(self._draft, after)
         is_known = bool(told) or not clause.subjects
         is_known |= any(one.head and self._draft.shows(one.head) for one in clause.subjects)
         if not is_known or (clause.verb is not None and not self._draft.shows(clause.verb)):
@@ -347,6 +351,8 @@ class _SentenceReader(ThingReader):
             self._relate_back(kind, phrase, subjects)
             return []
         if dress(draft, phrase, subjects):
+            return []
+        if names_formation(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
