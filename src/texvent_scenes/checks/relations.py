@@ -38,8 +38,15 @@ _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push", "pu
             "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_TOGETHER = ("behind", "front", "behind a body", "front of a body", "front of what drives",
-             "beside", "going beside")
+_TOGETHER = (
+    "behind",
+    "front",
+    "behind a body",
+    "front of a body",
+    "front of what drives",
+    "beside",
+    "going beside",
+)
 _ON_SIDE = {"front": "front of a body", "behind": "behind a body"}
 """Relations to who has a face, which are of that body as well as of the image."""
 _PASSED_ALL = ("past", "overtake")

@@ -51,7 +51,17 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _LEAST_CLIP_S = 1.0
-_DONE = ("aside", "act on", "bounce", "ground", "activity", "stop before", "stop", "land", "descend")
+_DONE = (
+    "act on",
+    "aside",
+    "bounce",
+    "ground",
+    "activity",
+    "stop before",
+    "stop",
+    "land",
+    "descend",
+)
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle")
 """Claims that may be made of the camera."""

@@ -31,6 +31,8 @@ _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
+_ASIDE = ("left", "right", "across", "towards", "away")
+"""Directions in which what hovers leaves its place."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 PLURAL_COUNT = 3
@@ -305,6 +307,13 @@ class SceneDraft(Abilities):
         if name == "speed_m_s" and end is not None:
             is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
             name = "end_m_s" if is_end else name
+        if (
+            name == "direction"
+            and motions[-1:]
+            and motions[-1]["kind"] == "hover"
+            and value in _ASIDE
+        ):
+            motions[-1]["kind"] = "move"  # "a bubble floats past"
         set_field(self.things[index], said.kind, name, value)
         self._said[index, name] = value
 

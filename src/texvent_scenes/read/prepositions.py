@@ -148,9 +148,9 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
 
 
 def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Whether it names no thing but a form in which some stand or go: "flying in a spiral".
+    """Whether it names a form in which some stand or go, which is lost: "flying in a spiral".
 
-    It is reported; a dot in a square is a thing in another one.
+    A dot in a square is a thing in another one.
     """
     heads = [group.head for group in phrase.groups if group.head is not None]
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
@@ -158,7 +158,8 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     if phrase.preposition.text != "in" or not is_form or is_drawn:
         return False
-    for token in (phrase.preposition, *(one for each in phrase.groups for one in _list_words(each))):
+    words = (one for each in phrase.groups for one in _list_words(each))
+    for token in (phrase.preposition, *words):
         draft.mark(token, "lost")
     return True
 

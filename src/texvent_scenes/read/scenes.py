@@ -11,7 +11,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.abilities import is_of_hands
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
+from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot, sit_in
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -26,8 +26,8 @@ from texvent_scenes.read.prepositions import (
     go_to_place,
     is_rained_on,
     lose_drift,
-    names_formation,
     lose_ways,
+    names_formation,
     relate_one,
     say_parts,
 )
@@ -85,7 +85,9 @@ class _SentenceReader(ThingReader):
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_named = goes_on or clause.about == "camera"
-        is_own = not is_named and is_ego(self._draft, clause)
+        seated = None if is_named else sit_in(self._draft, clause)
+        clause = seated or clause
+        is_own = seated is not None or (not is_named and is_ego(self._draft, clause))
         is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera
         if self._says_of_parts(clause):
@@ -350,9 +352,7 @@ class _SentenceReader(ThingReader):
         if not phrase.groups or find_mutual(phrase.groups):
             self._relate_back(kind, phrase, subjects)
             return []
-        if dress(draft, phrase, subjects):
-            return []
-        if names_formation(draft, phrase, subjects):
+        if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
