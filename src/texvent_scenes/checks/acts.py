@@ -139,6 +139,14 @@ def lands(staged: StagedClip, claim: Claim) -> bool:
                for one in others)  # fmt: skip
 
 
+def goes(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it gets on by its own size at least, or is carried along: "down a river"."""
+    return all(
+        np.linalg.norm(one.middle - one.middle[0], axis=1).max() >= one.size.max()
+        for one in staged.own_boxes(claim)
+    )
+
+
 def goes_aside(staged: StagedClip, claim: Claim) -> bool:
     """Whether it goes another way than it faces: "sideways"."""
     for one in staged.own_boxes(claim):

@@ -23,8 +23,8 @@ _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
 many; height of a seat over that of who sits there."""
-_LANE_M, _STOPPED = 3.0, 1.5
-"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes."""
+_LANE_M, _STOPPED, _STOPPED_M = 3.0, 1.5, 8.0
+"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes, and m."""
 _ON_THE_WAY = 0.3
 """Distance from the line between two things at which something is between them, of its length."""
 _BEFORE = 1.5
@@ -89,7 +89,8 @@ def _is_stopped(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it comes to rest short of the other, near it."""
     off = (other.middle - one.middle)[-1, :2]
     gap = np.abs(off) - 0.5 * (one.size + other.size)[-1, :2]
-    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= max(_STOPPED * one.size[-1].max(), _LANE_M)
+    most_m = min(max(_STOPPED * one.size[-1].max(), _LANE_M), _STOPPED_M)
+    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= most_m
     return np.array([is_near and off @ one.ahead[-1] > 0.0])
 
 

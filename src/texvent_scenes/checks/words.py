@@ -17,6 +17,7 @@ from texvent_scenes.checks.acts import (
     bounces,
     descends,
     falls,
+    goes,
     goes_aside,
     goes_back,
     handles,
@@ -43,6 +44,7 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
+from texvent_scenes.checks.shots import is_camera_so
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
@@ -63,7 +65,7 @@ _DONE = (
     "descend",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle")
+_OF_CAMERA = (SEEN, "circle", "camera")
 """Claims that may be made of the camera."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
@@ -223,6 +225,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "aside": goes_aside, "stop": stops, "sit at": _sits_at,
+    "land": lands, "aside": goes_aside, "goes": goes,
+    "camera": is_camera_so, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

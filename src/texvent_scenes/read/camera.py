@@ -11,7 +11,7 @@ from texvent_scenes.read.abilities import MEANS
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import SceneDraft, names_place, split_move, turn_by
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Sense, lexicon_of
+from texvent_scenes.read.lexicon import Sense, lexicon_of, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
@@ -84,6 +84,17 @@ def go_through(draft: SceneDraft, move: dict[str, Any], targets: Sequence[int]) 
         opens = "stand open" in draft.nouns[thing["noun"]].acts
         thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens
     return True
+
+
+def claim_way(
+    draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Sequence[int]
+) -> None:
+    """Leave it to the staged camera whether it goes or turns so with respect to a thing."""
+    kinds = {one.value for one in preposition.all("relation")} & word_set("things", "camera_ways")
+    kinds |= {"past"} if preposition.text == "across" else set()
+    is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
+    for kind in sorted(kinds)[:1] if is_led and targets else ():
+        draft.claim(preposition, "camera", kind, [None], targets)
 
 
 def _lead(move: dict[str, Any], preposition: Token) -> dict[str, Any]:

@@ -208,6 +208,8 @@ def go_to_place(
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
+    if draft.shows(token) and token.text in ("across", *_ALONG):
+        draft.claim(token, "goes", "", moved)
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it

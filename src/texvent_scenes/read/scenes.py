@@ -11,7 +11,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.abilities import is_of_hands
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot, sit_in
+from texvent_scenes.read.camera import claim_way, find_move, go_through, is_ego, is_shot, sit_in
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -432,6 +432,7 @@ class _SentenceReader(ThingReader):
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 if found and kind == "through":
                     is_side = move is None or not go_through(draft, move, found)
+                claim_way(draft, move, one.preposition, found)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)
