@@ -52,7 +52,7 @@ INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS, _LEAST_AREA = 6, 0.0004
+LEAST_PIXELS, _LEAST_AREA = 6, 0.0003
 """Pixels, and share of the image, below which an object is too small to be told."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of

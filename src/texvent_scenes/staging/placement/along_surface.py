@@ -52,7 +52,7 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
     start = (top * math.cos(yaw), top * math.sin(yaw), height)
     path = Track(
         start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m,
-        is_upright=is_person and not is_seated,
+        is_upright=is_person,
     )  # fmt: skip
     group.plan = replace(plan, yaw=yaw, path=path)
     group.fit()

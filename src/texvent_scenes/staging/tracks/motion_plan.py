@@ -208,15 +208,14 @@ def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
 def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
     """Heading of what stays in place: animals from the side, the rest facing the camera.
 
-    Of what is seen from the side the front is a little nearer than the rear.
-
+    Of animals seen from the side the front is a little nearer than the rear.
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
     front, side = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0
     is_person = noun.name in PERSON_NOUNS
     if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
-        return side - 0.5 * tilt
+        return side + 0.5 * tilt
     turned = trait_value("side view", noun.name)
     if turned is not None:
         return turned * tilt if motion.direction != "left" else math.pi
@@ -226,4 +225,4 @@ def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float
         return front + 0.5 * tilt
     if noun.habitat == "fixed":
         return front + math.copysign(0.45, tilt) + 0.3 * tilt
-    return side - tilt
+    return side - tilt if noun.motion == "walk" else side + tilt
