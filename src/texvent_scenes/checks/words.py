@@ -35,6 +35,7 @@ from texvent_scenes.checks.acts import (
     stops_before,
     swings,
 )
+from texvent_scenes.checks.camera_ways import is_camera_so
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
@@ -44,7 +45,6 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
-from texvent_scenes.checks.shots import is_camera_so
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
