@@ -25,6 +25,8 @@ _HANDS, _REACH = ("left hand", "right hand"), 0.12
 """Places that act on things; from there to what is acted upon, in sizes of the body."""
 _SEEN = 0.9
 """Share of the clip after which what breaks leaves no time to see its pieces."""
+_ASIDE = 0.5
+"""Most share of a way, along the heading, of what goes sideways."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
 """Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
 angle of that circle that it covers."""
@@ -137,6 +139,24 @@ def lands(staged: StagedClip, claim: Claim) -> bool:
     others = [n for n, own in enumerate(staged.boxes) if own and n != claim.subject]
     return any(staged.relates(replace(claim, targets=(one,)), "on", slice(low, low + 1))
                for one in others)  # fmt: skip
+
+
+def goes(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it gets on by its own size at least, or is carried along: "down a river"."""
+    return all(
+        np.linalg.norm(one.middle - one.middle[0], axis=1).max() >= one.size.max()
+        for one in staged.own_boxes(claim)
+    )
+
+
+def goes_aside(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it goes another way than it faces: "sideways"."""
+    for one in staged.own_boxes(claim):
+        steps = np.diff(one.middle[:, :2], axis=0)
+        ahead = np.abs((steps * one.ahead[:-1]).sum(axis=1)).sum()
+        if ahead > _ASIDE * np.linalg.norm(steps, axis=1).sum():
+            return False
+    return True
 
 
 def descends(staged: StagedClip, claim: Claim) -> bool:
@@ -280,4 +300,5 @@ def is_doing(staged: StagedClip, claim: Claim) -> bool:
     is_to_and_fro = claim.value in TIMED and " and " in str(claim.value)
     if is_to_and_fro and not all(_count(staged, one) >= 1.0 for one in own):
         return False
-    return is_up or all(first in each for each in done)
+    is_on_foot = first in ("walk", "run")  # in circles too
+    return is_up or all(first in each or (is_on_foot and "move" in each) for each in done)

@@ -54,7 +54,7 @@ INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS, _LEAST_AREA = 6, 0.00025
+LEAST_PIXELS, _LEAST_AREA = 6, 0.0003
 """Pixels, and share of the image, below which an object is too small to be told."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
@@ -129,6 +129,9 @@ def find_unseen(
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     clip = _Clip(cameras, times, size, description.camera.is_moving)
     related = {i for one in description.relations for i in one.targets}
+    if any(one.kind == "travel" for one in description.camera.moves):  # seen from within
+        related |= {n for n, one in enumerate(description.objects)
+                    if one.noun in nouns_with("passage")}  # fmt: skip
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down")}  # fmt: skip
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()

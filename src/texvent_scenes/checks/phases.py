@@ -136,8 +136,9 @@ def _is_done(one: Actor, said: SceneObject, phase: Phase, *, is_loose: bool) -> 
     is_based = kind in _ON_GROUND and is_loose and one.noun.habitat == "ground"
     if is_based and min(map(one.lowest_m, times)) > least_m:
         return False
-    if kind in GOING:
-        return bool(np.linalg.norm(places - places[0], axis=1).max() > least_m)
+    if kind in GOING:  # who climbs down does not run yet
+        gone = (places - places[0])[:, : 2 if kind in _ON_GROUND else 3]
+        return bool(np.linalg.norm(gone, axis=1).max() > least_m)
     if kind == "turn":
         yaws = np.unwrap([one.track.at(at).yaw for at in times])
         return bool(np.ptp(yaws) > _LEAST_TURN)

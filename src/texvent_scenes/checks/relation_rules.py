@@ -23,8 +23,8 @@ _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
 many; height of a seat over that of who sits there."""
-_LANE_M, _STOPPED = 3.0, 1.5
-"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes."""
+_LANE_M, _STOPPED, _STOPPED_M = 3.0, 1.5, 8.0
+"""Most metres aside of the line of a vehicle; gap to where something stops, in its sizes, and m."""
 _ON_THE_WAY = 0.3
 """Distance from the line between two things at which something is between them, of its length."""
 _BEFORE = 1.5
@@ -33,6 +33,8 @@ _LEAST_ARC, _ROUND = np.pi / 3.0, 0.15
 """Least angle of an arc around something, and how much its radius may differ, by its mean."""
 _OBLIQUE = 0.5
 """Cosine of the angle up to which two go the same way."""
+_STRAIGHT, _BY_SIDE = 0.8, 1.5
+"""Cosine from which on something is straight before or behind a body; most gap then, in extents."""
 _SENT = 0.5
 """Share of the way that what is sent to something has left at most."""
 _BETWEEN = 24
@@ -93,7 +95,8 @@ def _is_stopped(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it comes to rest short of the other, near it."""
     off = (other.middle - one.middle)[-1, :2]
     gap = np.abs(off) - 0.5 * (one.size + other.size)[-1, :2]
-    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= max(_STOPPED * one.size[-1].max(), _LANE_M)
+    most_m = min(max(_STOPPED * one.size[-1].max(), _LANE_M), _STOPPED_M)
+    is_near = np.linalg.norm(np.maximum(gap, 0.0)) <= most_m
     return np.array([is_near and off @ one.ahead[-1] > 0.0])
 
 
@@ -172,6 +175,17 @@ def _aside(one: BodyBoxes, other: BodyBoxes) -> Float64Array:
 def _deeper(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
     is_near = np.abs(_aside(one, other)) <= _BEFORE
     return np.asarray(is_near & (sign * (one.seen - other.seen)[:, 2] > 0.0))
+
+
+def _is_on_side(one: BodyBoxes, other: BodyBoxes, sign: int) -> _Flags:
+    """Whether it is before (1) or behind (-1) a body that has a face.
+
+    It is at that side of the body, or so in the image and not at the body's other side.
+    """
+    off = (one.middle - other.middle)[:, :2]
+    ahead = sign * (off * other.ahead).sum(axis=1) / np.maximum(np.linalg.norm(off, axis=1), 1e-6)
+    is_seen_so = _deeper(one, other, -sign) & (ahead > -_OBLIQUE)
+    return np.asarray(is_seen_so | ((ahead >= _STRAIGHT) & _is_near(one, other, _BY_SIDE)))
 
 
 def _recedes(one: BodyBoxes, other: BodyBoxes, sign: int, axes: int = 3) -> _Flags:
@@ -319,6 +333,8 @@ RULES: Mapping[str, _Rule] = {
     "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
     "behind": lambda one, other: _deeper(one, other, 1),
     "front": lambda one, other: _deeper(one, other, -1),
+    "behind a body": lambda one, other: _is_on_side(one, other, -1),
+    "front of a body": lambda one, other: _is_on_side(one, other, 1),
     "left of": lambda one, other: _aside(one, other) <= -0.5,
     "right of": lambda one, other: _aside(one, other) >= 0.5,
     "beside": _is_beside,

@@ -31,13 +31,25 @@ _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
+_LEAST_GONE = 0.5
+"""Least way across the image, in sizes of a body."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
 _LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push", "pull", "act on",
             "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
-_TOGETHER = ("behind", "front", "front of what drives", "beside", "going beside")
+_TOGETHER = (
+    "behind",
+    "front",
+    "behind a body",
+    "front of a body",
+    "front of what drives",
+    "beside",
+    "going beside",
+)
+_ON_SIDE = {"front": "front of a body", "behind": "behind a body"}
+"""Relations to who has a face, which are of that body as well as of the image."""
 _PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
 _ROW = 4
@@ -108,6 +120,9 @@ def find_violations(
 def goes_so(body: BodyBoxes, motion: Motion) -> bool:
     """Whether a body goes in the direction of its motion, as far as its way tells it."""
     kind, direction = motion.kind, motion.direction
+    if direction == "across" and kind in _DIRECTED:
+        aside, away = np.abs(body.displacement[[0, 2]])
+        return bool(aside > max(0.33 * away, _LEAST_GONE * body.size.max()))
     if direction in _AXES and kind in _DIRECTED:
         axis, sign = _AXES[direction]
         moved = body.displacement
@@ -143,6 +158,8 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
         return "front of what drives"
     if kind == "into" and has_rim(target):
         return "down into"
+    if kind in ("front", "behind") and _is_walker(what):
+        return _ON_SIDE[kind]
     if kind == "through" and target in nouns_with("passage"):
         return "through an opening"
     if kind == "in" and trait_value("container", target) is not None:

@@ -10,6 +10,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main
 from texvent_scenes.staging.compose import ComposedScene
@@ -20,6 +21,11 @@ instants at which a shot is as it is said."""
 _DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
 """Height of the direction of sight, a unit vector, of a view from the air, and from the top; most
 of one downwards from a low angle."""
+_STEPS, _CORE = 49, 0.4
+"""Instants at which it is looked for what the camera goes through; half of the share of a part's
+box, along each axis, that is surely inside that part."""
+_TURNING = frozenset({"pan", "tilt", "roll", "zoom", "handheld", "shake"})
+"""Moves of a camera that stays where it is."""
 _STILL = 1e-6
 """Change of position, m, of direction, or of focal length, of a camera that stays."""
 _SAID = {"low": "low angle", "top": "view from the top", "aerial": "view from the air",
@@ -54,9 +60,28 @@ def find_misframed(
     if np.mean(has_view) < _HALF:
         yield Violation("view", str(shot.view), _SAID[str(shot.view)])
     moves = [one for one in shot.moves if one.kind != "static"]
-    if moves and all(_is_still(cameras[0], one) for one in cameras):
-        for kind in sorted({one.kind for one in moves}):
+    kinds = sorted({one.kind for one in moves})
+    met = _find_met(scene, times) if set(kinds) - _TURNING else ""
+    for kind in kinds:
+        if met and kind not in _TURNING:
+            yield Violation("move", kind, f"{kind} of the camera: it goes through the {met}")
+        elif all(_is_still(cameras[0], one) for one in cameras):
             yield Violation("move", kind, f"{kind} of the camera: it stays where it is")
+
+
+def _find_met(scene: ComposedScene, times: Sequence[float]) -> str:
+    """Noun of a body of which the camera is inside a part at some instant; "" = of none."""
+    for at in np.linspace(times[0], times[-1], _STEPS):
+        place = scene.camera(float(at)).position
+        for one in scene.actors:
+            corners = one.corners(float(at))
+            if (corners.min(axis=0) < place).all() and (corners.max(axis=0) > place).all():
+                shapes = one.place(float(at))
+                boxes = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
+                if any((np.abs(place - 0.5 * (low + high)) < _CORE * (high - low)).all()
+                       for low, high in boxes):  # fmt: skip
+                    return one.noun.name
+    return ""
 
 
 def _extent(main: Actor, camera: PosedCamera, time_s: float, size: SensorSize) -> float:

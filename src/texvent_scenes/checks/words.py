@@ -19,6 +19,8 @@ from texvent_scenes.checks.acts import (
     comes_out,
     descends,
     falls,
+    goes,
+    goes_aside,
     goes_back,
     handles,
     has_in_mouth,
@@ -35,6 +37,7 @@ from texvent_scenes.checks.acts import (
     stops_before,
     swings,
 )
+from texvent_scenes.checks.camera_ways import is_camera_so
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
@@ -54,6 +57,7 @@ from texvent_scenes.staging.compose import ComposedScene
 _LEAST_CLIP_S = 1.0
 _DONE = (
     "act on",
+    "aside",
     "bounce",
     "break",
     "ground",
@@ -64,7 +68,7 @@ _DONE = (
     "descend",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle")
+_OF_CAMERA = (SEEN, "circle", "camera")
 """Claims that may be made of the camera."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
@@ -236,6 +240,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "mutual": _are_mutual, "bounce": bounces, "break": breaks, SEEN: lambda *_: True,
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "stop": stops, "sit at": _sits_at,
+    "land": lands, "aside": goes_aside, "goes": goes,
+    "camera": is_camera_so, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

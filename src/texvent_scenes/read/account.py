@@ -10,7 +10,7 @@ from texvent.prompt_report import Substitution
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import read_table, trait_values
+from texvent_scenes.models.tables import nouns_with, read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
 from texvent_scenes.read.lexicon import deeds, word_set
 from texvent_scenes.read.tokens import NO_TOKEN
@@ -51,6 +51,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
     _do_deeds(draft)
+    _hang_up(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
@@ -94,6 +95,18 @@ def _choose_gender(draft: SceneDraft) -> None:
         if words & {*pronouns} and persons[0]["noun"] == "person":
             persons[0]["noun"] = noun
             draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
+
+
+def _hang_up(draft: SceneDraft) -> None:
+    """Put on a wall of their own what hangs on one by its name: "a wall clock"."""
+    hung = nouns_with("hangs on a wall")
+    for token in (one for one in draft.tokens if one.text.startswith("wall ")):
+        named = {one.value.noun for one in token.all("noun")} & hung
+        bare = [n for n, one in enumerate(draft.things)
+                if one["noun"] in named and not one["relations"]]  # fmt: skip
+        for index in bare[:1]:
+            draft.things.append({"noun": "wall", "motions": [], "count": 1, "relations": []})
+            draft.relate(index, "on", [len(draft.things) - 1])
 
 
 def _do_deeds(draft: SceneDraft) -> None:

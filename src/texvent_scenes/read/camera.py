@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.abilities import MEANS
 from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import SceneDraft, names_place, split_move, turn_by
-from texvent_scenes.read.groups import Phrase
+from texvent_scenes.read.groups import Group, Phrase
+from texvent_scenes.read.lexicon import Sense, lexicon_of, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
@@ -25,6 +27,35 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
         return False  # "rain drops running down a pane"
     is_new = not draft.things and clause.about not in ("nearest", "company")
     return travels and is_place and is_new
+
+
+def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
+    """The clause of a driver's view of who goes through a passage, said of the camera itself.
+
+    "A car exits a tunnel, dashcam view"; None: no camera is in a vehicle.
+    """
+    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
+    nouns = [group.noun.noun for group in clause.subjects if group.noun is not None]
+    is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
+    is_driven &= not any(group.is_plural for group in clause.subjects)
+    if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
+        return None
+    way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
+    first = Phrase(Token("through", clause.verb.at), clause.objects)
+    after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
+             Phrase(replace(one.preposition, senses=(way,)), one.groups)
+             for one in (first, *clause.after) if isinstance(one, Token) or one.groups]  # fmt: skip
+    if not any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after):
+        return None
+    draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
+    verb = replace(clause.verb, senses=drive)
+    return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def _names_passage(groups: Sequence[Group]) -> bool:
+    """Whether some of the groups name what has a way through."""
+    nouns = {one.noun.noun for one in groups if one.noun is not None}
+    return bool(nouns & nouns_with("passage"))
 
 
 def is_shot(clause: Clause) -> bool:
@@ -58,6 +89,17 @@ def go_through(
         thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens
         thing |= {"placement": "near"} if is_out else {}
     return True
+
+
+def claim_way(
+    draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Sequence[int]
+) -> None:
+    """Leave it to the staged camera whether it goes or turns so with respect to a thing."""
+    kinds = {one.value for one in preposition.all("relation")} & word_set("things", "camera_ways")
+    kinds |= {"past"} if preposition.text == "across" else set()
+    is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
+    for kind in sorted(kinds)[:1] if is_led and targets else ():
+        draft.claim(preposition, "camera", kind, [None], targets)
 
 
 def _lead(move: dict[str, Any], preposition: Token) -> dict[str, Any]:

@@ -31,6 +31,8 @@ _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
+_ASIDE = ("left", "right", "across", "towards", "away")
+"""Directions in which what hovers leaves its place."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 PLURAL_COUNT = 3
@@ -181,6 +183,10 @@ class SceneDraft(Abilities):
             self.repeat(value, [one for one in subjects if one is not None])
         if kind == "in_air":
             kind, value = "ground", False
+        goes = [*MEANS, "move", "orbit"]
+        for motions in (self.things[one]["motions"] for one in subjects if one is not None):
+            if kind == "circle" and motions and motions[-1]["kind"] in goes:
+                motions[-1]["kind"] = "orbit"
         for motions in (self.things[one]["motions"] for one in subjects if one is not None):
             if kind == "stays" and motions and motions[-1]["kind"] == "turn":
                 motions[-1]["kind"] = "spin"  # "turns on the spot"
@@ -301,6 +307,13 @@ class SceneDraft(Abilities):
         if name == "speed_m_s" and end is not None:
             is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
             name = "end_m_s" if is_end else name
+        if (
+            name == "direction"
+            and motions[-1:]
+            and motions[-1]["kind"] == "hover"
+            and value in _ASIDE
+        ):
+            motions[-1]["kind"] = "move"  # "a bubble floats past"
         set_field(self.things[index], said.kind, name, value)
         self._said[index, name] = value
 

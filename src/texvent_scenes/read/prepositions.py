@@ -146,6 +146,35 @@ def lose_ways(
             draft.mark(token, "lost")
 
 
+def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
+    """Report ways of an effect, which particles go only if they are blown along."""
+    is_blown = bool(draft.effects) and draft.effects[-1]["kind"] in word_set("things", "blown")
+    for token in (one.preposition for one in after if isinstance(one, Phrase)):
+        kinds = {one.value for one in token.all("relation")}
+        ways = kinds & word_set("things", "ways")
+        is_along = token.text in ("across", *_ALONG)
+        is_so = (is_blown and is_along) or any(is_rained_on(draft, token, one) for one in kinds)
+        if (ways - {"from", "out of"} or is_along) and not is_so:
+            draft.mark(token, "lost")
+
+
+def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether it names a form in which some stand or go, which is lost: "flying in a spiral".
+
+    A dot in a square is a thing in another one.
+    """
+    heads = [group.head for group in phrase.groups if group.head is not None]
+    is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
+    own = {draft.things[one]["noun"] for one in subjects}
+    is_drawn = bool(own) and own <= nouns_with("flat pattern")
+    if phrase.preposition.text != "in" or not is_form or is_drawn:
+        return False
+    words = (one for each in phrase.groups for one in _list_words(each))
+    for token in (phrase.preposition, *words):
+        draft.mark(token, "lost")
+    return True
+
+
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
     """The words "each other" of some groups, or after them."""
     words = [one for group in groups for one in group.unknown]
@@ -190,6 +219,8 @@ def go_to_place(
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
+    if draft.shows(token) and token.text in ("across", *_ALONG):
+        draft.claim(token, "goes", "", moved)
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it

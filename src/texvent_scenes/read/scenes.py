@@ -11,7 +11,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import find_move, go_through, is_ego, is_shot
+from texvent_scenes.read.camera import claim_way, find_move, go_through, is_ego, is_shot, sit_in
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -25,7 +25,9 @@ from texvent_scenes.read.prepositions import (
     find_relation,
     go_to_place,
     is_rained_on,
+    lose_drift,
     lose_ways,
+    names_formation,
     relate_one,
     say_parts,
 )
@@ -83,7 +85,9 @@ class _SentenceReader(ThingReader):
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
         is_named = goes_on or clause.about == "camera"
-        is_own = not is_named and is_ego(self._draft, clause)
+        seated = None if is_named else sit_in(self._draft, clause)
+        clause = seated or clause
+        is_own = seated is not None or (not is_named and is_ego(self._draft, clause))
         is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera
         if self._says_of_parts(clause):
@@ -138,6 +142,8 @@ class _SentenceReader(ThingReader):
             subjects, moved = self._do_verb(clause, clause.verb, subjects, objects)
             told = moved or objects
         self._say_after(tuple(one for one in after if one not in before), subjects, moved, told)
+        if clause.is_of_effect and not subjects:
+            lose_drift(self._draft, after)
         is_known = bool(told) or not clause.subjects
         is_known |= any(one.head and self._draft.shows(one.head) for one in clause.subjects)
         if not is_known or (clause.verb is not None and not self._draft.shows(clause.verb)):
@@ -351,7 +357,7 @@ class _SentenceReader(ThingReader):
         if not phrase.groups or find_mutual(phrase.groups):
             self._relate_back(kind, phrase, subjects)
             return []
-        if dress(draft, phrase, subjects):
+        if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
             return []
         targets = list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
@@ -431,6 +437,7 @@ class _SentenceReader(ThingReader):
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 if found and kind in ("through", "out of"):
                     is_side = move is None or not go_through(draft, move, one.preposition, found)
+                claim_way(draft, move, one.preposition, found)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

@@ -234,6 +234,8 @@ class ThingReader:
         elif said is not None and things:
             for index in subjects:
                 draft.say_field(token, said, index)
+            is_aside = token.text in word_set("things", "aside")
+            draft.claim(token, "aside", "", subjects if is_aside else [])
             is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
             draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
         else:
@@ -409,6 +411,8 @@ class ThingReader:
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
             is_body = act.who != "plain" or draft.walks(index)
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
+        elif verb.text in word_set("things", "hung"):
+            draft.claim(verb, "ground", False, [index])
         elif act.kind in ("bounce", "reverse", "break"):
             draft.claim(verb, act.kind, "", [index])
         elif act.kind in ("walk", "run", "fly", "hover"):

@@ -220,9 +220,9 @@ def _is_switched(who: str, words: Sequence[str]) -> bool:
 
 
 def _is_act(words: Sequence[str], end: int, before: Sequence[Token]) -> bool:
-    """Whether a person and a participle begin what says how: "pedestrian crossing at dusk".
+    """Whether a person and a participle begin a sentence that says how: "crossing at dusk".
 
-    Alone, or with what a crossing has or where it is seen from, they are a place.
+    Alone, or with what a crossing has or where it is seen from, "pedestrian crossing" is a place.
     """
     is_person = words[end - 1].casefold() in NOUNS["person"].synonyms
     after = words[end + 1].casefold() if end + 1 < len(words) else "."

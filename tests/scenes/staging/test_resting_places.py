@@ -139,3 +139,29 @@ def test_traits_name_nouns():
 ])  # fmt: skip
 def test_balls_have_the_sizes_of_their_rules(noun, least_m, most_m):
     assert least_m <= NOUNS[noun].build(colour=None, scale=1.0, seed=0).height <= most_m
+
+
+@pytest.mark.parametrize("text", ["a wall clock", "a wall clock ticks in a kitchen"])
+def test_what_hangs_on_a_wall_by_its_name_does(text):
+    clock, wall = staged(text)[1].actors
+    assert clock.lowest_m(0.0) > 0.5
+    assert wall.noun.name == "wall"
+
+
+@pytest.mark.parametrize("text", ["a girl goes down a slide", "two boys sliding down a slide"])
+def test_a_slide_is_slid_down_seated(text):
+    own = [one for one in staged(text)[1].actors if one.noun.name != "slide"]
+    for one in own:
+        assert one.track.at(0.5).activity == one.track.at(DURATION_S).activity == "sit on ground"
+        assert one.lowest_m(0.0) > 1.0 > 0.1 > abs(one.lowest_m(DURATION_S))
+
+
+@pytest.mark.parametrize(
+    "text", ["a car exits a tunnel, dashcam view", "a van drives through a tunnel, dashcam footage"]
+)
+def test_a_dashcam_is_in_the_car_that_goes_through_a_passage(text):
+    scene = staged(text)[1]
+    assert [one.noun.name for one in scene.actors] == ["tunnel"]
+    (tunnel,) = scene.actors
+    along = [scene.camera(at).position[1] - tunnel.middle(at)[1] for at in (0.0, DURATION_S)]
+    assert along[0] < 0.0 < along[1]

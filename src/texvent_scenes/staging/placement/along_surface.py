@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.models.activities import PERSON_NOUNS, TRAVELLING
+from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.actors import size_of
@@ -36,15 +36,23 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
     if said_m_s is None and plan.motion.kind in TRAVELLING:
         said_m_s = plan.speed_m_s
         plan = replace(plan, motion=replace(plan.motion, speed_m_s=said_m_s))
+    is_person = group.noun.name in PERSON_NOUNS
+    is_seated = is_person and target.noun.name in nouns_with("slid down")
+    if is_seated and plan.motion.speed_m_s == said_m_s and group.scene_object.motion is not None:
+        said = group.scene_object.motion.speed_m_s
+        plan, said_m_s = replace(plan, motion=replace(plan.motion, speed_m_s=said)), said
     keys = [Key(plan.duration_s, activity="stand")]
     if said_m_s != 0.0:
         keys = _list_keys(plan, length / way_m, -height / way_m, way_m)
+    if is_seated:  # it comes to rest where it lands
+        keys = [replace(key, activity=ON_GROUND["sit"]) for key in keys]
+        keys[-1] = replace(keys[-1], speed_m_s=0.0, ramp_s=min(0.4, keys[-1].duration_s))
     yaw = target.plan.yaw
     top = foot - length
     start = (top * math.cos(yaw), top * math.sin(yaw), height)
     path = Track(
         start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m,
-        is_upright=group.noun.name in PERSON_NOUNS,
+        is_upright=is_person,
     )  # fmt: skip
     group.plan = replace(plan, yaw=yaw, path=path)
     group.fit()

@@ -173,6 +173,9 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     # Beside what goes across the image is behind it; else at its right, and smaller things nearer.
     beside = (0.0, y + _CLEAR_M, _AWAY) if is_aside else (x + _CLEAR_M, 0.0, _ALONG_X)
     level = 0.0 if goes else float(group.half[1] - subject.half[1])
+    # What is behind one who looks to the right is seen on the left.
+    looking = [one.plan.yaw for one in (subject, group) if one.noun.motion == "walk"]
+    side = -1.0 if any(math.cos(yaw) > _OBLIQUE for yaw in looking) else 1.0
     ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
     goals = {
         "from": (-x * along[0], -y * along[1], _AWAY),
@@ -184,8 +187,8 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
         "left of": (x, level, _ALONG_X),
         "right of": (-x, level, -_ALONG_X),
-        "behind": (-_look_past(subject, group.half_at_rest(), y), -y, -_AWAY),
-        "front": (_look_past(group, near, y), y, _AWAY),
+        "behind": (-side * _look_past(subject, group.half_at_rest(), y), -y, -_AWAY),
+        "front": (side * _look_past(group, near, y), y, _AWAY),
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
@@ -224,6 +227,8 @@ def place_at_distance(
     return Goal(np.array([*place, goal.position[2]]), _FIXED)
 
 
+_OBLIQUE = 0.3
+"""Cosine of the angle from which on a body looks to a side of the picture."""
 _ENDS = 0.87
 """From one end to the other of what is sat on at its ends, of its length."""
 

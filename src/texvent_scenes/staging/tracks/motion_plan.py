@@ -208,6 +208,7 @@ def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
 def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
     """Heading of what stays in place: animals from the side, the rest facing the camera.
 
+    Of animals seen from the side the front is a little nearer than the rear.
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
@@ -224,4 +225,4 @@ def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float
         return front + 0.5 * tilt
     if noun.habitat == "fixed":
         return front + math.copysign(0.45, tilt) + 0.3 * tilt
-    return side + tilt
+    return side - tilt if noun.motion == "walk" else side + tilt

@@ -1,0 +1,77 @@
+"""Camera-way check: ways and turns of the camera with respect to a body, over the clip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+import numpy as np
+
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.description import Claim
+from texvent_scenes.rendered_scene import Float64Array
+
+_Rule = Callable[[Float64Array, Float64Array, Float64Array], bool]
+"""Whether a camera is so, by its places from a body, [t, 3] m, its directions of sight, [t, 3], and
+the extents of that body, [3] m."""
+_NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.5
+"""Least share by which a camera nears something; cosine up to which something is in sight; least
+turn of the sight, and way by the distance, along something; least arc around it, rad."""
+_LEAST_WAY, _OVER = 0.5, 0.7
+"""Way of a camera that goes, and most distance aside of what it goes over, in sizes of that."""
+
+
+def is_camera_so(staged: StagedClip, claim: Claim) -> bool:
+    """Whether the camera goes so with respect to a body: towards it, past it, around it."""
+    cameras = [staged.scene.camera(one) for one in staged.times]
+    places = np.array([one.position for one in cameras])
+    sight = np.array([one.rotation[2] for one in cameras])
+    return any(
+        _CAMERA_WAYS.get(str(claim.value), _never)(places - body.middle, sight, body.size[0])
+        for target in claim.targets
+        for body in staged.boxes[target]
+    )
+
+
+def _never(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """The rule of what cannot be told of a camera."""
+    return False
+
+
+def _nears(sign: float, off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether the distance to a body shrinks (1) or grows (-1) by so much."""
+    far = np.linalg.norm(off, axis=1)
+    return bool(sign * (far[0] - far[-1]) >= _NEARED * far.max())
+
+
+def _sweeps(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether its line of sight, or its way, passes over a body or along it."""
+    to_body = -off / np.linalg.norm(off, axis=1, keepdims=True)
+    turned = np.linalg.norm(np.ptp(sight, axis=0))
+    gone = np.linalg.norm(np.ptp(off, axis=0)) / np.linalg.norm(off, axis=1).min()
+    is_met = (to_body * sight).sum(axis=1).max() >= _AHEAD
+    return bool(is_met and max(turned, gone) >= _SWEPT)
+
+
+def _flies_over(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether it passes above a body, or turns over it where it stays."""
+    if np.linalg.norm(np.ptp(off, axis=0)) < _LEAST_WAY * size_m.max():
+        return _sweeps(off, sight, size_m)
+    aside = np.linalg.norm(off[:, :2], axis=1).min()
+    return bool(aside <= _OVER * size_m.max() and off[:, 2].min() >= 0.5 * size_m[2])
+
+
+def _rounds(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether it goes around a body by a part of a circle."""
+    return float(np.ptp(np.unwrap(np.arctan2(off[:, 1], off[:, 0])))) >= _ARC
+
+
+_CAMERA_WAYS: Mapping[str, _Rule] = {
+    "towards": partial(_nears, 1.0),
+    "to": partial(_nears, 1.0),
+    "away from": partial(_nears, -1.0),
+    "past": _sweeps,
+    "above": _flies_over,
+    "around": _rounds,
+}
+"""Kind of relation → its rule."""
