@@ -11,6 +11,7 @@ import math
 import random
 import re
 from bisect import bisect
+from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import pairwise
@@ -24,10 +25,14 @@ PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), 
 WIDE = {
     "": ("tests/bounds/test_bounds.py", "tests/fuzz/test_fuzz.py"),
     SCENES: ("tests/scenes/golden/test_golden_scenes.py",),
+    **dict.fromkeys(("cli", "run", "settings"), ("tests/options/test_printed.py",)),
 }
-"""Files of tests of all rows of tables: of every file, and of those of a package."""
-MOST_TESTS = 14
+"""Files of tests of all rows of tables: of every file, and of those of a package or a room."""
+MOST_TESTS = 16
 """Files of tests that are near a change: the whole suite judges what these let pass."""
+MOST_ALIKE = 8
+"""Those of them that are there for their words alone."""
+WORD = re.compile("[A-Za-z]{4,}")
 ENTRY = re.compile(r"texvent\w*(?:\.\w+)+:\w+")
 """A part that a registry loads by name."""
 OPERATOR = re.compile(r"\*\*|//|<<|>>|[<>=!]=|[-+*/%&|<>]|\b(?:is not|not in|is|in|and|or)\b")
@@ -380,6 +385,34 @@ def _importing(modules: Iterable[Path], root: Path) -> list[Path]:
     return found
 
 
+@cache
+def _words(root: Path) -> dict[str, frozenset[str]]:
+    """The words of each file of tests of the program, by its path below `root`."""
+    tests = sorted((root / "tests").rglob("test_*.py"))
+    return {one.relative_to(root).as_posix(): _words_of(one.read_text("utf-8")) for one in tests}
+
+
+def _words_of(text: str) -> frozenset[str]:
+    return frozenset(WORD.findall(text.lower().replace("_", " ")))
+
+
+def _alike(file: str, root: Path) -> list[str]:
+    """Files of tests in the order of the words that they share with a source file, rare ones first.
+
+    What a registry loads is tested by its name, without an import.
+    """
+    tests = _words(root)
+    found = Counter(word for words in tests.values() for word in words)
+    weight = {word: math.log(len(tests) / count) ** 2 for word, count in found.items()}
+    own = _words_of(f"{file} {(root / source_path(file)).read_text('utf-8')}")
+
+    def likeness(test: str) -> float:
+        every = 1.0 + sum(weight[word] for word in tests[test])
+        return sum(weight[word] for word in tests[test] & own) / math.sqrt(every)
+
+    return sorted((one for one in tests if likeness(one)), key=likeness, reverse=True)
+
+
 def near_tests(file: str, root: Path) -> list[str]:
     """Files of tests that may notice a change, nearest first, below `root`."""
     inner = Path(file)
@@ -388,6 +421,9 @@ def near_tests(file: str, root: Path) -> list[str]:
     chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
     chosen += [one for one in own if one in importing]
     chosen += [one for one in importing if one.name.startswith("test_") and one.parts[0] != "lab"]
+    if inner.parts[0] not in PACKAGES:
+        chosen = chosen[: MOST_TESTS - MOST_ALIKE]
+        chosen += [one for one in map(Path, _alike(file, root)) if one not in chosen][:MOST_ALIKE]
     chosen += own + [one for one in importing if one.name.startswith("test_")]
     seen = {inner}
     # Who imports it, then who imports these.

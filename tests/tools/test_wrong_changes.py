@@ -79,8 +79,8 @@ def tree(tmp_path: Path) -> Path:
         "src/texvent/small/part.py": "A = 1\n",
         "src/texvent_scenes/read/part.py": "B = 1\n",
         "tests/conftest.py": BRIEF,
-        "tests/big/test_other.py": "def test_that_fails_always(): assert False\n",
-        "tests/big/test_part.py": "",
+        "tests/big/test_other.py": "",
+        "tests/big/test_part.py": "def test_that_fails_always(): assert False\n",
         "tests/test_direct.py": "import texvent.big.part\n",
         "tests/small/test_small.py": "",
         "tests/scenes/read/test_read.py": "",
@@ -106,7 +106,7 @@ def test_a_seed_repeats_its_draw_and_rooms_have_their_share(tree: Path) -> None:
 
 
 def test_tests_are_those_of_the_file_of_its_folder_and_of_who_imports_it(tree: Path) -> None:
-    names = ("big/test_part", "test_direct", "big/test_other", "test_user")
+    names = ("big/test_part", "test_direct", "test_user", "big/test_other")
     near = [f"tests/{name}.py" for name in names]
     assert near_tests("big/part.py", tree) == near
     assert near_tests("texvent_scenes/read/part.py", tree) == ["tests/scenes/read/test_read.py"]
@@ -133,7 +133,7 @@ def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None
     failing: set[str] = set()
     by = "tests/test_user.py::test_it"
     assert judge_drawn(tree, change, failing) == (NOTICED, by)
-    assert failing == {"tests/big/test_other.py::test_that_fails_always"}
+    assert failing == {"tests/big/test_part.py::test_that_fails_always"}
     assert judge_drawn(tree, survivor, failing)[0] == SURVIVED
     far, *_ = changes_of("texvent_lab/run.py", "C = 1\n")
     assert judge_drawn(tree, far, failing) == (NOTICED, "tests/bounds/test_bounds.py::test_it")
@@ -148,7 +148,7 @@ def test_changes_that_are_made_together_are_noticed_one_by_one(tree: Path) -> No
     found = {one: verdict for one, *verdict in judged}
     assert found[first] == [NOTICED, "tests/test_user.py::test_it"]
     assert {found[one][0] for one in (survivor, other)} == {SURVIVED}
-    assert failing == {"tests/big/test_other.py::test_that_fails_always"}
+    assert failing == {"tests/big/test_part.py::test_that_fails_always"}
 
 
 def test_the_interval_is_that_of_the_formula_by_hand() -> None:
