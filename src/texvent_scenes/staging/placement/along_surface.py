@@ -39,13 +39,15 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
         said_m_s = plan.speed_m_s
         plan = replace(plan, motion=replace(plan.motion, speed_m_s=said_m_s))
     keys = [Key(plan.duration_s, activity="stand")]
+    treads = trait_value("treads", target.noun.name) if plan.motion.kind == "bounce" else None
+    first = (0.5 / treads, 1.0 / (treads + 1)) if treads else (0.0, 0.0)  # the first step
     if plan.motion.kind == "bounce":
-        keys = _list_hops(length, height, said_m_s)
+        keys = _list_hops(length, height * (1.0 - first[1]), said_m_s)
     elif said_m_s != 0.0:
         keys = _list_keys(plan, length / way_m, -height / way_m, way_m)
     yaw = target.plan.yaw
-    top = foot - length
-    start = (top * math.cos(yaw), top * math.sin(yaw), height)
+    top = foot - length + first[0] * length
+    start = (top * math.cos(yaw), top * math.sin(yaw), height * (1.0 - first[1]))
     path = Track(
         start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m,
         is_upright=group.noun.name in PERSON_NOUNS,
