@@ -247,11 +247,11 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 def bounces(staged: StagedClip, claim: Claim) -> bool:
     """Whether it comes down in the image, and then up again."""
     for one in staged.own(claim):
-        height = [one.lowest_m(at) for at in staged.fine_times if staged.has_in_image(one, at)]
-        if not height:
-            return False
-        low = int(np.argmin(height))
-        if min(max(height[: low + 1]), max(height[low:])) - height[low] < _GROUNDED * one.size_m:
+        found = [one.lowest_m(at) for at in staged.fine_times if staged.has_in_image(one, at)]
+        height = np.array(found or [0.0])
+        lowest = np.minimum.accumulate(height)
+        fallen = np.maximum.accumulate(height) - lowest
+        if np.minimum(height - lowest, fallen).max() < _GROUNDED * one.size_m:
             return False
     return True
 

@@ -372,7 +372,7 @@ def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
         return kind if is_open else other_kind
     if kind in ("up", "down"):
         if noun in trait_values("slope"):
-            return "on" if kind == "down" else kind
+            return "on" if kind == "down" and does != {"bounce"} else kind
         can_climb = noun in trait_values("climbed") and bool(does) and does <= _ON_FOOT
         if can_climb and draft.walks(index):
             thing["motions"][-1]["kind"] = "climb"  # "goes up a tree"

@@ -64,7 +64,7 @@ def test_a_thing_that_is_lifted_out_of_its_container_is_not_in_it(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["an apple in a suitcase", "a cat in a barrel", "a fish in a bowl"]
+    "text", ["an apple in a suitcase", "a cat in a barrel", "a fish in a bucket"]
 )
 def test_what_cannot_be_seen_in_its_container_is_not_shown(text):
     said, scene = staged(text)

@@ -161,3 +161,17 @@ def test_a_board_leaves_the_ground_and_turns_over_in_a_kickflip(text, turns):
     assert not faults(text)
     assert np.ptp(height) > 0.2
     assert (np.sign(tops).min() < 0.0) == turns
+
+
+def test_what_bounces_down_stairs_leaves_each_step_and_meets_none():
+    text = "a ball bounces down the stairs"
+    ball, stairs = actor_of(text, "ball"), actor_of(text, "stairs")
+    to_stairs = np.linalg.inv(np.vstack([stairs.track.at(0.0).to_world(), [0, 0, 0, 1]]))
+    times = np.linspace(0.0, CLIP_S, 201)
+    low = np.array([[*ball.track.at(at).position, 1.0] for at in times]) @ to_stairs.T
+    tread = 1.7 - 0.17 * np.ceil((low[:, 0] + 1.2) / 0.3)
+    height = low[:, 2] - np.clip(tread, 0.0, 1.7)
+    rises = np.flatnonzero((low[1:-1, 2] < low[:-2, 2]) & (low[1:-1, 2] <= low[2:, 2]))
+    assert not faults(text)
+    assert len(rises) >= 2
+    assert height.min() > -0.02

@@ -12,7 +12,7 @@ from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, ahead
 
 _ABOVE_M = 0.35
 """Height above a rim that what is thrown up to it reaches, m."""
-_LOB_S, _FAR_M, _NEAR_M, _LOW_NET, _NET_M, _IN_NET = 0.9, 4.5, 2.4, 0.4, 0.45, 0.25
+_LOB_S, _FAR_M, _NEAR_M, _LOW_NET, _NET_M, _IN_NET = 0.9, 4.5, 2.4, 0.4, 0.3, 0.25
 """Time and ways to what something is sent into, at most, the second to a rim below who throws;
 share of its height at which a net is hit; from a goal's line to the net; share of the
 speed that a bounce in there keeps."""

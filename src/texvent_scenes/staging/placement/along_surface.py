@@ -23,6 +23,8 @@ _MOST_RUN_UP_M_S = 4.0
 """Most usual speed of a run-up."""
 _LEAST_GOING_S = 0.1
 """Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
+_HOPS, _HOP_UP = 3, 0.45
+"""Hops of what bounces down a slope; height of each above its beginning, by the way down."""
 _ROLLING, _STEPS = 5.0 / 7.0, 8
 """Share of the acceleration down a slope of what rolls there, a full sphere; keys of such a way."""
 
@@ -42,20 +44,39 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
         said = group.scene_object.motion.speed_m_s
         plan, said_m_s = replace(plan, motion=replace(plan.motion, speed_m_s=said)), said
     keys = [Key(plan.duration_s, activity="stand")]
-    if said_m_s != 0.0:
+    treads = trait_value("treads", target.noun.name) if plan.motion.kind == "bounce" else None
+    first = (0.5 / treads, 1.0 / (treads + 1)) if treads else (0.0, 0.0)  # the first step
+    if plan.motion.kind == "bounce":
+        keys = _list_hops(length, height * (1.0 - first[1]), said_m_s)
+    elif said_m_s != 0.0:
         keys = _list_keys(plan, length / way_m, -height / way_m, way_m)
     if is_seated:  # it comes to rest where it lands
         keys = [replace(key, activity=ON_GROUND["sit"]) for key in keys]
         keys[-1] = replace(keys[-1], speed_m_s=0.0, ramp_s=min(0.4, keys[-1].duration_s))
     yaw = target.plan.yaw
-    top = foot - length
-    start = (top * math.cos(yaw), top * math.sin(yaw), height)
+    top = foot - length + first[0] * length
+    start = (top * math.cos(yaw), top * math.sin(yaw), height * (1.0 - first[1]))
     path = Track(
         start, yaw, tuple(keys), floor_m=0.0, radius_m=plan.radius_m,
         is_upright=is_person,
     )  # fmt: skip
     group.plan = replace(plan, yaw=yaw, path=path)
     group.fit()
+
+
+def _list_hops(length: float, height: float, said_m_s: float | None) -> list[Key]:
+    """Keys of equal hops down a slope, each higher than it begins; then on over the ground."""
+    far, drop = length / _HOPS, height / _HOPS
+    up_m = max(_HOP_UP * drop, 0.02)
+    flown_s = math.sqrt(2.0 * up_m / GRAVITY_M_S2) + math.sqrt(2.0 * (up_m + drop) / GRAVITY_M_S2)
+    flown_s = far / said_m_s if said_m_s else flown_s
+    hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
+    hop = Key(flown_s, far / flown_s, 0.0, -drop / flown_s, 0.0, "move", hop_m)
+    last_m = 0.5 * hop_m
+    on_s = flight_s(last_m)
+    after = Key(on_s, 0.4 * far / flown_s, ramp_s=0.0, hop_m=last_m)
+    rest = Key(1.0, 0.0, ramp_s=0.5)
+    return [Key(0.0, far / flown_s, 0.0, -drop / flown_s), *[hop] * _HOPS, after, rest]
 
 
 def _list_keys(plan: MotionPlan, along: float, down: float, way_m: float) -> list[Key]:
