@@ -165,7 +165,8 @@ class GroupReader:
         head = head or self._shared_head(article, [] if unknown else modifiers)
         known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
-        if self._token().text == "of" and self._starts_group(1):
+        is_of = self._token().text == "of" or self._token().has("containing")
+        if is_of and self._starts_group(1):
             of = Phrase(self._take(), (self._group(),))
         elif head is None and self._token().text == "of" and self._token(1).text == "them":
             of = Phrase(self._take(), ())

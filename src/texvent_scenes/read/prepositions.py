@@ -81,11 +81,13 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 
 def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Whether it names parts in a number that is not drawn: "a bus with two doors"."""
+    """Whether it names parts and patterns that are not drawn: "a bus with two doors"."""
     nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
     is_own = any(word.text in owned_parts() for one in phrase.groups for word in _list_words(one))
-    is_body = not any(map(draft.walks, subjects))
-    return bool(nouns) and {*nouns} <= word_set("things", "built_in") and is_body and not is_own
+    flat, is_body = nouns_with("flat pattern"), not any(map(draft.walks, subjects))
+    is_flat = any(draft.things[one]["noun"] in flat for one in subjects)
+    inner = word_set("things", "built_in") | (frozenset() if is_flat else flat)  # "with stripes"
+    return bool(nouns) and {*nouns} <= inner and is_body and not is_own
 
 
 def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:

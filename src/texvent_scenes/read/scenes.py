@@ -169,10 +169,8 @@ class _SentenceReader(ThingReader):
         things = [{"noun": noun, "motions": [], "count": 1, "relations": []}
                   for noun in ("person", *nouns)]  # fmt: skip
         draft.things += things
-        handled = range(1, len(things)) if len(nouns) == len(clause.objects) else None
-        is_so = handled is not None and any(
-            is_of_people(one) and draft.fits(one, [0], handled, bool(nouns)) for one in acts
-        )
+        acts = [one for one in acts if is_of_people(one) and len(nouns) == len(clause.objects)]
+        is_so = any(draft.fits(one, [0], range(1, len(things)), bool(nouns)) for one in acts)
         del draft.things[is_so:]
         return [0][:is_so]
 

@@ -33,7 +33,7 @@ from texvent_scenes.read.lexicon import (
     word_set,
 )
 from texvent_scenes.read.prepositions import ridden_by
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
@@ -98,11 +98,12 @@ class ThingReader:
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
                 is_mark = relation == "with" and any(map(self._draft.walks, owners))
-                is_mark &= effect is not None and effect.value in word_set("things", "marks")
-                if not (self._draft.set_scene(token) or is_mark) and effect is not None:
+                marks = word_set("things", "marks") if is_mark else ()
+                if not self._draft.set_scene(token) and effect and effect.value not in marks:
                     self._draft.add_effect(token, effect.value, owners)
-        for content in group.of.groups if group.of is not None else ():
-            self._fill(found, content)
+        phrase = group.of or Phrase(head or NO_TOKEN, ())
+        for content in phrase.groups:
+            self._fill(found, content, phrase.preposition)
         return found
 
     def _light_own(self, group: Group) -> None:
@@ -113,15 +114,20 @@ class ThingReader:
             if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
                 self._say(token, lamps)
 
-    def _fill(self, vessels: Sequence[int], content: Group) -> None:
-        """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
+    def _fill(self, vessels: Sequence[int], content: Group, token: Token) -> None:
+        """Add a place, or what is in a vessel or place: "of apples"; else its part is not known."""
         head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
         if head is not None and names_place(head, ""):
             self._name(content, "in")
         elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
             for index in self._name(content):
                 self._draft.relate(index, "in", vessels)
+                self._draft.show(token)
             self._nearest = list(vessels)
+        elif token.has("containing") and not vessels:
+            for index in self._name(content):
+                self._draft.things[index]["count"] = 2 * PLURAL_COUNT
+                self._draft.show(token)
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, group.noun
@@ -248,7 +254,8 @@ class ThingReader:
         """Apply a state of what opens, or the speed of a view; a dark tunnel is not painted."""
         draft, state = self._draft, states().get(token.text)
         if field == "colour" and token.text in word_set("things", "shades"):
-            return self._are_lit(subjects)
+            lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
+            return any(draft.things[n]["noun"] in lit and not draft.can_go(n) for n in subjects)
         acts = [self._nouns[draft.things[index]["noun"]].acts for index in subjects]
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
@@ -264,12 +271,6 @@ class ThingReader:
         is_way = is_still and draft.set_journey(field, value)
         draft.show(*([token] if is_way else []))
         return is_way
-
-    def _are_lit(self, subjects: Sequence[int]) -> bool:
-        """Whether some are dark where no light is: rooms, tunnels and lamps."""
-        lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
-        fixed = (n for n in subjects if not self._draft.can_go(n))
-        return any(self._draft.things[n]["noun"] in lit for n in fixed)
 
     def _blow(self, index: int) -> bool:
         """Let things sway in the wind; whether the wind shows in their motion."""

@@ -203,9 +203,8 @@ def _read_phrase(
 def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
     """Whether a phrase says what a thing is like that follows: "in a dark suit"."""
     after = tuple(one.casefold() for one in words[end + 1 : end + 2])
-    senses = lexicon.get(after, ())
-    is_plural = not senses and any(one.endswith("s") and len(one) > 3 for one in after)  # "clothes"
-    is_led = words[end - 1] in ("a", "an") or is_plural or any(one.kind == "noun" for one in senses)
+    is_noun = any(one.kind == "noun" for one in lexicon.get(after, ()))
+    is_led = is_noun or words[end - 1] in ("a", "an")
     return is_led and words[end].casefold() in word_set("things", "shades")
 
 

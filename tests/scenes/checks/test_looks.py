@@ -68,6 +68,8 @@ def test_a_look_is_shown_of_what_has_it(text, word, is_so):
         ("a horse with a white blaze trots", {"horse", "trots"}, {"white", "blaze"}),
         ("a toddler in striped pajamas sits", {"striped", "pajamas", "sits"}, set()),
         ("an empty street", {"empty", "street"}, set()),
+        ("a park filled with children", {"park", "filled with", "children"}, set()),
+        ("a yellow taxi with black stripes", {"yellow", "taxi"}, {"black", "stripes"}),
         ("a man in a dark suit walks", {"dark", "suit", "walks"}, set()),
         ("a woman in a red dress and a white hat walks", {"white", "hat", "walks"}, set()),
     ],
