@@ -23,6 +23,8 @@ _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
 _HANDS, _REACH = ("left hand", "right hand"), 0.12
 """Places that act on things; from there to what is acted upon, in sizes of the body."""
+_BESIDE = 0.2
+"""Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
@@ -145,6 +147,16 @@ def goes(staged: StagedClip, claim: Claim) -> bool:
         np.linalg.norm(one.middle - one.middle[0], axis=1).max() >= one.size.max()
         for one in staged.own_boxes(claim)
     )
+
+
+def goes_along(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a good part of its way is beside a body, or a row: a short fence is only passed."""
+    ends = np.array([end for n in claim.targets for one in staged.boxes[n]
+                     for end in (one.middle[0] - 0.5 * one.size[0],
+                                 one.middle[0] + 0.5 * one.size[0])])  # fmt: skip
+    beside_m = float(np.ptp(ends[:, :2], axis=0).max()) if len(ends) else 0.0
+    ways = [one.middle[-1] - one.middle[0] for one in staged.own_boxes(claim)]
+    return all(beside_m >= _BESIDE * np.linalg.norm(way) for way in ways)
 
 
 def goes_aside(staged: StagedClip, claim: Claim) -> bool:

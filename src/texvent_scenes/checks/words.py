@@ -18,6 +18,7 @@ from texvent_scenes.checks.acts import (
     descends,
     falls,
     goes,
+    goes_along,
     goes_aside,
     goes_back,
     handles,
@@ -225,7 +226,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, SEEN: lambda *_: True,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "aside": goes_aside, "goes": goes,
+    "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "camera": is_camera_so, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""
