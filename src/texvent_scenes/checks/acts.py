@@ -25,6 +25,8 @@ _HANDS, _REACH = ("left hand", "right hand"), 0.12
 """Places that act on things; from there to what is acted upon, in sizes of the body."""
 _SEEN = 0.9
 """Share of the clip after which what breaks leaves no time to see its pieces."""
+_BESIDE = 0.2
+"""Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
@@ -147,6 +149,16 @@ def goes(staged: StagedClip, claim: Claim) -> bool:
         np.linalg.norm(one.middle - one.middle[0], axis=1).max() >= one.size.max()
         for one in staged.own_boxes(claim)
     )
+
+
+def goes_along(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a good part of its way is beside a body, or a row: a short fence is only passed."""
+    ends = np.array([end for n in claim.targets for one in staged.boxes[n]
+                     for end in (one.middle[0] - 0.5 * one.size[0],
+                                 one.middle[0] + 0.5 * one.size[0])])  # fmt: skip
+    beside_m = float(np.ptp(ends[:, :2], axis=0).max()) if len(ends) else 0.0
+    ways = [one.middle[-1] - one.middle[0] for one in staged.own_boxes(claim)]
+    return all(beside_m >= _BESIDE * np.linalg.norm(way) for way in ways)
 
 
 def goes_aside(staged: StagedClip, claim: Claim) -> bool:

@@ -221,7 +221,7 @@ def _judge(
 
 
 def _until_broken(one: Actor, view: View, times: Sequence[float]) -> View:
-    """What is seen of a body until it breaks: then only its pieces are left."""
+    """View of a body until it breaks: then only its pieces are left."""
     if one.breaks_s is None:
         return view
     return view._replace(at=tuple(itertools.compress(view.at, (t < one.breaks_s for t in times))))

@@ -20,6 +20,7 @@ from texvent_scenes.checks.acts import (
     descends,
     falls,
     goes,
+    goes_along,
     goes_aside,
     goes_back,
     handles,
@@ -240,7 +241,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "mutual": _are_mutual, "bounce": bounces, "break": breaks, SEEN: lambda *_: True,
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
-    "land": lands, "aside": goes_aside, "goes": goes,
+    "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "camera": is_camera_so, "stop": stops, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

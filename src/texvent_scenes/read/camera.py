@@ -102,12 +102,16 @@ def claim_way(
         draft.claim(preposition, "camera", kind, [None], targets)
 
 
-def _lead(move: dict[str, Any], preposition: Token) -> dict[str, Any]:
-    """The move after a preposition: around what it shows, or towards it."""
+def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:
+    """The move after a preposition: around what it shows, towards it, or ahead through a place."""
+    preposition, heads = phrase.preposition, [group.head for group in phrase.groups]
     kinds, pace = {one.value for one in preposition.all("relation")}, move.get("pace", 1.0)
     if preposition.text == "around" and move["kind"] in ("truck", "travel"):
         return {"kind": "orbit", "pace": pace}
     is_open = move["kind"] == "truck" and "direction" not in move
+    is_place = bool(heads) and all(head and names_place(head, preposition.text) for head in heads)
+    if is_open and is_place and preposition.text in word_set("things", "onward"):
+        return {**split_move("travel forward"), "pace": pace}
     return {**split_move("dolly in"), "pace": pace} if is_open and "towards" in kinds else move
 
 
@@ -127,7 +131,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     turned = read_table("words", "read")["turned_moves"]
     for one in clause.after:
         if isinstance(one, Phrase):
-            move = _lead(move, one.preposition)
+            move = _lead(move, one)
             continue
         name, value = sense.value if (sense := one.first("adverb")) else ("", "")
         if name == "direction":

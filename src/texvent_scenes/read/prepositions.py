@@ -311,6 +311,8 @@ def claim_relation(
     does = {each["kind"] for one in motions for each in one}
     if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
         draft.claim(token, "sit at", "", subjects, targets)
+    if is_shown and token.text == "along":
+        draft.claim(token, "along", "", subjects, targets)
     if is_shown and kind in ("up", "down"):
         draft.claim(token, "relation", kind, subjects, targets)
     elif is_shown and kind == "front" and any(stops):

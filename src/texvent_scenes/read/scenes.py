@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
@@ -420,6 +421,7 @@ class _SentenceReader(ThingReader):
             self._name(group, "in")
         for group in clause.objects if not is_own else ():
             targets += self._name(group)
+        self._lead_followed(move, targets)
         for one in clause.after:
             if not isinstance(one, Phrase):
                 self._draft.set_scene(one)
@@ -436,11 +438,18 @@ class _SentenceReader(ThingReader):
                 if found and kind in ("through", "out of"):
                     is_side = move is None or not go_through(draft, move, one.preposition, found)
                 claim_way(draft, move, one.preposition, found)
+                heads = [group.head for group in one.groups if group.head is not None]
+                is_side |= bool(one.groups) and not any(map(draft.shows, heads))
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)
             if targets:
                 draft.parts["camera"].setdefault("target", targets[0])
-            followed = targets if move["kind"] == "follow" else []
-            for thing in (draft.things[one] for one in followed if draft.can_go(one)):
-                thing["motions"] = thing["motions"] or [{"kind": "move"}]
+            self._lead_followed(move, targets)
+
+    def _lead_followed(self, move: Mapping[str, Any] | None, targets: Sequence[int]) -> None:
+        """Let things go that a camera follows."""
+        followed = targets if move is not None and move["kind"] == "follow" else []
+        for index in filter(self._draft.can_go, followed):
+            thing = self._draft.things[index]
+            thing["motions"] = thing["motions"] or [{"kind": "move"}]
