@@ -36,6 +36,8 @@ _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
 _NEAREST = 0.3
 """Least distance of a flake to the camera, as a share of that to what it looks at."""
+_GREY = (0.5, 0.5, 0.5)
+"""Colour of pieces of nothing that is known."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -113,7 +115,7 @@ class Emitter:
     ) -> Emitter:
         """An emitter; `volley` is the number of the salvo that it is, where its style has some.
 
-        It begins at `start_s`, None = long ago.
+        It begins at `start_s`, None = long ago, of what is born at once the beginning of the clip.
         """
         life_s = style.life * math.sqrt(source.size_m / GRAVITY_M_S2) or _LONG_S
         if style.body == "drop" and style.life == 0.0:
@@ -122,10 +124,12 @@ class Emitter:
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY_M_S2)
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, salvo)
-        start = -math.inf if start_s is None else start_s
+        usual = 0.0 if style.at_once else -math.inf
+        start = usual if start_s is None else start_s
         if style.at_once:
             lives.draws[:, :, 7] = -start / life_s % 1.0
-        return cls(source, style, lives, np.array(style.colours), setting, start, pace)
+        colours = np.array(style.colours or (_GREY,))
+        return cls(source, style, lives, colours, setting, start, pace)
 
     @property
     def floor_m(self) -> float:
