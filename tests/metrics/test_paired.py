@@ -1,5 +1,6 @@
 """Worked values, slow twins and properties of the paired metrics."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -39,6 +40,15 @@ def test_every_metric_of_busy_streams_equals_its_definition(name):
     a, b = random_events(1, 300), random_events(2, 400)
     found = describe_metrics()[name](a, b)
     assert found == pytest.approx(slow.DEFINITIONS[name](a, b), rel=1e-6)
+
+
+@pytest.mark.parametrize("name", EVERY_METRIC)
+def test_every_parameter_of_a_metric_counts(name):
+    usual = describe_metrics()[name]
+    a, b = random_events(1, 300), random_events(2, 400)
+    numbers = {name: one for name, one in vars(usual).items() if not callable(one)}
+    for parameter, one in numbers.items():
+        assert dataclasses.replace(usual, **{parameter: 3 * one})(a, b) != usual(a, b), parameter
 
 
 DIVISIBLE = SensorSize(96, 96)

@@ -158,9 +158,7 @@ class BlockWriter:
         self._write: WriteBlock | None = None
         self._pending: list[EventStream] = []
         self._pending_events = 0
-        self._first_us = 0
         self._last_us: int | None = None
-        self._has_label = self._has_ids = False
         self._left_out: set[str] = set()
 
     def __enter__(self) -> Self:
