@@ -62,13 +62,6 @@ def test_files_packets_and_streams_are_compared(events, path):
     assert texvent.compare(str(path), texvent.open(path), names) == want
 
 
-def test_packets_can_be_saved_and_read_again(events, tmp_path):
-    packets = texvent.generate(PROMPT, **SMALL, as_packets=True)
-    saved = packets.save(tmp_path / "events.h5", progress=False)
-    assert texvent.load(saved).equals(events)
-    assert packets.collect().equals(events)  # simulated a second time
-
-
 def of_a_generator():
     frames = np.random.default_rng(1).integers(0, 256, (12, 8, 10), dtype=np.uint8)
     return texvent.simulate((frame for frame in frames), fps=60, as_packets=True)
