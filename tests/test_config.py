@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.config import CaptureConfig, check_range, check_whole
+from texvent.config import check_range, check_whole
 from texvent.errors import ConfigError
 
 BOUNDS = st.lists(st.integers(-(10**9), 10**9), min_size=2, max_size=2).map(sorted)
@@ -28,8 +28,3 @@ def test_a_range_holds_its_bounds_and_nothing_beyond_them(bounds, kind):
     for value in (bounds[0] - 1, bounds[1] + 1, bounds[0] + 0.5, True, math.nan, "3"):
         with pytest.raises(ConfigError, match=REFUSAL):
             check_whole("it", value, *bounds)
-
-
-def test_a_clip_stops_after_its_start():
-    with pytest.raises(ConfigError, match="must be"):
-        CaptureConfig(start=2.0, stop=1.0)

@@ -56,13 +56,6 @@ def test_convention_no_events_is_an_empty_stream():
     assert nothing.between(0, 10**12).equals(nothing)
 
 
-def test_between_is_half_open():
-    events = stream([10, 20, 20, 30])
-    assert events.between(10, 20).t.tolist() == [10]
-    assert events.between(20, 31).t.tolist() == [20, 20, 30]
-    assert events.time_range == (10, 31)
-
-
 @given(st.lists(st.integers(0, 2**40), max_size=60), st.integers(0, 2**40), st.integers(0, 2**40))
 def test_cutting_and_concatenating_changes_nothing(times, first, second):
     events = stream(sorted(times))

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from tests.truth.hand_video import board_video
 
 import texvent
 from texvent.api.functions import compare
@@ -62,13 +63,6 @@ def test_files_packets_and_streams_are_compared(events, path):
     assert texvent.compare(str(path), texvent.open(path), names) == want
 
 
-def test_packets_can_be_saved_and_read_again(events, tmp_path):
-    packets = texvent.generate(PROMPT, **SMALL, as_packets=True)
-    saved = packets.save(tmp_path / "events.h5", progress=False)
-    assert texvent.load(saved).equals(events)
-    assert packets.collect().equals(events)  # simulated a second time
-
-
 def of_a_generator():
     frames = np.random.default_rng(1).integers(0, 256, (12, 8, 10), dtype=np.uint8)
     return texvent.simulate((frame for frame in frames), fps=60, as_packets=True)
@@ -101,17 +95,17 @@ def test_pixel_models_are_there_by_class_and_load_when_named():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@pytest.mark.parametrize("as_packets", [False, True])
-def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
-    calls = []
-    frames = np.random.default_rng(0).uniform(0, 255, (4, 12, 16)).astype(np.float32)
-    options = {"fps": 100, "interpolate": "none"}
-    if as_packets:
-        packets = texvent.simulate(frames, **options, as_packets=True)
-        packets.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
+@pytest.mark.parametrize("door", ["events", "packets", "truth"])
+def test_a_function_is_told_how_far_the_simulation_is_in_frames_of_the_video(door, tmp_path):
+    calls, video = [], board_video()
+    options = {"fixed_count": 2, "progress": lambda *step: calls.append(step)}
+    if door == "packets":
+        packets = texvent.simulate(video, fixed_count=2, as_packets=True)
+        packets.save(tmp_path / "out.h5", progress=options["progress"])
     else:
-        texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
-    assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
+        truth = {"truth_folder": tmp_path / "a.truth"} if door == "truth" else {}
+        texvent.simulate(video, **options, **truth)
+    assert [*dict.fromkeys(calls)] == [(number, 6, "simulate") for number in range(1, 7)]
 
 
 @pytest.mark.parametrize(

@@ -10,9 +10,18 @@ from pathlib import Path
 import pytest
 
 from texvent.cli.dataset.stored import _print_counts
-from texvent.dataset.generation.shard_files import FAILED, read_record, write_record
-from texvent.dataset.statistics import DatasetStatistics, quantiles, summary_lines
+from texvent.dataset.generation.dry_run import StageEstimate
+from texvent.dataset.generation.shard_files import (
+    FAILED,
+    MADE,
+    SampleRecord,
+    ShardRecord,
+    read_record,
+    write_record,
+)
+from texvent.dataset.statistics import DatasetStatistics, Statistics, quantiles, summary_lines
 from texvent.dataset.stored.folder import StoredDataset
+from texvent.prompt_report import PromptReport
 
 
 def test_counts_are_those_of_the_samples(cars: Path) -> None:
@@ -56,6 +65,21 @@ def test_reasons_and_warnings_count_together_and_are_said(copied: Path) -> None:
         f"failed   {len(failed)}: frame 0 fails",
         f"warning  {len(failed)}: 0 Hz",
     ]
+
+
+def test_boxes_and_reports_are_counted_by_hand() -> None:
+    report = PromptReport(not_understood=("wug",)).to_json()
+    sample = SampleRecord(key="a", clip="c", status=MADE, seed=1, tracks=2, prompt_report=report,
+                          boxes={"car": (1, 2, 4)})  # fmt: skip
+    samples = (sample, replace(sample, key="b"), replace(sample, key="d", clip="e", boxes={}))
+    record = ShardRecord(name="train-000000", split="train", variant="v", identity="i", sha256="",
+                         bytes=1, samples=samples, seconds=1.0)  # fmt: skip
+    total = Statistics.of([record])
+    assert (total.boxes, total.tracks, total.without_boxes) == ({"car": 14}, 6, 1)
+    assert total.box_sizes == {"small": 2, "medium": 4, "large": 8}
+    assert total.reports.prompts == 2  # a clip counts once
+    trial = StageEstimate("v", 3, (record, replace(record, samples=samples[:1])), 0.0, 0.0, 0.0)
+    assert (trial.tried, trial.share(MADE), trial.share(FAILED)) == (4, 1.0, 0.0)
 
 
 def test_quantiles_by_hand() -> None:

@@ -11,6 +11,7 @@ from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
 from texvent.frames import Frame, Video
 from texvent.interpolate.simple import BlendInterpolator, ExactInterpolator
+from texvent.transfer import Transfer
 
 
 def test_blend_mixes_by_the_share_of_time_that_passed(pair, stream):
@@ -37,7 +38,8 @@ class Brightening(Video):
     """A grey field that brightens by one level per 100 µs, at any instant."""
 
     def at(self, t_us: int) -> Frame:
-        return Frame(np.full((4, 4, 3), t_us / 100, np.float32), t_us, is_source=False)
+        levels = np.full((4, 4, 3), t_us / 100, np.float32)
+        return Frame(levels, t_us, is_source=False, transfer=Transfer.LINEAR)
 
 
 @pytest.fixture
@@ -53,7 +55,7 @@ def test_exact_frames_are_what_the_scene_shows_then(renderable):
         assert frame.pixels.shape == (4, 4)
         assert frame.pixels.dtype == np.float32
         assert frame.pixels == pytest.approx(level, abs=1e-4)
-        assert not frame.is_source
+        assert (frame.is_source, frame.transfer) == (False, Transfer.LINEAR)
 
 
 def test_exact_fails_on_a_recorded_video_and_names_the_choices(stream):

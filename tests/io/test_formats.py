@@ -174,6 +174,12 @@ def test_an_existing_file_is_kept_unless_overwriting_is_allowed(
     assert load(path, format=case.name).equals(first)
     save(path, second, format=case.name, overwrite=True)
     assert load(path, format=case.name).equals(second)
+    # What is written beside it is kept too.
+    for beside in {*tmp_path.iterdir()} - {path}:
+        path.unlink()
+        with pytest.raises(OutputError, match=f"{beside.name} exists already"):
+            save(path, first, format=case.name)
+        assert [*tmp_path.iterdir()] == [beside]
 
 
 def test_metadata_that_is_not_json_is_refused_before_any_file_exists(

@@ -85,6 +85,15 @@ def test_times_of_frames_are_clumped() -> None:
     assert any("crowded timestamps" in text for text in report.complaints())
 
 
+@pytest.mark.parametrize("size", [SIZE, SensorSize(346, 260), SensorSize(1280, 720)])
+@pytest.mark.parametrize("beyond", [0, 1])
+def test_a_crowd_is_more_than_ten_and_one_per_thousand_pixels(size, beyond) -> None:
+    count = 10 + size.width * size.height // 1000 + beyond
+    y, x = np.divmod(np.arange(count), size.width)
+    same = np.ones(count, int)
+    assert check(EventStream(x, y, 7 * same, same, size)).clumped_share == beyond
+
+
 def test_a_missing_polarity_is_reported() -> None:
     events = spread(5000)
     only_on = EventStream(events.x, events.y, events.t, np.ones(5000, int), SIZE)

@@ -1,3 +1,6 @@
+import math
+
+import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
@@ -17,6 +20,16 @@ def test_wrong_shapes_and_windows_are_refused():
         histogram_2d(EVENTS, shape=(3, 0))
     with pytest.raises(InputError, match="the window ends at 5 µs; it must end after it starts"):
         histogram_3d(EVENTS, start_us=5, stop_us=5)
+
+
+@pytest.mark.parametrize("start", [None, 12, 20, 10**12])
+@pytest.mark.parametrize("stop", [None, 15, 10**13])
+def test_a_window_holds_the_events_between_its_ends(start, stop):
+    lowest = -math.inf if start is None else start
+    highest = math.inf if stop is None else stop
+    if lowest < highest:
+        found = histogram_3d(EVENTS, start_us=start, stop_us=stop).sum()
+        assert found == np.count_nonzero((EVENTS.t >= lowest) & (EVENTS.t < highest))
 
 
 def test_counts_stop_at_the_cutoff_instead_of_wrapping():

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import cv2
 import numpy as np
 import pytest
 
@@ -84,6 +85,21 @@ def test_a_prompt_a_source_and_a_video_make_the_same_run():
     assert all(one.equals(first) for one in others)
     assert [run.prompt for run in runs] == [PROMPT] * 3
     assert simulate_video(video, settings, None).equals(first)
+
+
+@pytest.mark.parametrize("video_seed", [None, 3, 8])
+def test_a_camera_shakes_by_the_seed_of_the_video_or_else_that_of_the_run(tmp_path, video_seed):
+    image = str(tmp_path / "a.png")
+    cv2.imwrite(image, np.random.default_rng(1).integers(0, 255, (36, 48), np.uint8))
+    options = {"camera": "shake", "duration": 0.1, "sensor": "32x24"}
+
+    def film(seed, own=None):
+        run = prepare_source(image, resolve("simulate", {**options, "seed": seed}), video_seed=own)
+        return np.stack([frame.luma for frame in run.video])
+
+    of_seed = film(8 if video_seed is None else video_seed)
+    assert np.array_equal(film(8, video_seed), of_seed)
+    assert np.array_equal(film(3), of_seed) is (video_seed == 3)
 
 
 @pytest.mark.parametrize("prompt", [None, PROMPT])

@@ -59,12 +59,13 @@ def test_what_counts_as_a_change_does(tmp_path, monkeypatch, kind: str, change: 
     monkeypatch.setattr(provenance, "END_BYTES", 16)
     folder = tmp_path / "frames"
     folder.mkdir()
-    for number, name in enumerate(NAMES):
+    for number, name in reversed([*enumerate(NAMES)]):
         (folder / name).write_bytes(bytes(range(number, number + 64)))
     changed = folder / NAMES[1]
     source = {"folder": folder, "pattern": folder / "*.png", "file": changed}[kind]
     before, state = fingerprint(str(source)), describe_state(source)
     assert before is not None
+    assert fingerprint(str(folder)) == fingerprint(f"{folder}/*")
     change(changed)
     is_gone = kind == "file" and not changed.exists()
     assert is_gone or (fingerprint(str(source)) != before) is (

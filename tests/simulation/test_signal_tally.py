@@ -63,9 +63,6 @@ def test_a_scene_at_rest_with_noise_is_said_to_be_noise():
     )
     # 2 levels of 148 in each direction are .027 log units; half of that is suggested.
     assert "lower it, such as contrast_threshold=0.01" in said
-    assert (
-        doubt_of(
-            drifting(levels=2.0), noise_rate_hz=20.0, noise_intensity=255.0, keep_events="noise"
-        )[1]
-        == ""
-    )
+    options = {"keep_events": "noise", "noise_intensity": 255.0}
+    assert doubt_of(drifting(levels=2.0), noise_rate_hz=20.0, **options)[1] == ""
+    assert "keeps those of noise alone" in doubt_of(drifting(), noise_rate_hz=0.0, **options)[1]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.dataset.conftest import make_set
 
 from texvent.errors import ConfigError, InputError
+from texvent.frames import Video
 from texvent.sensor import SensorSize
 from texvent.training.clip_store import ClipStore
-from texvent.training.sources import TRUTH, Clip, PromptClips, VideoClips, find_source
+from texvent.training.sources import TRUTH, Clip, PromptClips, VideoClips, find_source, read_clip
 
 SIZE = SensorSize(16, 12)
 MOST = 10**9
@@ -105,3 +108,50 @@ def test_an_empty_folder_is_refused(tmp_path):
 def test_a_clip_of_a_users_source_that_kernels_cannot_take_is_refused(frames, times_us, message):
     with pytest.raises(InputError, match=message):
         Clip(frames, np.array(times_us, np.int64))
+
+
+@pytest.mark.parametrize("transfer", ["gamma", "linear"])
+def test_levels_are_rounded_and_light_is_coded(transfer):
+    light = np.random.default_rng(4).uniform(-5, 300, (3, 12, 16)).astype(np.float32).clip(0)
+    video = Video(light, (0, 10, 20), metadata={"transfer": transfer})
+    shares = light.astype(np.float64).clip(0, 255) / 255
+    coded = 255 * shares ** (1 if transfer == "gamma" else 1 / 2.2)
+    found = read_clip(video, (), MOST, None).frames
+    assert np.abs(found - coded).max() <= 0.5 + 1e-4
+
+
+def test_each_prompt_has_the_seed_after_that_of_the_one_before():
+    options = {"sensor": "32x24", "duration": 0.1}
+    both = PromptClips(["a red car drives left", "a red ball falls"], seed=3, **options)
+    alone = PromptClips(["a red ball falls"], seed=4, **options)
+    assert np.array_equal(both.read(1, (), MOST).frames, alone.read(0, (), MOST).frames)
+
+
+class Counted:
+    """Clips of one frame each, and how often each was read."""
+
+    known_truth = ()
+
+    def __init__(self):
+        self.seen = []
+
+    def __len__(self):
+        return 6
+
+    def name(self, index):
+        return f"clip {index}"
+
+    def read(self, index, truth, most_bytes):
+        self.seen.append(index)
+        return Clip(np.full((1, 8, 8), index, np.uint8), np.zeros(1, np.int64))
+
+
+@given(asked=st.lists(st.integers(0, 5), max_size=30), room=st.integers(1, 4))
+def test_clips_that_were_used_last_are_held(asked, room):
+    source = Counted()
+    store, held, expected = ClipStore(source, (), room * 72, 0), [], []
+    for index in asked:
+        assert store.get(index).frames[0, 0, 0] == index
+        expected += [] if index in held else [index]
+        held = [*(one for one in held if one != index), index][-room:]
+    assert source.seen == expected

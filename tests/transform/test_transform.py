@@ -92,11 +92,12 @@ def test_merging_is_sorting_all_events(parts: list[tuple[Rows, int, int]]) -> No
 def test_merging_keeps_the_label_only_if_all_have_one() -> None:
     label = np.array([1, 0], dtype=np.uint8)
     plain = stream([(1, 1, 1, 1), (2, 2, 2, 0)])
-    labelled = EventStream(plain.x, plain.y, plain.t, plain.p, SIZE, {}, label)
+    labelled = EventStream(plain.x, plain.y, plain.t, plain.p, SIZE, {"seed": 3}, label)
     both = merge([packets(labelled), packets(labelled)]).collect()
     assert both.label is not None
     assert both.label.tolist() == [1, 1, 0, 0]
-    assert merge([packets(labelled), packets(plain)]).collect().label is None
+    one = merge([EventPackets([labelled], SIZE, labelled.metadata), packets(plain)]).collect()
+    assert (one.label, dict(one.metadata)) == (None, {"seed": 3})
 
 
 COEFFICIENTS = (-0.02, 0.004, -0.003, 0.0005)

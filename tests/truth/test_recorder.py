@@ -290,21 +290,24 @@ def test_damage_is_named(written, tmp_path, name, text, message):
         texvent.load_truth(folder).check(SIZE)
 
 
+@dataclass(frozen=True)
 class Damaged(MotionFrames):
-    """Ends in an error after three frames."""
+    """Ends in an error after some frames."""
+
+    sound: int = 3
 
     def __iter__(self):
-        yield from itertools.islice(super().__iter__(), 3)
+        yield from itertools.islice(super().__iter__(), self.sound)
         raise InputError("the video ends in damage")
 
 
-@pytest.mark.parametrize("keeps", [True, False])
-def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
-    run = video_to_events(Damaged(), resolve("simulate", {"interpolate": "none"}))
+@pytest.mark.parametrize(("sound", "keeps"), [(3, True), (3, False), (0, True)])
+def test_a_run_that_ends_early_keeps_what_there_is_only_if_asked(tmp_path, sound, keeps):
+    run = video_to_events(Damaged(sound=sound), resolve("simulate", {"interpolate": "none"}))
     files = RunFiles(
         tmp_path / "d.h5", truth=("ids", "flow", "depth", "events"), keep_partial=keeps
     )
-    if not keeps:
+    if not (sound and keeps):
         with pytest.raises(InputError, match="ends in damage"):
             write_run(run, files, on_step=lambda frame, packet: None)
         assert not list(tmp_path.iterdir())

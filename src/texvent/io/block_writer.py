@@ -143,8 +143,6 @@ class BlockWriter:
         has_sidecar: bool = False,
     ) -> None:
         check_output(target.path, overwrite=target.overwrite)
-        if has_sidecar:
-            check_output(sidecar_path(target.path), overwrite=target.overwrite)
         limits.check_size(target.path, target.size)
         metadata_to_json(target.metadata)
         self._target = target
@@ -158,9 +156,7 @@ class BlockWriter:
         self._write: WriteBlock | None = None
         self._pending: list[EventStream] = []
         self._pending_events = 0
-        self._first_us = 0
         self._last_us: int | None = None
-        self._has_label = self._has_ids = False
         self._left_out: set[str] = set()
 
     def __enter__(self) -> Self:

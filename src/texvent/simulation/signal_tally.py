@@ -51,7 +51,7 @@ class SignalTally:
         pixels = frame.size.width * frame.size.height
         sample = frame.sampled_luma(math.ceil(math.sqrt(pixels / SAMPLE)))
         if self._pixels == 0:
-            self._low = self._high = sample.copy()
+            self._low = self._high = sample
             self._pixels = pixels
         self._low, self._high = np.minimum(self._low, sample), np.maximum(self._high, sample)
 

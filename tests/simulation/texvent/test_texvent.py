@@ -124,12 +124,6 @@ def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end():
     assert len(simulate(clip(False), cache="none")) == 0
 
 
-def test_float_frames_are_not_rounded_to_whole_levels():
-    """Eight frames between 200 and 201 are eight different levels."""
-    frames = [pixel(200 + k / 9, k * 1000, is_source=k in (0, 9)) for k in range(10)]
-    assert len(simulate(frames, contrast_threshold=4e-4)) == 9
-
-
 def test_the_paper_preset_is_the_publication():
     config = paper()
     assert (config.contrast_threshold, config.balance) == (0.2, 30.0)

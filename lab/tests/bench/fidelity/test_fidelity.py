@@ -45,12 +45,6 @@ def test_a_plan_of_a_name_that_nothing_has_is_refused(name):
         FidelityPlan(**{name: ("nothing",)})
 
 
-@pytest.mark.parametrize("name", ["fit_seeds", "score_seeds"])
-def test_a_plan_without_seeds_is_refused(name):
-    with pytest.raises(ConfigError, match="seeds at least one"):
-        FidelityPlan(**{name: ()})
-
-
 @pytest.mark.long
 def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
     """The two were written apart: each checks the other."""

@@ -1,0 +1,35 @@
+"""Files of a run: each is as its own writer makes it of the run's frames, options and facts."""
+
+from __future__ import annotations
+
+import pytest
+
+import texvent
+from texvent.pipeline import video_to_events
+from texvent.run.files import RunFiles, write_run
+from texvent.settings.resolution import resolve
+from texvent.view.drawing.palettes import PALETTES
+from texvent.view.preview import PREVIEW_KINDS, Preview
+
+from ..truth.hand_video import board_video
+
+FACTS = {"prompt": "a board moves right", "note": "given by the caller"}
+
+
+@pytest.mark.parametrize("palette", sorted(PALETTES))
+def test_every_file_is_made_with_the_options_and_facts_of_the_run(tmp_path, palette):
+    run = video_to_events(board_video(), resolve("simulate", {"interpolate": "exact"}))
+    files = RunFiles(tmp_path / "a.h5", previews=PREVIEW_KINDS, palette=palette, truth=("flow",))
+    steps = []
+    write_run(run, files, metadata=FACTS, on_step=lambda *step: steps.append(step))
+    packets = [packet for _, packet in steps]
+    assert texvent.load(files.events).equals(texvent.EventStream.concat(packets))
+    assert dict(texvent.load(files.events).metadata).items() >= FACTS.items()
+    assert texvent.load_truth(files.truth_folder).metadata.items() >= FACTS.items()
+    options = {"size": run.video.size, "fps": run.video.fps, "kinds": PREVIEW_KINDS}
+    with Preview(tmp_path / "own", palette=palette, metadata=FACTS, **options) as preview:
+        for step in steps:
+            preview.append(*step)
+    for own, path in zip(preview.paths, files.paths[1:], strict=True):
+        assert path.read_bytes() == own.read_bytes(), path
+    assert sorted(files.outputs) == sorted(tmp_path.glob("a.*"))
