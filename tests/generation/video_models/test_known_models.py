@@ -79,6 +79,15 @@ def test_a_copy_of_a_known_model_keeps_its_facts():
     assert mirror.model.repo == "mirror/CogVideoX-2b"
 
 
+def test_a_model_that_is_steered_takes_its_own_first_control_if_none_is_named():
+    models = {name: GENERATORS.load(name) for name in GENERATORS.names()}
+    steered = {
+        name: one for name, one in models.items() if hasattr(one, "model") and one.model.steering
+    }
+    firsts = {name: one.model.steering.controls[0] for name, one in steered.items()}
+    assert {name: one.config_type().control for name, one in steered.items()} == firsts != {}
+
+
 def test_minutes_and_downloads_of_a_row_have_a_source_and_are_told():
     for row in known_models.MODELS.values():
         known = bool(row.minutes) or row.download_gb is not None or row.lora_gb is not None

@@ -19,12 +19,13 @@ SIZE = SensorSize(48, 32)
 
 
 class KnownVideo(Video):
-    """The left half moves 3 px right in the time asked for; the right half is unknown."""
+    """The left half moves by its place, (x + 1, -y) px; the right half is unknown."""
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         assert t1_us - t0_us == ARROW_US
         flow = np.full((*SIZE.shape, 2), np.nan, dtype=np.float32)
-        flow[:, :24] = (3, 0)
+        y, x = np.mgrid[: SIZE.height, :24]
+        flow[:, :24] = np.stack([x + 1, -y], axis=2)
         unseen = np.zeros(SIZE.shape, dtype=np.int32)
         car = Box(1, "car", 10, 12, 30, 24, 1.0)
         return GroundTruth(unseen + np.float32(1), unseen, flow, unseen > 0, (car,))
@@ -44,7 +45,7 @@ def test_arrows_stand_where_motion_is_known_and_show_it() -> None:
     assert arrows is not None
     assert len(arrows) > 10
     assert (arrows[:, 0] < 24).all()
-    np.testing.assert_array_equal(arrows[:, 2:], np.tile([3, 0], (len(arrows), 1)))
+    np.testing.assert_array_equal(arrows[:, 2:], (arrows[:, :2] - 0.5) * [1, -1] + [1, 0])
 
 
 @pytest.mark.parametrize(("overlay", "boxes", "arrows"), [("boxes", 1, 0), ("flow", 0, 1)])
