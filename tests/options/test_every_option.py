@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from tests.options.outcomes import (
     SETTLED,
     outcomes_of,
@@ -16,11 +17,12 @@ from tests.options.outcomes import (
     stored_outcomes,
     tries_of,
 )
-from tests.options.runs_of_commands import run_once
+from tests.options.runs_of_commands import listed_options, run_once
 from tests.options.tries import COMMANDS_TRIED, SERVED, Try
 
 from texvent.cli.app import own_commands
 from texvent.cli.dataset.dataset import STEPS
+from texvent.runtime import console_progress
 
 RANGES = Path(__file__).with_name("ranges.txt").read_text(encoding="utf-8").splitlines()
 ALL_RANGES, BEYOND = "\n".join(RANGES), 10**30
@@ -62,6 +64,17 @@ def test_runs_with_each_option_leave_what_they_left(command, outcome):
     stored = stored_outcomes()[command]
     assert list(found) == list(stored)
     assert {words: mark for words, mark in found.items() if mark != stored[words]} == {}
+
+
+@pytest.mark.parametrize(
+    "command", [one for one in COMMANDS_TRIED if "--" not in one and "quiet" in listed_options(one)]
+)
+def test_a_terminal_sees_progress_unless_the_command_is_quiet(command, outcome, monkeypatch):
+    monkeypatch.setattr(Console, "is_terminal", True)
+    monkeypatch.setattr(console_progress, "PATIENCE_SECONDS", 0.0)
+    run, words = outcome.__wrapped__, COMMANDS_TRIED[command].words
+    assert run(words).errors
+    assert not run(f"{words} --quiet").errors
 
 
 def test_every_command_and_step_is_tried():

@@ -25,6 +25,7 @@ from texvent.io.files import codec_that_reads, open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
 from texvent.options.values import make_part
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.files.file_names import usable_path
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
@@ -111,7 +112,7 @@ class ConvertOptions(FileFactOptions):
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
-    """Do not print what was written."""
+    """Show no progress, and do not print what was written."""
 
     @property
     def target(self) -> Path:
@@ -138,7 +139,8 @@ def run(arguments: Sequence[str]) -> int:
     side = _side_data(options)
     frames = None if options.frames is None else _open_frames(options.path)
     check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
-    count = _write(events, out, options)
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        count = _write(events.reporting_to(progress), out, options)
     for path, blocks in side.items():
         _write_table(path, blocks, overwrite=options.overwrite)
     if frames is not None and options.frames is not None:

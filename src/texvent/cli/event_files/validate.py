@@ -14,6 +14,8 @@ from texvent.cli.options import parse_configs
 from texvent.errors import warn
 from texvent.io.files import codec_that_reads
 from texvent.metrics.soundness import SoundnessCheck
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.progress import NO_PROGRESS, Progress
 
 SUSPICIOUS = 1
 """Exit code of a recording that can be read but is suspicious or empty."""
@@ -45,14 +47,15 @@ def run(arguments: Sequence[str]) -> int:
     (options,) = parse_configs(
         arguments, {"input": ValidateOptions()}, prog="texvent validate", description=DESCRIPTION
     )
-    facts = validate(options)
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        facts = validate(options, progress)
     if not options.quiet:
         text = json.dumps(facts, indent=2) if options.json else "\n".join(_lines(facts))
         write_out(text + "\n")
     return 0 if facts["verdict"] == "sound" else SUSPICIOUS
 
 
-def validate(options: ValidateOptions) -> dict[str, Any]:
+def validate(options: ValidateOptions, progress: Progress = NO_PROGRESS) -> dict[str, Any]:
     """Verdict, complaints and figures of a file.
 
     Raises:
@@ -60,7 +63,7 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     """
     events = options.open()
     check = SoundnessCheck(events.size)
-    for packet in events:
+    for packet in events.reporting_to(progress):
         check.update(packet)
     report = check.report()
     complaints = [*_missing_frames(events.metadata), *report.complaints()]
