@@ -14,7 +14,7 @@ from texvent_scenes.rendered_scene import Float64Array
 _Rule = Callable[[Float64Array, Float64Array, Float64Array], bool]
 """Whether a camera is so, by its places from a body, [t, 3] m, its directions of sight, [t, 3], and
 the extents of that body, [3] m."""
-_NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.5
+_NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.25
 """Least share by which a camera nears something; cosine up to which something is in sight; least
 turn of the sight, and way by the distance, along something; least arc around it, rad."""
 _LEAST_WAY, _OVER = 0.5, 0.7

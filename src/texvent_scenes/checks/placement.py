@@ -33,6 +33,8 @@ _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bou
 """Motions that need no support."""
 _AIRBORNE = frozenset({"fly", "hover", "float", "rise", "sink", "orbit", "dive"})
 """Motions in which what has a fixed place on the ground hangs in the air."""
+_HEAVY_M = 1.0
+"""Size from which on it is too heavy for that: no yo-yo."""
 _IN_HAND = frozenset({"hold", "wear", "act on"})
 _SHARED = ACTED | WAYS | _IN_HAND | {"on", "in", "at", "under", "ride", "through", "with", "from",
                                      "follow"}  # fmt: skip
@@ -174,7 +176,7 @@ class _Bodies:
                  if one.object_index == relation.subject and relation.kind == "catch"}  # fmt: skip
         is_put = said.position_m is not None or said.height_m is not None
         is_drawn = one.noun.name in nouns_with("flat pattern") | nouns_with("flat picture")
-        is_fixed = one.noun.habitat == "fixed" and not is_drawn
+        is_fixed = one.noun.habitat == "fixed" and one.size_m >= _HEAVY_M and not is_drawn
         free = _FREE - _AIRBORNE if is_fixed else _FREE
         is_free = bool(does & free) or bool(acts & (_IN_HAND | ACTED) - {"push", "pull"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"

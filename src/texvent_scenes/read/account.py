@@ -99,13 +99,14 @@ def _choose_gender(draft: SceneDraft) -> None:
 
 def _hang_up(draft: SceneDraft) -> None:
     """Put on a wall of their own what hangs on one by its name: "a wall clock"."""
-    hung, (backing,) = nouns_with("hangs on a wall"), word_set("things", "hung_on")
-    for token in (one for one in draft.tokens if one.text.startswith("wall ")):
-        named = {one.value.noun for one in token.all("noun")} & hung
+    hung, walls = nouns_with("hangs on a wall"), nouns_with("only a background")
+    for token in draft.tokens:
+        wall, _, rest = token.text.partition(" ")
+        named = {one.value.noun for one in token.all("noun")} & hung if rest else set()
         bare = [n for n, one in enumerate(draft.things)
                 if one["noun"] in named and not one["relations"]]  # fmt: skip
-        for index in bare[:1]:
-            draft.things.append({"noun": backing, "motions": [], "count": 1, "relations": []})
+        for index in bare[:1] if wall in walls else ():
+            draft.things.append({"noun": wall, "motions": [], "count": 1, "relations": []})
             draft.relate(index, "on", [len(draft.things) - 1])
 
 

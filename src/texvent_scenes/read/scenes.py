@@ -440,6 +440,7 @@ class _SentenceReader(ThingReader):
                 claim_way(draft, move, one.preposition, found)
                 heads = [group.head for group in one.groups if group.head is not None]
                 is_side |= bool(one.groups) and not any(map(draft.shows, heads))
+                is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

@@ -303,7 +303,7 @@ def test_four_footed_animals_gallop_above_the_speed_of_a_trot(text, gait):
         ("the camera glides over a kitchen counter", "over", False),
         ("the camera pans over a bookshelf", "over", True),
         ("the camera moves past a fence", "past", True),
-        ("the camera stops in front of a mug", "in front of", False),
+        ("the camera flies ahead and stops in front of a mug", "in front of", False),
         ("a pedestrian crossing laterally at dusk", "crossing", True),
         ("a car waits at a pedestrian crossing", "pedestrian crossing", True),
     ],
