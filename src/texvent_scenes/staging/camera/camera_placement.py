@@ -54,8 +54,8 @@ _TOGETHER, _STRAIGHT = 0.6, 0.5
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
 _PASSING, _TOLD = frozenset({"past", "through"}), 0.8
 """Relations to what is seen at mid clip, and its prominence from which on all the way is shown."""
-_LEAST_PASSAGE = 0.4
-"""Least share of the clip that a passage lasts."""
+_LEAST_PASSAGE, _SEEN = 0.4, 0.16
+"""Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -165,7 +165,8 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
         tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
         share = 1.0 - max(extent_m - size_m, 0.0) / way_m
         return _watch(shooting.along(replace(path, tie=tie and replace(tie, share=share))), main)[0]
-    half_s = middle_s * max(((way_m + size_m) * told - size_m) / way_m, _LEAST_PASSAGE)
+    shares = [((way_m + size_m) * one - size_m) / way_m for one in (told, reached / _SEEN)]
+    half_s = middle_s * max(shares[0], min(shares[1], _LEAST_PASSAGE), 0.1 * size_m / way_m)
     passage_s = middle_s - half_s, middle_s + half_s
     near, enough = _watch(shooting.along(replace(path, passage_s=passage_s)), main)
     return near if enough >= _LEAST_GAIN * reached else path
