@@ -257,10 +257,14 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 
 
 def bounces(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it comes down in the image, and then up again."""
+    """Whether it comes down in the image, to the ground or onto something, and then up again."""
     for one in staged.own(claim):
         found = [one.lowest_m(at) for at in staged.fine_times if staged.has_in_image(one, at)]
         height = np.array(found or [0.0])
+        is_held = any(each.kind in ("throw", "catch") and one.object_index in each.targets
+                      for each in staged.description.relations)  # fmt: skip
+        if is_held and height.min() > _GROUNDED * one.size_m:
+            return False
         lowest = np.minimum.accumulate(height)
         fallen = np.maximum.accumulate(height) - lowest
         if np.minimum(height - lowest, fallen).max() < _GROUNDED * one.size_m:
