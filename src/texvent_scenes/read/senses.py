@@ -34,11 +34,14 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
 
 def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as a word that is not known, if it says what is done: "and then darts away"."""
-    before, after = (tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
-                     for at in (token.at - 1, token.at + 1))  # fmt: skip
+    before, after, then = (tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
+                           for at in (token.at - 1, token.at + 1, token.at + 2))  # fmt: skip
     is_plural = any(one.value.is_plural for one in token.all("noun"))
     is_verb = before.text in word_set("things", "begun") and is_plural
     is_verb &= not (after.has("verb") or after.text == "and")  # "then cars drive by"
+    is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
+    if is_plural and is_led and not before.has("articles", "field", "relation"):
+        return replace(token, senses=token.all("verb"))  # "digs, swings around and dumps"
     return replace(token, senses=()) if is_verb and not token.has("verb") else token
 
 

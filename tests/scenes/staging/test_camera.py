@@ -198,3 +198,25 @@ def test_who_crosses_the_view_is_in_it_for_as_long_as_is_said(noun, motion, shot
     seen_s = times[is_seen & (low[:, 2] > 0)]
     assert np.ptp(seen_s) == pytest.approx(lasts_s, rel=0.06)
     assert seen_s[0] == pytest.approx(from_s, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("noun", "kind", "passed", "least"),
+    [
+        ("train", "drive", "station building", 0.5),
+        ("tram", "drive", "house", 0.5),
+        ("dog", "run", "bench", 0.5),
+    ],
+)
+def test_what_is_passed_can_be_told_and_hides_nobody(noun, kind, passed, least):
+    staged = stage(
+        SceneObject(noun, motions=(Motion(kind, "left"),)), SceneObject(passed),
+        relations=(("past", 0, 1),),
+    )  # fmt: skip
+    who, what = staged.actors
+    middle_s = 0.5 * DURATION_S
+    camera = staged.camera(middle_s)
+    boxes = [one.corners(middle_s) for one in (who, what)]
+    assert measure_prominence(camera, boxes[1][None], SIZE.height / SIZE.width) > least
+    depths = [image_of(camera, one)[:, 2].mean() for one in boxes]
+    assert depths[0] < depths[1] or what.model.height < who.model.height
