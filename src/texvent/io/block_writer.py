@@ -143,6 +143,8 @@ class BlockWriter:
         has_sidecar: bool = False,
     ) -> None:
         check_output(target.path, overwrite=target.overwrite)
+        if has_sidecar:
+            check_output(sidecar_path(target.path), overwrite=target.overwrite)
         limits.check_size(target.path, target.size)
         metadata_to_json(target.metadata)
         self._target = target
