@@ -250,11 +250,11 @@ def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST
     return share_of(parts, is_like) >= least
 
 
-def _has_its_colour(one: ModelPart, other: ModelPart) -> bool:
+def _is_alike(one: ModelPart, other: ModelPart) -> bool:
     return one.colour == other.colour
 
 
 def repaint(parts: Sequence[ModelPart], colour: Colour) -> list[ModelPart]:
     """The parts, those of their main colours in another one."""
-    main = {one.colour for one in parts if share_of(parts, partial(_has_its_colour, one)) >= _REPAINTED}
+    main = {one.colour for one in parts if share_of(parts, partial(_is_alike, one)) >= _REPAINTED}
     return [replace(one, colour=colour) if one.colour in main else one for one in parts]
