@@ -45,6 +45,7 @@ from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
+from texvent_scenes.staging.camera.subject import choose_main
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.particles.choose import FALLING, Staged
@@ -134,6 +135,8 @@ def find_unseen(
                     if one.noun in nouns_with("passage")}  # fmt: skip
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down")}  # fmt: skip
+    is_close = description.camera.framing == "close" and scene.actors
+    close = choose_main(description, scene.actors).object_index if is_close else None
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     unseen, partly = {*scene.missing}, set[int]()
     for index, thing in enumerate(description.objects):
@@ -143,7 +146,8 @@ def find_unseen(
                        if view.pixels])  # fmt: skip
         if own:
             part = _PART if index in climbed else math.inf
-            found = _judge(own, seen_own, clip, is_related=index in related, part=part)
+            found = _judge(own, seen_own, clip, is_related=index in related, part=part,
+                           is_close=index == close)  # fmt: skip
             if any(_is_entered(*each, clip) for each in zip(own, seen_own, strict=True)):
                 found = _Judged(is_unseen=False)
             lines = small if found.is_small else outside
@@ -191,11 +195,13 @@ class _Judged(NamedTuple):
 
 
 def _judge(
-    own: Sequence[Actor], views: Sequence[View], clip: _Clip, *, is_related: bool, part: float
-) -> _Judged:
+    own: Sequence[Actor], views: Sequence[View], clip: _Clip, *, is_related: bool, part: float,
+    is_close: bool,
+) -> _Judged:  # fmt: skip
     """Visibility of an object's bodies over the clip.
 
-    `part`: share of the image from which on what is cut off shows acts.
+    `part`: share of the image from which on what is cut off shows acts; `is_close`: whether it is
+    the subject of a close shot, which cuts it off.
     """
     cameras, times, size, _ = clip
     area = size.width * size.height
@@ -215,7 +221,7 @@ def _judge(
         return _Judged(" (most of the clip)")
     if lost and count <= max(2 * lost, MOST_COUNTED):
         return _Judged(f" ({lost} of {count})", is_unseen=2 * lost > count)
-    if inside < 2 and (not is_related or most < _FILLED[inside == 0] * area):
+    if inside < 2 and not is_close and (not is_related or most < _FILLED[inside == 0] * area):
         return _Judged(" (cut off)", is_partly=bool(inside) or most >= part * area)
     return _Judged(is_unseen=False)
 

@@ -11,12 +11,13 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.camera.subject import choose_main
+from texvent_scenes.staging.camera.subject import choose_main, near_part
 from texvent_scenes.staging.compose import ComposedScene
 
-_CLOSE, _HALF = 0.22, 0.5
-"""Share of the image's width or height that the subject of a close shot extends over; share of the
+_CLOSE, _HALF = 0.4, 0.5
+"""Share of the image's width or height that the part in a close shot extends over; share of the
 instants at which a shot is as it is said."""
 _DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
 """Height of the direction of sight, a unit vector, of a view from the air, and from the top; most
@@ -51,7 +52,8 @@ def find_misframed(
     shot = description.camera
     main = choose_main(description, scene.actors) if scene.actors else None
     if shot.framing == "close" and main is not None:
-        shares = [_extent(main, one, at, size) for one, at in zip(cameras, times, strict=True)]
+        held = near_part(main, "close", np.array(times))
+        shares = [_extent(*each, size) for each in zip(held, cameras, strict=True)]
         if np.mean(np.array(shares) >= _CLOSE) < _HALF:
             line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
             yield Violation("framing", "close", line)
@@ -84,9 +86,9 @@ def _find_met(scene: ComposedScene, times: Sequence[float]) -> str:
     return ""
 
 
-def _extent(main: Actor, camera: PosedCamera, time_s: float, size: SensorSize) -> float:
-    """Greater share of the image's width and height that a body extends over."""
-    x, y, depth = project(camera, size, main.corners(time_s)).T
+def _extent(points: Float64Array, camera: PosedCamera, size: SensorSize) -> float:
+    """Greater share of the image's width and height that points [n, 3] extend over, m."""
+    x, y, depth = project(camera, size, points).T
     if depth.min() <= 0.0:  # so near that some of it is beside the camera
         return float(depth.max() > 0.0)
     return float(max(np.ptp(x) / size.width, np.ptp(y) / size.height))

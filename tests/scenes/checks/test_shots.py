@@ -63,8 +63,26 @@ def test_a_close_up_is_none_where_the_subject_is_small():
     scene = stage(thing("man"), camera=Camera(framing="close"))
     assert faults(scene, Camera(framing="close")) == []
     path = scene.camera_path
-    far = replace(path, framing=replace(path.framing, distance_m=12.0 * path.framing.distance_m))
+    far = replace(path, framing=replace(path.framing, distance_m=3.0 * path.framing.distance_m))
     assert faults(replace(scene, camera_path=far), Camera(framing="close")) == ["close"]
+
+
+@pytest.mark.parametrize(
+    ("act", "has_head"),
+    [("typing on a laptop", False), ("kneading dough", False), ("writing on paper", False),
+     ("shaving", True), ("drinking from a cup", True), ("playing the guitar", True),
+     ("walking", True)],
+)  # fmt: skip
+def test_a_close_up_of_hands_at_work_holds_these_and_another_one_the_head(act, has_head):
+    scene, said, _ = staged(f"close-up of a woman {act}")
+    body = next(one for one in scene.actors if one.noun.name == "woman")
+    for time_s in TIMES:
+        names = ("head",) if has_head else ("right hand", "left hand", "head")
+        places = np.array([body.anchor(one, time_s)[:, 3] for one in names])
+        x, y, _ = project(scene.camera(time_s), SIZE, places).T
+        inside = (x > 0) & (x < SIZE.width) & (y > 0) & (y < SIZE.height)
+        assert [*inside] == ([True] if has_head else [True, True, False])
+    assert said.is_faithful
 
 
 @pytest.mark.parametrize("place", ["forest", "city", "park"])
@@ -91,6 +109,9 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("a bus drives in a city", "city", True),
         ("a lion sleeps in the savanna", "savanna", True),
         ("close-up of a man at the beach", "beach", True),
+        ("close-up of a drone taking off", "close up of", True),
+        ("a close shot of two men shaking hands", "two", True),
+        ("close-up of a flock of birds", "close up of", False),
         ("a woman stands in a gym", "gym", True),
         ("a frog jumps into a pond", "jumps", True),
         ("a squirrel runs up a tree", "runs", True),

@@ -346,7 +346,7 @@ def _plan_moves(
     if main is None or said or not (main.is_mover and is_near):
         return tuple(said.values())
     span = max(main.model.length, main.model.height)
-    displacement_m = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
+    displacement_m = float(np.linalg.norm(main.middle(duration_s) - main.middle(0.0)))
     if displacement_m <= _NEAR_LENGTHS * span:
         return ()
     return tuple(time_moves([CameraMove("follow")], duration_s))

@@ -44,6 +44,12 @@ _SENT = {"kick": 3.2, "throw": 3.2, "hit": 1.7}
 """Acts after which a thing flies off → how far it must be seen, in sizes of the subject."""
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
+_HANDS = ("right hand", "left hand")
+_AT_WORK, _AROUND_HANDS = np.array([0.012, -0.12, 0.22]), 0.1
+"""Least way of hands at work, the head's greatest, negative, and least distance between them; and
+what is in a close shot around hands: all in heights of the person."""
+_MOST_NEAR = 3
+"""Greatest number of copies that a near shot holds together."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
 
@@ -110,8 +116,9 @@ def list_framing_choices(
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
-        boxes = np.vstack([_box_at(main, time, tie) for time in map(float, times)])
-        return [FramingChoice(_upper_part(main, boxes, framing), _NEAR_FILL)]
+        same = [one for one in actors if one.object_index == main.object_index][:_MOST_NEAR]
+        parts = [near_part(one, framing, times, tie).reshape(-1, 3) for one in same]
+        return [FramingChoice(np.vstack(parts), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(one.move.kind, _FILL) for one in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
     if shot.framing == "wide":
@@ -134,6 +141,43 @@ def list_framing_choices(
         FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)
     ]
+
+
+def near_part(
+    main: Actor, framing: str, times: Float64Array, tie: Tie | None = None
+) -> Float64Array:
+    """[times, n, 3] what a near shot holds, m: of a person the upper part, or hands at work.
+
+    Args:
+        main: the subject.
+        framing: "close" or "medium".
+        times: instants, s.
+        tie: of a camera that goes along.
+    """
+    hands = _hands_at_work(main, times) if framing == "close" and tie is None else None
+    if hands is not None:
+        return hands
+    boxes = [_box_at(main, time, tie) for time in map(float, times)]
+    return np.array([_upper_part(main, box, framing) for box in boxes])
+
+
+def _hands_at_work(main: Actor, times: Float64Array) -> Float64Array | None:
+    """[times, 4, 3] places around hands, m, of a person who acts with them alone.
+
+    They are away from the face, and not on what is worn or held before the chest, as a guitar.
+    """
+    held = {"ground", *_HANDS}
+    if main.noun.name not in PERSON_NOUNS or {one.anchor for one in main.props} - held:
+        return None
+    ways = np.array([[main.anchor(one, float(time))[:, 3] for time in times]
+                     for one in (*_HANDS, "head")])  # fmt: skip
+    hands, head = ways[:2], ways[2]
+    stirs_m, nods_m = np.ptp(hands, axis=1).max(), np.ptp(head, axis=0).max()
+    from_face_m = np.linalg.norm(hands - head, axis=2).min()
+    if (np.array([stirs_m, -nods_m, from_face_m]) < _AT_WORK * main.size_m).any():
+        return None
+    reach_m = _AROUND_HANDS * main.size_m
+    return np.vstack([hands - reach_m, hands + reach_m]).swapaxes(0, 1)
 
 
 def _tells_as_a_whole(kind: str, description: SceneDescription, index: int) -> bool:
