@@ -65,13 +65,16 @@ class LightModulation:
     """Instant → 0..1."""
     dim: float | None = None
     """Share of their colour that is left when they are dark; None = all of it."""
+    afterglow: float = 0.0
+    """Share of their light that is left then."""
 
     def shine(self, parts: Sequence[ModelPart], now: Instant) -> list[ModelPart]:
         """The parts as bright as they are at that instant."""
         level = self.level(now)
         share = 1.0 if self.dim is None else self.dim + (1.0 - self.dim) * level
+        light = self.afterglow + (1.0 - self.afterglow) * level
         return [
-            replace(one, emission=level * one.emission, colour=shade(one.colour, share))
+            replace(one, emission=light * one.emission, colour=shade(one.colour, share))
             for one in parts
         ]
 
@@ -329,7 +332,8 @@ _RAMP = 0.01
 def read_light(text: str) -> LightModulation:
     """A light from its text, such as "sine at 1hz start blink" or "switched at 2hz between 0 .5".
 
-    With "by signal 2" it is on while that channel is 2, and cycles while it is 0.
+    With "by signal 2" it is on while that channel is 2, and cycles while it is 0. After "dim" are
+    the shares of the parts' colour and, if said, of their light that are left when it is off.
 
     Raises:
         ValueError: it cannot be read; the message has the text.
@@ -338,7 +342,7 @@ def read_light(text: str) -> LightModulation:
         (kind,), options = _split_options(text.split())
         cycle = _cycle(options.get("at", [""])[0], options)
         low, high = map(read_number, options.get("between", ["0", "1"]))
-        dim = read_number(options["dim"][0]) if "dim" in options else None
+        dim, afterglow = [*map(read_number, options.get("dim", ())), None, None][:2]
         channel, *on = options.get("by", [""])
         state = read_number(on[0]) if channel else 0.0
         if kind not in ("sine", "switched"):
@@ -357,7 +361,7 @@ def read_light(text: str) -> LightModulation:
             inside = phase - 1.0
         return min(1.0, max(0.0, 0.5 + inside / _RAMP))
 
-    return LightModulation(level, dim)
+    return LightModulation(level, dim, afterglow or 0.0)
 
 
 def read_wave(text: str) -> Callable[[ModelPart, Instant], ModelPart]:
