@@ -17,7 +17,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
-from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
+from texvent_scenes.spec.scene import CameraMove, Direction, Motion, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
@@ -94,9 +94,10 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
 
 
 def _lead_along(description: SceneDescription) -> SceneDescription:
-    """Those who go somewhere in a corridor come along it."""
+    """Those who go somewhere in a corridor come along it; seen from behind, they go."""
+    way: Direction = "away" if description.camera.view == "back" else "towards"
     new = {
-        n: replace(one, motions=(replace(one.motions[0], direction="towards"), *one.motions[1:]))
+        n: replace(one, motions=(replace(one.motions[0], direction=way), *one.motions[1:]))
         for n, one in enumerate(description.objects)
         if one.motions and one.motions[0].direction in (None, "down", "forward")
         and one.motions[0].kind in _ALONG and one.heading_deg is None

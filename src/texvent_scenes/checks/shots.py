@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -30,7 +31,8 @@ _TURNING = frozenset({"pan", "tilt", "roll", "zoom", "handheld", "shake"})
 _STILL = 1e-6
 """Change of position, m, of direction, or of focal length, of a camera that stays."""
 _SAID = {"low": "low angle", "top": "view from the top", "aerial": "view from the air",
-         "close": "close-up"}  # fmt: skip
+         "close": "close-up", "side": "view of its side", "front": "view of its front",
+         "back": "view from behind"}  # fmt: skip
 
 
 def find_misframed(
@@ -110,9 +112,23 @@ def _is_low(camera: PosedCamera, time_s: float, main: Actor | None) -> bool:
     return up > 0.0 or (is_below and up >= -_LEVEL)
 
 
+def _sees_side(
+    least: float, most: float, camera: PosedCamera, time_s: float, main: Actor | None
+) -> bool:
+    """Whether the cosine between a body's heading and the way to the camera is between two."""
+    if main is None:
+        return False
+    yaw, away = main.track.at(time_s).yaw, (camera.position - main.middle(time_s))[:2]
+    facing = np.array([np.cos(yaw), np.sin(yaw)]) @ away / max(float(np.linalg.norm(away)), 1e-9)
+    return bool(least <= facing <= most)
+
+
 _VIEWS: Mapping[str, Callable[[PosedCamera, float, Actor | None], bool]] = {
     "low": _is_low,
     "aerial": lambda camera, time_s, main: bool(camera.rotation[2, 2] <= _DOWN),
     "top": lambda camera, time_s, main: bool(camera.rotation[2, 2] <= _STEEP),
+    "side": partial(_sees_side, -0.6, 0.6),
+    "front": partial(_sees_side, 0.7, 1.1),
+    "back": partial(_sees_side, -1.1, -0.7),
 }
 """View → whether a camera has it at an instant."""

@@ -423,9 +423,13 @@ class SceneDraft(Abilities):
         self.show(token)
 
     def show_inherent(self, tokens: Sequence[Token], name: str) -> None:
-        """Show modifiers of a noun or a place that is so anyway: "a round plate"."""
+        """Show modifiers of what is so anyway, "a round plate", and other names of a noun."""
         true_of = read_table("words", "read")["inherent"]
         self.show(*(one for one in tokens if name in true_of.get(one.text, ())))
+        for token in tokens:
+            same = [one.value for one in token.all("noun") if one.value.noun == name]
+            if same:
+                self.mark(token, name if same[0].is_kind else "shown")
 
     def _fill_place(self, token: Token, place: str) -> None:
         """Add those of whom a place is full: "a busy street"."""

@@ -266,7 +266,11 @@ class GroupReader:
         counts = [count for one in words for count in _counts(one) if not is_other]
         if not senses or not (counts or is_one):
             return True
-        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
+        after = self._token(ahead + 1)
+        is_first = after.has("noun") and not after.has("verb", "relation")  # "two sedan cars"
+        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses) or (
+            is_first and self._agrees(article, first, ahead + 1)
+        )
 
     def _has_object(self, ahead: int = 0) -> bool:
         """Whether a word that may be a noun is a verb: "and watches the ducks", "and wugs it"."""

@@ -16,6 +16,7 @@ Units: TypeAlias = Mapping[tuple[str, ...], Sequence[Any]]
 _ARTICLES = ("a", "an", "the")
 _LEVELS = ("sea", "water", "lake", "river", "road", "street", "grass", "field", "meadow", "desert")
 """Words of places whose ground is at height 0."""
+_HEIGHTS = ("height", "altitude")
 MAX_COUNT = 24
 """Most copies of one object."""
 _RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
@@ -24,13 +25,36 @@ _HERTZ = (0.001, 100_000.0)
 _SIGNS = str.maketrans("−⁄", "-/")
 
 
+def _lengths() -> Mapping[str, float]:
+    """Units of lengths → m."""
+    found: Mapping[str, float] = read_table("words", "read")["said_after"]["from"]["units"]
+    return found
+
+
+def list_figures(words: Sequence[str], lexicon: Units) -> list[str]:
+    """The words, with figures for the numbers before units: "2 metres", "50 hertz"."""
+    lengths = {one for each in read_table("words", "read")["said_after"].values()
+               for one in each["units"]}  # fmt: skip
+    low = [one.casefold() for one in words]
+    found = list(words)
+    for at, word in enumerate(low[:-1]):
+        units = [(low[at + 1],), tuple(low[at + 1 : at + 3]), tuple(low[at + 1 : at + 4])]
+        is_unit = low[at + 1] in lengths or any(
+            sense.kind == "unit" for one in units for sense in lexicon.get(one, ())
+        )
+        counts = [one.value[1] for one in lexicon.get((word,), ()) if one.kind == "field"
+                  and one.value[0] == "count"] if is_unit else []  # fmt: skip
+        found[at] = f"{counts[0]:g}" if counts else words[at]
+    return found
+
+
 def read_height(words: Sequence[str], at: int) -> Found | None:
     """A height of what is in the air: "2 m above the ground", "5 m over" the sea.
 
     Above another thing it is another height.
     """
     unit, over, *rest = ([one.casefold() for one in words[at + 1 : at + 5]] + ["", ""])[:4]
-    factor = read_table("words", "read")["said_after"]["from"]["units"].get(unit)
+    factor = _lengths().get(unit)
     if factor is None or over not in ("above", "over", "off") or not words[at][0].isdigit():
         return None
     below = next((one for one in rest if one not in _ARTICLES), "")
@@ -46,20 +70,21 @@ def read_height(words: Sequence[str], at: int) -> Found | None:
     return length, (("adverb", ("height_m", value)),) * (least <= value <= most)
 
 
-def read_stated(words: Sequence[str], at: int, lexicon: Units) -> Found | None:
-    """A start or a height: "after 2 seconds", "from 1 m", "from a height of one metre"."""
-    how = read_table("words", "read")["said_after"].get(words[at].casefold(), {"units": {}})
-    rest = [one.casefold() for one in words[at + 1 : at + 6]]
-    skipped = 3 if rest[1:3] == ["height", "of"] else 0
-    number, unit = (*rest[skipped : skipped + 2], "", "")[:2]
-    counts = [one.value[1] for one in lexicon.get((number,), ()) if one.kind == "field"]
-    said = [number] if number.replace(".", "").isdecimal() else counts
+def read_stated(words: Sequence[str], at: int) -> Found | None:
+    """A start or a height: "after 2 seconds", "from 1 m", "at a height of 1 metre"."""
+    first, *rest = [one.casefold() for one in words[at : at + 6]]
+    how = read_table("words", "read")["said_after"].get(first, {"units": {}})
+    skipped = 3 if rest[1:2] and rest[1] in _HEIGHTS and rest[2:3] == ["of"] else 0
+    number, unit, after = (*rest[skipped : skipped + 3], "", "", "")[:3]
+    is_behind = not skipped and after in _HEIGHTS  # "at 2 m altitude"
     factor = how["units"].get(unit)
-    after = words[at + 3 + skipped : at + 4 + skipped]
-    if not said or factor is None or after in (["/"], ["per"]):  # "from 10 m/s"
-        return None
-    value, (least, most) = factor * float(said[0]), _RANGES[how["field"]]
-    return skipped + 3, ((how["kind"], (how["field"], value)),) * (least <= value <= most)
+    if not number.replace(".", "").isdecimal() or factor is None or after in ("/", "per"):
+        return None  # "from 10 m/s"
+    if first == "at" and not (skipped or is_behind):
+        return None  # "stops at 2 m"
+    value, (least, most) = factor * float(number), _RANGES[how["field"]]
+    said = ((how["kind"], (how["field"], value)),) * (least <= value <= most)
+    return skipped + 3 + is_behind, said
 
 
 def read_quantity(words: Sequence[str], at: int, lexicon: Units) -> Found:
@@ -82,5 +107,7 @@ def read_quantity(words: Sequence[str], at: int, lexicon: Units) -> Found:
                 is_shown = least <= number * factor <= most
                 said = ("adverb", (field, number * factor))
                 return 1 + length, (said,) if is_shown else ()
+    if unit_m := _lengths().get(" ".join(words[at + 1 : at + 2]).casefold()):
+        return 2, (("adverb", ("distance_m", unit_m * number)),)  # "2 m behind a car"
     count = ("field", ("count", max(1, min(round(number), MAX_COUNT))))
     return 1, (count,) if number >= 0.0 and number.is_integer() else ()

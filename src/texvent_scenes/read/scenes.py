@@ -219,11 +219,22 @@ class _SentenceReader(ThingReader):
                 who = self._choose_placed(one, last, subjects, told)
                 told = self._relate(one, who, moved) or moved
                 last = one.preposition
+                self._space(last, who)
             elif not self._draft.set_scene(one, told):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
+
+    def _space(self, preposition: Token, subjects: Sequence[int]) -> None:
+        """Apply the distance before a preposition: "2 m behind a car"."""
+        token = self._draft.tokens[preposition.at - 1]
+        name, value = said.value if (said := token.first("adverb")) else ("", None)
+        for index in subjects if name == "distance_m" else ():
+            for row in self._draft.things[index]["relations"][-1:]:
+                if row["kind"] in SPACED:
+                    row["distance_m"] = value
+                    self._draft.show(token)
 
     def _hangs_on_unknown(self, phrase: Phrase) -> bool:
         """Whether it is part of what is not known: "a tray with glasses"."""

@@ -225,7 +225,7 @@ class ThingReader:
         field, value = said.value if said is not None else ("", "")
         subjects = draft.find_unsaid(field, subjects, self._nearest)
         things = [draft.things[index] for index in subjects]
-        if self._say_at_once(token, field, value, subjects):
+        if field == "distance_m" or self._say_at_once(token, field, value, subjects):
             return
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value

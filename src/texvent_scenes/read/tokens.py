@@ -20,7 +20,13 @@ from texvent_scenes.read.lexicon import (
     owned_parts,
     word_set,
 )
-from texvent_scenes.read.quantities import Found, read_height, read_quantity, read_stated
+from texvent_scenes.read.quantities import (
+    Found,
+    list_figures,
+    read_height,
+    read_quantity,
+    read_stated,
+)
 from texvent_scenes.words import find_literals, list_verb_forms
 
 _NEAR = 4
@@ -95,8 +101,9 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     start = 0
     for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
         words, at = _WORD.findall(text[start:begin]), 0
+        figures = list_figures(words, lexicon)
         while at < len(words):
-            length, senses = _read_phrase(words, at, lexicon, found)
+            length, senses = _read_phrase(figures, at, lexicon, found)
             text_of = " ".join(words[at : at + length]).casefold()
             found.append(Token(text_of, len(found), senses))
             at += length
@@ -193,7 +200,7 @@ def _read_phrase(
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
-    if length == 1 and (stated := read_stated(words, at, lexicon)):
+    if length == 1 and (stated := read_stated(words, at)):
         return _as_senses(stated)
     if is_number:
         return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))

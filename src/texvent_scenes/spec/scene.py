@@ -61,7 +61,7 @@ MoveDirection: TypeAlias = Literal[
     "backward", "all axes",
 ]  # fmt: skip
 Waveform: TypeAlias = Literal["sine", "strobe", "switch"]
-View: TypeAlias = Literal["aerial", "top", "low", "first person"]
+View: TypeAlias = Literal["aerial", "top", "low", "first person", "side", "front", "back"]
 
 
 @dataclass(frozen=True)

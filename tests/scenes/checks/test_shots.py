@@ -33,6 +33,16 @@ def test_a_view_holds_where_it_is_staged_and_another_one_does_not(noun, view, ot
     assert wrong == others
 
 
+@pytest.mark.parametrize("heading_deg", [0.0, 90.0, -140.0])
+@pytest.mark.parametrize("view", ["side", "front", "back"])
+@pytest.mark.parametrize("motion", [("stand",), ("walk",)])
+def test_a_view_of_a_side_holds_whichever_way_the_subject_heads(view, heading_deg, motion):
+    man = replace(thing("man", motion), heading_deg=heading_deg)
+    scene = stage(man, camera=Camera(view=view))
+    wrong = {one for one in ("side", "front", "back") if faults(scene, Camera(view=one))}
+    assert wrong == {"side", "front", "back"} - {view}
+
+
 @pytest.mark.parametrize("kind", ["follow", "orbit", "pan", "dolly"])
 def test_a_move_holds_if_the_camera_moves(kind):
     said = Camera(moves=(CameraMove(kind),))
@@ -110,6 +120,10 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("a lion sleeps in the savanna", "savanna", True),
         ("close-up of a man at the beach", "beach", True),
         ("close-up of a drone taking off", "close up of", True),
+        ("a bus on a city street, rear view", "rear view", True),
+        ("a woman walks through a corridor, filmed from behind", "filmed from behind", True),
+        ("a woman feeding a dog on a bench", "feeding", True),
+        ("a man on a bench waves to a child", "waves", True),
         ("a close shot of two men shaking hands", "two", True),
         ("close-up of a flock of birds", "close up of", False),
         ("a woman stands in a gym", "gym", True),

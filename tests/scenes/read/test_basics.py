@@ -73,12 +73,34 @@ def test_a_pronoun_decides_who_is_drawn(text, noun):
         ("a pen is dropped from 1 m", 1.0),
         ("a ball falls from a height of 50 cm onto a table", 0.5),
         ("a cube bounces from two metres", 2.0),
+        ("a drone hovers at a height of 3 m", 3.0),
+        ("a drone flies at five metres altitude", 5.0),
+        ("a drone hovers two metres above the ground", 2.0),
+        ("a drone stops at 5 m from a wall", None),
         ("a ball moves left seen from 3 m", None),
         ("a car accelerates from 5 m/s", None),
     ],
 )
 def test_what_falls_has_the_height_that_is_said(text, metres):
     assert scene(text).objects[0].height_m == metres
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [("a dog sits two metres behind a tree", 2.0), ("a drone hovers 50 cm in front of a wall", 0.5),
+     ("a drone hovers two metres above a car", None), ("a car 20 m long drives past a van", None)],
+)  # fmt: skip
+def test_a_distance_goes_with_its_preposition_and_takes_no_verb_along(text, metres):
+    said = scene(text)
+    assert [each.distance_m for each in said.objects[0].relations] == [metres]
+    assert not {"sits", "hovers", "drives"} & lost(text)
+
+
+@pytest.mark.parametrize("text", ["a quadcopter drone hovers", "a sedan car drives past a van",
+                                  "two checkerboard calibration boards rotate"])  # fmt: skip
+def test_two_names_of_one_noun_are_one_thing(text):
+    assert not lost(text)
+    assert len({one.noun for one in scene(text).objects}) == len(scene(text).objects)
 
 
 @pytest.mark.parametrize(

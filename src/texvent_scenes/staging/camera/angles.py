@@ -33,6 +33,14 @@ def is_in_container(description: SceneDescription, index: int) -> bool:
     return any(trait_value("container", noun) for noun in kept - nouns_with("see-through"))
 
 
+def face(yaw: float, view: str | None) -> float | None:
+    """Azimuth of the camera that sees a side of what heads for a yaw, radians; None: any."""
+    ways = {"front": yaw + 0.5 * math.pi, "back": yaw - 0.5 * math.pi}
+    if view in ways:
+        return math.remainder(ways[view], 2.0 * math.pi)
+    return math.remainder(yaw, math.pi) if view == "side" else None
+
+
 def choose_angles(
     description: SceneDescription,
     main: Actor,
@@ -57,6 +65,8 @@ def choose_angles(
         azimuth = wander
     if PLACES[place].corridor_m:
         azimuth = 0.5 * wander
+    facing = face(yaw, description.camera.view)
+    azimuth = azimuth if facing is None else facing
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
