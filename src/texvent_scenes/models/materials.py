@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -186,6 +187,12 @@ class OverriddenModel:
         self._material = material
         self._colour = colour
         self.length, self.width, self.height = model.length, model.width, model.height
+
+    def __getattr__(self, name: str) -> Any:
+        """Scale, anchors and whatever else the model has."""
+        if name == "_model":
+            raise AttributeError(name)
+        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The model's parts in the material."""

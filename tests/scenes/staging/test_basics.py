@@ -1,11 +1,13 @@
 """Short prompts of event vision: where their bodies are over time."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import middle, stage, thing
+from tests.scenes.staged import SIZE, middle, stage, thing
 
+from texvent.camera import project
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
@@ -111,6 +113,22 @@ def test_what_goes_down_a_ramp_gains_the_speed_of_its_height(noun, motion):
     share = 5.0 / 7.0 if motion == "roll" else 1.0
     fastest = max(one.track.at(time_s).speed_m_s for time_s in np.linspace(0.0, 2.0, 201))
     assert fastest == pytest.approx(math.sqrt(2.0 * 9.81 * share * 0.55), rel=0.02)
+
+
+@pytest.mark.parametrize("material", [None, "metal"])
+@pytest.mark.parametrize(("noun", "count"), [("marble", 1), ("marble", 5), ("ball", 1)])
+def test_a_slope_fits_what_rolls_down_on_it_side_by_side_and_is_seen_whole(noun, count, material):
+    goers = replace(thing(noun, ("roll",)), count=count)
+    scene = stage(goers, replace(thing("ramp"), material=material), relations=(("on", 0, 1),))
+    *rolling, ramp = scene.actors
+    assert ramp.model.length <= 50.0 * rolling[0].size_m
+    low, high = (ramp.corners(0.0).min(axis=0), ramp.corners(0.0).max(axis=0))
+    for one in rolling:
+        lowest = one.corners(0.1)[:, 2].min()
+        assert low[1] < one.middle(0.1)[1] < high[1]
+        assert abs(lowest - high[2]) < 0.7 * one.size_m  # at its top, on it
+    x, y, depth = project(scene.camera(0.1), SIZE, ramp.corners(0.1)).T
+    assert ((x > 0) & (x < SIZE.width) & (y > 0) & (y < SIZE.height) & (depth > 0)).all()
 
 
 @pytest.mark.parametrize(("way", "sign"), [("towards", 1.0), ("away", -1.0)])

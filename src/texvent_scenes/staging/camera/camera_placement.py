@@ -10,6 +10,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES, is_room
+from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor, corners_over
@@ -157,6 +158,8 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     told = min(reached / _STATIC, _prominence_of_passed(shooting, path, main) / _TOLD)
     if told >= 1.0 or is_tied or not is_across:
         return path
+    if (passage_s := _find_descent(shooting, main)) is not None:
+        return _watch(shooting.along(replace(path, passage_s=passage_s)), main)[0]
     # Of what the image holds, the extent in metres times the prominence hardly changes.
     held_m = (way_m + size_m) * reached
     slow_m = (way_m + size_m) / (1.0 + _WIDTHS_PER_S * path.duration_s / _FILLED)
@@ -170,6 +173,21 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     passage_s = middle_s - half_s, middle_s + half_s
     near, enough = _watch(shooting.along(replace(path, passage_s=passage_s)), main)
     return near if enough >= _LEAST_GAIN * reached else path
+
+
+def _find_descent(shooting: _Shooting, main: Actor) -> tuple[float, float] | None:
+    """Begin and end, s, of the way of a subject down a slope; None: there is none."""
+    slopes = [one for one in shooting.actors if trait_value("slope", one.noun.name) is not None]
+    times = np.linspace(0.0, shooting.path.duration_s, 4 * _CHECKS)
+    for one in slopes:
+        low, high = (
+            end[:2] for end in (one.corners(0.0).min(axis=0), one.corners(0.0).max(axis=0))
+        )
+        places = np.array([main.middle(float(time))[:2] for time in times])
+        on_it = times[((places >= low) & (places <= high)).all(axis=1)]
+        if len(on_it) > 1:
+            return float(on_it[0]), float(on_it[-1])
+    return None
 
 
 def _prominence_of_passed(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:

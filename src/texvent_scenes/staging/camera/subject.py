@@ -189,6 +189,8 @@ def _tells_as_a_whole(kind: str, description: SceneDescription, index: int) -> b
         return noun in nouns_with("passage")
     if kind == "into":
         return has_rim(noun)
+    if kind == "on":
+        return trait_value("slope", noun) is not None
     return kind == "in" and trait_value("container", noun) is not None
 
 

@@ -61,6 +61,11 @@ def go_down(group: ObjectGroup, target: ObjectGroup) -> None:
         is_upright=is_person,
     )  # fmt: skip
     group.plan = replace(plan, yaw=yaw, path=path)
+    apart_m = 1.2 * max(one.width for one in group.models)
+    count = len(group.models)
+    if count > 1 and count * apart_m <= target.models[0].width:  # side by side
+        sides = [(n - 0.5 * (count - 1)) * apart_m for n in range(count)]
+        group.offsets = [(-one * math.sin(yaw), one * math.cos(yaw), 0.0) for one in sides]
     group.fit()
 
 

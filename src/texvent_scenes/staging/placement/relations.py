@@ -190,7 +190,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "behind": (-side * _look_past(subject, group.half_at_rest(), y), -y, -_AWAY),
         "front": (side * _look_past(group, near, y), y, _AWAY),
     }
-    if along[1] < -_OBLIQUE:  # towards the camera
+    if along[1] < -_OBLIQUE and (subject.plan.gesture or "").startswith(SEATED):
         aside_m = math.copysign(_look_past(group, near, y), along[0])
         goals["towards"] = (aside_m, y * along[1], -_AWAY)
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))

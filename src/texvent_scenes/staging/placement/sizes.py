@@ -20,6 +20,8 @@ _OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
 _ROOMY, _LEAST_SHARE = 0.85, 0.3
 """Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
 """
+_RUN = 45.0
+"""Length of a slope, in sizes of what rolls down on it, at most its usual one."""
 _MARK = 0.2
 """Size of a shape on another one."""
 _NOTED = 0.1
@@ -48,7 +50,8 @@ class Sizes:
             return _MARK, []
         on, notes = self._fit_on(index)
         inside, more = self._fit_in(index)
-        return on * inside * self._fit_through(index), [*notes, *more]
+        fitted = self._fit_through(index) * self._fit_down(index)
+        return on * inside * fitted, [*notes, *more]
 
     def _is_mark(self, index: int) -> bool:
         """Whether it is a shape on another one of its kind: a dot on a disc."""
@@ -101,6 +104,15 @@ class Sizes:
                  if one.kind == "through" and index in one.targets]  # fmt: skip
         is_fitted = self._description.objects[index].noun in nouns_with("fits who goes through")
         return fit_passage(goers) if is_fitted and goers else 1.0
+
+    def _fit_down(self, index: int) -> float:
+        """Scale of a slope: a short one for marbles."""
+        goers = [self._build(one.subject) for one in self._description.relations
+                 if one.kind == "on" and index in one.targets]  # fmt: skip
+        if trait_value("slope", self._description.objects[index].noun) is None or not goers:
+            return 1.0
+        largest = max(max(one.length, one.width, one.height) for one in goers)
+        return min(_RUN * largest / self._build(index).length, 1.0)
 
     def _build(self, index: int) -> Model:
         """A copy of an object at the size that is said."""
