@@ -154,7 +154,7 @@ class ThingReader:
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
-        if owners and group.article in word_set("things", "owners") | {"the"}:
+        if owners and group.article in word_set("things", "owners") | {"the", ""}:
             draft.show(head)
             return []  # "a cyclist falls off his bike", "a car stops and the door opens"
         is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
@@ -190,6 +190,7 @@ class ThingReader:
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
                 self._draft.set_place(Group(token), token, "")
+        draft.name_kind((*group.unknown, *group.modifiers), head, draft.things[index]["noun"])
         if any(one.text in word_set("things", "stacks") for one in group.modifiers):
             draft.stack(index)
         self._nearest = [index]
