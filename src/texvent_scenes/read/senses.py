@@ -75,14 +75,16 @@ def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Toke
 
 def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     """The token, with the noun that it means beside some others: the platform of a train."""
-    senses = [one.value for one in token.all("noun")]
-    rows = read_table("words", "read")["beside"].get(senses[0].noun if senses else token.text, ())
+    senses, table = [one.value for one in token.all("noun")], read_table("words", "read")["beside"]
+    singular = token.text if senses and not senses[0].is_plural else ""
+    rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
     others = {one.value.noun for each in tokens for one in each.all("noun")}
+    others |= {one.text for one in tokens}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
     if row is None or not (senses or token.is_unknown):
         return token
     sense = senses[0] if senses else NounSense("")
-    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),))
+    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),)[: bool(row["noun"])])
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:
