@@ -223,6 +223,8 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         is_lifted = motion.direction in _VERTICAL and noun.motion in ("stand", "roll")
         usual = "slide" if is_lifted else _GOING.get(noun.motion, noun.motion)
         motion = replace(motion, kind=usual)
+    elif motion.kind == "roll" and noun.name in nouns_with("on castors"):
+        motion, is_lifted = replace(motion, kind="slide"), False
     else:
         is_lifted = motion.kind == "slide" and noun.name in nouns_with("flat pattern")
     if motion.kind in ("hover", "float") and motion.direction in _UPRIGHT:
@@ -298,7 +300,7 @@ def _rest_of(
     kind, target = relation.kind, objects[relation.targets[0]]
     is_person = objects[relation.subject].noun in PERSON_NOUNS
     seats = nouns_with("seat") | nouns_with("sat on")
-    if kind == "at" or (kind == "on" and is_person and target.noun in seats):
+    if kind == "at" or (kind in ("on", "in") and is_person and target.noun in seats):
         return {relation.subject: Motion("sit")}
     if kind == "in" or (kind == "on" and target.motion is None):
         return {relation.subject: STANDING}
@@ -430,8 +432,10 @@ def _darken(description: SceneDescription) -> SceneDescription:
 
 def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
     """The place that is said, or the usual one of the objects."""
-    held = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
-    members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in held]
+    led = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
+    led |= {one.subject for one in description.relations if one.kind in ("in", "on")
+            and _swims(nouns[description.objects[one.subject].noun])}  # "on a puddle"
+    members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in led]
     kinds = {one.motion.kind for one in description.objects if one.motion is not None}
     said, usual = description.place, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
@@ -449,6 +453,11 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     return said.name or (of_travel[0] if of_travel else usual)
 
 
+def _swims(noun: Noun) -> bool:
+    """Whether a noun is in water or on it."""
+    return noun.habitat == "water" or noun.motion in _AFLOAT
+
+
 def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:
     """Usual place of objects with these motions."""
     habitats = {noun.habitat for noun in members}
@@ -464,7 +473,7 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
     for place in filter(None, (*of_nouns, *of_acts)):
         is_wrong = (is_outdoors and is_room(place)) or (
             "ground" in habitats and place in _NO_GROUND
-        )
+        ) or ("fixed" in habitats and place == "sky")
         if not is_wrong:
             return str(place)
     if "water" in habitats and kinds & {"swim", "jump"}:  # "a dolphin jumps through a hoop"

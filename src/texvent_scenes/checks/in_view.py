@@ -130,6 +130,8 @@ def find_unseen(
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     clip = _Clip(cameras, times, size, description.camera.is_moving)
     related = {i for one in description.relations for i in one.targets}
+    related |= {n for n, one in enumerate(description.objects)
+                if one.noun in nouns_with("only a background")}  # fmt: skip
     if any(one.kind == "travel" for one in description.camera.moves):  # seen from within
         related |= {n for n, one in enumerate(description.objects)
                     if one.noun in nouns_with("passage")}  # fmt: skip

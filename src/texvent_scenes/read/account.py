@@ -64,8 +64,9 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         if token.has("style") and " " in token.text:
             draft.show(token)  # "in front of the camera"
         fate = draft.fates.get(token.at, "" if is_open else "lost")
-        if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
-            fates[token.text] = fate
+        text = draft.compounds.get(token.at, token.text)
+        if fate == "lost" or (fate and fates.get(text, "shown") == "shown"):
+            fates[text] = fate
     others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
     return Reading(
         scene=_build(draft, prompt),

@@ -39,6 +39,11 @@ PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 _TURNS, _TURN_S = 5, 0.25
 """Copies of what does something one after another, and time between them, s."""
+_ADJECTIVES = (
+    "y", "ed", "ing", "ful", "ous", "al", "ic", "ive", "able", "ible", "ish", "less", "en", "ern", "ant",
+    "ent", "er", "est", "ary", "’s", "'s",
+)  # fmt: skip
+"""Ends of adjectives."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -159,7 +164,10 @@ class SceneDraft(Abilities):
     _left: list[int] = field(default_factory=list)
     """Object from which one was parted last."""
     fates: dict[int, str] = field(default_factory=dict)
-    """Number of a token → "lost", "shown", or the noun that it is shown as."""
+    """Number of a token → "lost", "shown", or the noun that it is shown as; "" = told with another
+    one."""
+    compounds: dict[int, str] = field(default_factory=dict)
+    """Number of a token → the compound of which it is the head, and which is shown as it."""
 
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""
@@ -430,6 +438,17 @@ class SceneDraft(Abilities):
             same = [one.value for one in token.all("noun") if one.value.noun == name]
             if same:
                 self.mark(token, name if same[0].is_kind else "shown")
+
+    def name_kind(self, words: Sequence[Token], head: Token, noun: str) -> None:
+        """Report a compound that is shown as its head: "a face shield" as a shield."""
+        before = self.tokens[head.at - 1] if head.at else NO_TOKEN
+        is_noun = before.has("noun", "place") or not before.text.endswith(_ADJECTIVES)
+        is_noun &= before.is_unknown or before.has("noun", "place") or bool(before.verbs("base"))
+        is_noun &= before.text.isalpha() and before.text not in word_set("things", "adjectives")
+        if is_noun and before in words and not self.shows(before):
+            self.compounds[head.at] = f"{before.text} {head.text}"
+            self.mark(before, "")
+            self.mark(head, noun)
 
     def _fill_place(self, token: Token, place: str) -> None:
         """Add those of whom a place is full: "a busy street"."""

@@ -111,6 +111,8 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
     is_lamp = part in word_set("things", "lamps")
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
+        if part in word_set("things", "stiff_parts"):
+            return
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
         for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):
             is_flyer = draft.nouns[one["noun"]].motion == "fly"

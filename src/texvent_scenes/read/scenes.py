@@ -115,7 +115,12 @@ class _SentenceReader(ThingReader):
         first, *others = clause.subjects
         verb = () if clause.verb is None else (clause.verb,)
         said = (replace(first, unknown=(*first.unknown, *verb)), *others)
-        return say_parts(self._draft, said, range(len(self._draft.things)))
+        known, nearest = range(len(self._draft.things)), self._nearest
+        if not say_parts(self._draft, said, known):
+            return False
+        phrases = [one for one in clause.after if isinstance(one, Phrase) or one.has("scene")]
+        self._say_after(phrases, nearest, nearest, nearest)  # where the whole is
+        return True
 
     def _apply_to_things(self, clause: Clause) -> None:
         known, where = len(self._draft.things), self._nearest

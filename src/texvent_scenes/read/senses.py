@@ -7,8 +7,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.models.activities import TIMED
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.lexicon import NounSense, Sense, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
@@ -46,7 +47,18 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
 
 
 def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
-    """The token as a word that is not known, if it is no thing: "behind dusty glass"."""
+    """The token as a word that is not known, if it is no thing.
+
+    As in "behind dusty glass", "a remote controlled car", "with a leaf pattern".
+    """
+    after, then = ([*tokens[token.at + 1 : token.at + 3], NO_TOKEN, NO_TOKEN])[:2]
+    nouns = {one.value.noun for one in token.all("noun")}
+    is_means = after.is_unknown and after.text.endswith("ed") and then.has("noun")
+    is_means &= not any(one in NOUNS and NOUNS[one].speed_m_s for one in nouns)
+    is_print = after.text in word_set("things", "prints")
+    is_print &= not nouns & (nouns_with("flat pattern") | word_set("things", "patterned"))
+    if nouns and (is_means or is_print):
+        return replace(token, senses=())
     led = [one for one in tokens[: token.at] if one.has("relation", "articles", "small", "verb")]
     before, last = ([NO_TOKEN, NO_TOKEN, *led])[-2:]
     is_thing = last.has("articles", "verb") and {last.text, before.text} != {"the", "through"}
@@ -63,14 +75,16 @@ def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Toke
 
 def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     """The token, with the noun that it means beside some others: the platform of a train."""
-    senses = [one.value for one in token.all("noun")]
-    rows = read_table("words", "read")["beside"].get(senses[0].noun if senses else token.text, ())
+    senses, table = [one.value for one in token.all("noun")], read_table("words", "read")["beside"]
+    singular = token.text if senses and not senses[0].is_plural else ""
+    rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
     others = {one.value.noun for each in tokens for one in each.all("noun")}
+    others |= {one.text for one in tokens}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
     if row is None or not (senses or token.is_unknown):
         return token
     sense = senses[0] if senses else NounSense("")
-    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),))
+    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),)[: bool(row["noun"])])
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

@@ -88,6 +88,10 @@ class ThingReader:
             return [index for one in formed for index in self._name(one, relation, owners)]
         if head is not None and names_place(head, relation) and not is_trajectory(group):
             self._draft.set_place(group, head, relation)
+        elif head is not None and (whole := self._find_whole(group)):
+            self._draft.mark(head, "lost")
+            found = self._name(whole, relation, owners)
+            return found if relation else []  # what a part does, the whole does not
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
@@ -105,6 +109,21 @@ class ThingReader:
         for content in phrase.groups:
             self._fill(found, content, phrase.preposition)
         return found
+
+    def _find_whole(self, group: Group) -> Group | None:
+        """The thing of which a group names a part that is not drawn alone: "the bell of a church".
+
+        A person or an animal has things, and what is in a vessel is no whole.
+        """
+        whole = group.of.groups[0] if group.of is not None and group.of.groups else None
+        part = group.noun.noun if group.noun else ""
+        if whole is None or whole.noun is None or not whole.article or group.article != "the":
+            return None
+        apart = word_set("things", "vessels") | word_set("things", "depictions")
+        is_apart = part in apart or any(
+            one in self._nouns and self._nouns[one].speed_m_s for one in (part, whole.noun.noun)
+        ) or whole.noun.noun in PERSON_NOUNS
+        return None if is_apart else whole
 
     def _light_own(self, group: Group) -> None:
         """Switch the lamps of the last thing that has some: "its headlights are on"."""
@@ -135,9 +154,9 @@ class ThingReader:
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
-        if owners and group.article in word_set("things", "owners"):
+        if owners and group.article in word_set("things", "owners") | {"the", ""}:
             draft.show(head)
-            return []  # "a cyclist falls off his bike"
+            return []  # "a cyclist falls off his bike", "a car stops and the door opens"
         is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
         if len(draft.things) == MAX_BODIES or (is_part and not known):
             return []  # "his hands", "with its propellers": parts of a body
@@ -171,6 +190,7 @@ class ThingReader:
         for token in group.unknown if not self._draft.can_go(index) else ():
             if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
                 self._draft.set_place(Group(token), token, "")
+        draft.name_kind((*group.unknown, *group.modifiers), head, draft.things[index]["noun"])
         if any(one.text in word_set("things", "stacks") for one in group.modifiers):
             draft.stack(index)
         self._nearest = [index]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import read_table
@@ -147,24 +148,37 @@ def _join_light_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
 
 
 @cache
-def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
+def _owned() -> tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]:
     """Things with parts as they are written, and as they are read: "a car, its headlights".
 
     As in "a car's headlights", "the blades of a fan", "a fan blade", "a four-blade fan".
     """
-    parts, bare = "|".join(owned_parts()), "|".join(sorted(word_set("things", "bare_parts")))
+    parts, opened = "|".join(owned_parts()), "|".join(sorted(word_set("things", "leaves")))
+    bare = "|".join(
+        rf"(?:{_list_names(owned_parts()[one])}) {one}"
+        for one in sorted(word_set("things", "bare_parts"))
+    )
     counts = read_table("words", "read")["senses"]["field"]["count"].values()
     numbers = "|".join(one for each in counts for one in each if " " not in one)
     many = "|".join(one[:-1] for one in owned_parts() if one.endswith("s"))
-    owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
+    owners = _list_names(noun for one in owned_parts().values() for noun in one)
+    openers = _list_names(one.name for one in NOUNS.values() if one.acts & TIMED)
+    of = r"of ((?:an?|the|his|her) (?:(?!(?:and|of|on|in|with|to)\b)\w+ ){0,2}?)?"
     rows = (
+        (rf"\b(?:the )?({opened}) {of}({openers})\b", r"\2\3 \1"),
         (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
-        (rf"\b({owners}) ({bare})\b", r"\1, its \2"),
-        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b",
-         r"\2\3, its \1"),
+        (rf"\b({bare})\b", lambda found: ", its ".join(found[0].rsplit(" ", 1))),
+        (rf"\b(?:the )?((?:\w+ )?(?:{parts})) {of}({owners})\b", r"\2\3, its \1"),
         (rf"\b({numbers}|\d+)[- ]({many}) ({owners})\b", r"\3 with \1 \2s"),
     )  # fmt: skip
     return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
+
+
+def _list_names(nouns: Iterable[str]) -> str:
+    """All names of nouns, as a pattern."""
+    said = {*nouns}
+    said = said.union(*(NOUNS[one].synonyms for one in said if one in NOUNS))
+    return "|".join(sorted(said, key=lambda one: (-len(one), one)))
 
 
 def _name_owners(text: str) -> str:

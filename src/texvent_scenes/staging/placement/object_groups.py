@@ -16,6 +16,7 @@ from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import SEAT, dress
+from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -295,10 +296,16 @@ _SEAT_BACK_M = 0.03
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object: a person in what it wears, a box open if something is in it."""
+    """The noun of an object: a person in what it wears, a box open if something is in it.
+
+    A wall in a room is none of a garden.
+    """
     objects = description.objects
     noun = nouns[objects[index].noun]
     opened, put = trait_value("drawn open", noun.name), trait_value("drawn put up", noun.name)
+    inside, place = trait_value("drawn in a room", noun.name), description.place.name
+    if inside and place and is_room(place):
+        return replace(nouns[inside], name=noun.name)
     sends = {one.subject for one in description.relations if one.kind in SENT}
     for one in description.relations if opened or put else ():
         is_filled = one.kind in ("in", "into") or (one.kind == "towards" and one.subject in sends)
