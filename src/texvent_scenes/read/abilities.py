@@ -151,6 +151,8 @@ class Abilities:
                 return self._acts_on(verb, names, objects)
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
+            case "walker":
+                return not has_object and all(map(self.walks, subjects))
             case "machine":
                 return not has_object and all(self.nouns[one].is_working for one in names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
@@ -161,8 +163,10 @@ class Abilities:
                 return not has_object and not is_acting
             case "camera":
                 return False
+        walks = all(map(self.walks, subjects))
+        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         is_unfit |= is_way and verb.kind == "move"
-        is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        is_unfit &= is_ground or is_way or walks or verb.kind == "break"
         return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:
