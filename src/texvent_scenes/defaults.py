@@ -402,7 +402,7 @@ def _list_ridden(description: SceneDescription) -> set[int]:
     relations, objects = description.relations, description.objects
     ridden = {n for one in relations for n in one.targets if one.kind == "ride"
               or (one.kind == "on" and objects[one.subject].noun in PERSON_NOUNS)}  # fmt: skip
-    return ridden | {one.subject for one in relations if one.kind == "collide"}
+    return ridden | {one.subject for one in relations if one.kind in ("collide", "knock over")}
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -80,6 +80,7 @@ def find_violations(
     names = [f"the {VARIANTS.get(one.noun, one.noun)}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
+    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -91,6 +92,9 @@ def find_violations(
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
+        if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
+            down.append(one.subject)
+            own, others = ([body.cut(slice(1)) for body in each] for each in (own, others))
         held = [holds(kind, body, others, at_end=goes_on) for body in own]
         if kind == "sent" and not all(
             holds("facing", each, others) for each in copies[one.subject]

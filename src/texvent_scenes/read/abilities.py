@@ -22,8 +22,8 @@ from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import ACTED
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
-_ALONG = ("push", "pull")
-"""Relations to what goes along."""
+_ALONG = ("push", "pull", "knock over")
+"""Relations of what goes by itself."""
 
 
 def can_be_worn(noun: str) -> bool:
@@ -90,6 +90,7 @@ class Abilities:
                 verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
             )
             is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
+            is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
             is_moved &= verb.relation != "wear" or all(
                 can_be_worn(self.things[n]["noun"]) for n in objects
