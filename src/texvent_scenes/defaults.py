@@ -32,6 +32,7 @@ _UPRIGHT = {"up": "rise", "down": "sink"}
 _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
 _AFLOAT = ("sail", "paddle")
+_FLYING = {"fly", "rise", "sink", "hover"}
 _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
@@ -404,17 +405,18 @@ def _list_ridden(description: SceneDescription) -> set[int]:
     relations, objects = description.relations, description.objects
     ridden = {n for one in relations for n in one.targets if one.kind == "ride"
               or (one.kind == "on" and objects[one.subject].noun in PERSON_NOUNS)}  # fmt: skip
-    return ridden | {one.subject for one in relations if one.kind == "collide"}
+    return ridden | {one.subject for one in relations if one.kind in ("collide", "knock over")}
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Vehicles that only stand have no rider."""
+    """Vehicles that only stand have no rider; birds that float have wings as they fly."""
     ridden, new = _list_ridden(description), {}
     for n, one in enumerate(description.objects):
-        parked = f"parked {one.noun}"
-        stands = [motion.kind for motion in one.motions] == ["stand"]
-        if parked in nouns and n not in ridden and stands:
-            new[n] = replace(one, noun=parked)
+        kinds = {motion.kind for motion in one.motions}
+        is_parked = n not in ridden and kinds == {"stand"}
+        variants = (f"parked {one.noun}",) if is_parked else ()
+        variants += (f"flying {one.noun}",) if kinds & _FLYING else ()
+        new |= {n: replace(one, noun=each) for each in variants if each in nouns}
     return _change(description, new)
 
 

@@ -15,7 +15,7 @@ from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.words import find_held
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.meanings import list_meanings
-from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.nouns import NOUNS, VARIANTS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 
@@ -44,6 +44,8 @@ def stage(
     contents = tuple(tuple(one.values()) for one in files)
     scene, unseen, held, failed = _staged(description, nouns, contents, seed, size, duration_s)
     faults = (*unseen.violations, *_list_manners(description, unseen.violations))
+    faults = (*faults, *(one._replace(value=VARIANTS[str(one.value)]) for one in faults
+                         if one.kind == "noun" and one.value in VARIANTS))  # fmt: skip
     fewer = (re.fullmatch(r".* \(\d+ of (\d+)\)", one) for one in unseen.out_of_view)
     faults += tuple(Violation("count", float(one[1]), "") for one in fewer if one)
     shown = without_words([one for one in said.shown if one not in failed], faults)
@@ -60,13 +62,21 @@ def stage(
     report = replace(
         said,
         shown=shown,
-        notes=(*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes,
-               *(f"out of view: {one}, of which no number is said" for one in sorted(enough))),
-        not_shown=(*lines, *lost),
-        out_of_view=out_of_view,
-        too_small=unseen.too_small,
+        notes=_as_said((*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes,
+               *(f"out of view: {one}, of which no number is said" for one in sorted(enough)))),
+        not_shown=(*_as_said(lines), *lost),
+        out_of_view=_as_said(out_of_view),
+        too_small=_as_said(unseen.too_small),
     )  # fmt: skip
     return scene, report, files
+
+
+def _as_said(lines: Sequence[str]) -> tuple[str, ...]:
+    """Lines with nouns in place of their variants: "goose" for "flying goose"."""
+    variants = "|".join(VARIANTS)
+    return tuple(
+        re.sub(rf"\b({variants})\b", lambda found: VARIANTS[found[1]], one) for one in lines
+    )
 
 
 def _are_enough(line: str, shown: Sequence[str]) -> bool:

@@ -29,6 +29,9 @@ _BESIDE = 0.2
 """Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
+_UPRIGHT, _MET = 0.7, 0.6
+"""Cosine of the greatest angle at which a body still stands; distance of bodies that meet, in the
+sum of their sizes."""
 _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
 """Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
 angle of that circle that it covers."""
@@ -254,6 +257,17 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
     sizes = [one.size[-1] for one in staged.own_boxes(claim)]
     return all(each[2] < max(each[:2]) for each in sizes)
+
+
+def tips(staged: StagedClip, claim: Claim) -> bool:
+    """Whether each thing stands at first and lies at the end, and who does it comes up to it."""
+    fallen = [one for n in claim.targets for one in staged.list_actors(n)]
+    up = np.array([[one.track.at(at).to_world()[2, 2] for at in (0.0, staged.duration_s)]
+                   for one in fallen])  # fmt: skip
+    gaps = [np.linalg.norm(one.middle(at) - other.middle(at)) / (one.size_m + other.size_m)
+            for one in staged.own(claim) for other in fallen for at in staged.fine_times]  # fmt: skip
+    is_fallen = (up[:, 0] > _UPRIGHT).all() and (up[:, 1] < 1.0 - _UPRIGHT).all()
+    return bool(is_fallen) and min(gaps, default=math.inf) <= _MET
 
 
 def bounces(staged: StagedClip, claim: Claim) -> bool:

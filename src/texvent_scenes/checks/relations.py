@@ -15,7 +15,7 @@ from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.anchors import has_rim
-from texvent_scenes.models.nouns import AFLOAT, NOUNS
+from texvent_scenes.models.nouns import AFLOAT, NOUNS, VARIANTS
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Motion, SceneObject
@@ -77,9 +77,10 @@ def find_violations(
     description: SceneDescription, copies: Sequence[Sequence[BodyBoxes]]
 ) -> Iterator[Violation]:
     """Words that the bodies do not realise; without a line where one of them is out of view."""
-    names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
+    names = [f"the {VARIANTS.get(one.noun, one.noun)}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
+    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -91,6 +92,9 @@ def find_violations(
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
+        if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
+            down.append(one.subject)
+            own, others = ([body.cut(slice(1)) for body in each] for each in (own, others))
         held = [holds(kind, body, others, at_end=goes_on) for body in own]
         if kind == "sent" and not all(
             holds("facing", each, others) for each in copies[one.subject]

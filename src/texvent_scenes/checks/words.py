@@ -37,6 +37,7 @@ from texvent_scenes.checks.acts import (
     stops,
     stops_before,
     swings,
+    tips,
 )
 from texvent_scenes.checks.camera_ways import is_camera_so
 from texvent_scenes.checks.looks import has_look
@@ -67,6 +68,7 @@ _DONE = (
     "stop",
     "land",
     "descend",
+    "tip",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera")
@@ -242,6 +244,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "camera": is_camera_so, "stop": stops, "sit at": _sits_at,
+    "camera": is_camera_so, "stop": stops, "tip": tips, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

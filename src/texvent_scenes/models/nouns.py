@@ -49,10 +49,16 @@ NOUNS: Mapping[str, Noun] = MappingProxyType(
 )
 """Every noun by its singular name."""
 
+VARIANTS: Mapping[str, str] = MappingProxyType(
+    {name: rest for name in NOUNS for word, _, rest in [name.partition(" ")]
+     if word in ("parked", "flying") and rest in NOUNS}
+)  # fmt: skip
+"""Variants of nouns, which no sentence names: it says that a bicycle stands, that a goose flies."""
+
 SCENERY_ONLY: frozenset[str] = frozenset(noun.name for noun in FAMILIES["extra_scenery"])
 """Nouns that only scenery uses: no prompt means them."""
 
 AFLOAT: frozenset[str] = frozenset(
-    name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")
+    name for name in NOUNS if NOUNS[VARIANTS.get(name, name)].motion in ("sail", "paddle")
 )
 """Names of the nouns that float on the surface: boats and ducks."""

@@ -22,8 +22,8 @@ from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import ACTED
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
-_ALONG = ("push", "pull")
-"""Relations to what goes along."""
+_ALONG = ("push", "pull", "knock over")
+"""Relations of what goes by itself."""
 
 
 def can_be_worn(noun: str) -> bool:
@@ -90,6 +90,7 @@ class Abilities:
                 verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
             )
             is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
+            is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
             is_moved &= verb.relation != "wear" or all(
                 can_be_worn(self.things[n]["noun"]) for n in objects
@@ -151,6 +152,8 @@ class Abilities:
                 return self._acts_on(verb, names, objects)
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
+            case "walker":
+                return not has_object and all(map(self.walks, subjects))
             case "machine":
                 return not has_object and all(self.nouns[one].is_working for one in names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
@@ -161,8 +164,10 @@ class Abilities:
                 return not has_object and not is_acting
             case "camera":
                 return False
+        walks = all(map(self.walks, subjects))
+        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         is_unfit |= is_way and verb.kind == "move"
-        is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        is_unfit &= is_ground or is_way or walks or verb.kind == "break"
         return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:

@@ -19,14 +19,11 @@ from texvent_scenes.models.activities import (
     Activity,
 )
 from texvent_scenes.models.effects import EFFECTS
-from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY
+from texvent_scenes.models.nouns import NOUNS, SCENERY_ONLY, VARIANTS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.words import list_plurals, list_verb_forms
-
-_UNSAID = ("parked ", "flying ")
-"""Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
 @cache
@@ -75,7 +72,7 @@ class VerbSense:
 
     who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
-    "machine", "body" (what rolls or drives) or "plain" (anything)."""
+    "walker" (on feet), "machine", "body" (what rolls or drives) or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -138,7 +135,7 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     said = [
         one for one in nouns.values()
-        if one.name not in SCENERY_ONLY and not one.name.startswith(_UNSAID)
+        if one.name not in SCENERY_ONLY and one.name not in VARIANTS
     ]  # fmt: skip
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}

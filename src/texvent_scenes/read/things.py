@@ -32,9 +32,9 @@ from texvent_scenes.read.lexicon import (
     states,
     word_set,
 )
-from texvent_scenes.read.prepositions import ridden_by
+from texvent_scenes.read.prepositions import relate_one, ridden_by
 from texvent_scenes.read.tokens import NO_TOKEN, Token
-from texvent_scenes.spec.data import PLACING
+from texvent_scenes.spec.data import PLACING, WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
 
@@ -357,9 +357,12 @@ class ThingReader:
         if not objects:
             self._meet(act, verb, subjects)
         for index in subjects if act.relation is not None else ():
-            draft.relate(
-                ridden_by(self._draft, index, act.relation or ""), act.relation or "", objects
-            )
+            who, kind = ridden_by(self._draft, index, act.relation or ""), act.relation or ""
+            is_left = kind == "out of" and bool(objects)
+            is_so = relate_one(draft, kind, who, objects) if is_left else False
+            if (is_so or draft.relate(who, kind, objects)) and kind in WAYS:
+                way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
+                draft.claim(verb, "relation", way, [who], objects)
         return list(objects if act.object and objects else subjects)
 
     def _switch(self, state: str, index: int) -> None:
@@ -425,6 +428,8 @@ class ThingReader:
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
             draft.claim(verb, "stop", "", [index])
+        if act.relation == "knock over":
+            draft.claim(verb, "tip", "", [index], objects)
         if act.relation in ("hold", "act on"):
             draft.claim(verb, act.relation, "", [index], objects)
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):

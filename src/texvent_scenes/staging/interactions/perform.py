@@ -135,6 +135,8 @@ def _settle(
         return sitting, _give_motion(subject, target, nouns)
     if kind == "collide":
         return _at_its_pace(subject), _at_its_pace(target)
+    if kind == "knock over":
+        return _at_its_pace(subject), still
     if kind in striking.IMPACTS:
         doing = striking.IMPACTS[kind].activity or (motion.kind if kind == "hit" else kind)
         return replace(subject, motions=(Motion(doing, to),)), still
@@ -167,10 +169,11 @@ def _swinging(
 
 
 def _at_its_pace(said: SceneObject) -> SceneObject:
-    """Body that collides, of whose motion the speed is left: how it moves, the act decides."""
+    """Body that collides, of whose motion the speed and a turn are left: the rest the act decides."""
     motion = said.motion or STANDING
     kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
-    return replace(said, motions=() if kept == STANDING else (kept,))
+    turns = tuple(one for one in said.motions if one.kind == "turn")[:1]
+    return replace(said, motions=turns or (() if kept == STANDING else (kept,)))
 
 
 def _mounted(
@@ -254,6 +257,7 @@ def perform_acts(
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
+    _bear_down(cast, description.relations)
     for each in description.relations:
         seats = [n for n, one in cast.items() if one.object_index in each.targets]
         riders = [n for n, one in cast.items() if one.object_index == each.subject]
@@ -306,6 +310,21 @@ def _send_to(
             )
 
 
+def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
+    """Let what stands on a thing that is knocked over go down with it."""
+    down = [one.targets[0] for one in relations if one.kind == "knock over"]
+    for index in down:
+        below = next((one for one in cast.values() if one.object_index == index), None)
+        on = [one.subject for one in relations if one.kind == "on" and index in one.targets]
+        for number, one in cast.items() if below is not None else ():
+            if one.object_index in on and below.is_mover:
+                frame, own = (np.vstack([each.track.at(0.0).to_world(), [0.0, 0.0, 0.0, 1.0]])
+                              for each in (below, one))  # fmt: skip
+                path = attached(below.track, np.linalg.solve(frame, own)[:3])
+                cast[number] = replace(one, track=path, is_mover=True)
+        down += [one for one in on if one not in down]
+
+
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
     """Rider of a swing, who goes with its seat, the last of its parts."""
     one, swing = cast[rider], cast[below]
@@ -336,6 +355,8 @@ def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: floa
         for target in targets if not subjects else ():
             del cast[target]
         pairs = zip(itertools.cycle(subjects), targets, strict=False)
+    if relation.kind == "knock over":  # the first of several, and what stands on it
+        pairs = itertools.islice(pairs, 1)
     for place, (one, other) in enumerate(pairs):
         if one != other:
             turn = place // max(len(subjects), 1)

@@ -25,6 +25,7 @@ from texvent_scenes.staging.interactions.holding import (
     moving,
 )
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead, flight_s
+from texvent_scenes.staging.tracks.phase_keys import arc
 from texvent_scenes.staging.tracks.phases import speeds_of
 from texvent_scenes.staging.tracks.track import (
     Attachment,
@@ -72,6 +73,7 @@ IMPACTS: Mapping[str, Impact] = MappingProxyType(
         "catch": Impact(0.45, "catch", "hands", is_caught=True),
         "hit": Impact(0.45, by="right hand", loft=0.22, tumble_rad_s=9.0),
         "collide": Impact(0.5),
+        "knock over": Impact(0.4),
     }
 )
 """Relation → how its bodies meet."""
@@ -108,7 +110,8 @@ def strike(
     if kind == "hit" and is_person(subject):  # others run against it
         return _bat(act, subject, thing, contact_s)
     if act.activity is None:
-        return _run_together(subject, thing, contact_s)
+        meet = _knock_over if kind == "knock over" else _run_together
+        return meet(subject, thing, contact_s)
     home = subject.track.at(0.0)
     if act.is_caught:
         return _catch(act, subject, thing, contact_s)
@@ -320,6 +323,26 @@ def _run_together(subject: Actor, other: Actor, contact_s: float) -> tuple[Actor
     return met[0], met[1]
 
 
+def _knock_over(subject: Actor, thing: Actor, contact_s: float) -> tuple[Actor, Actor]:
+    """The subject runs against the thing, which falls over away from it, where both stand level."""
+    homes = [actor.track.at(0.0).position for actor in (subject, thing)]
+    if abs(homes[0][2] - homes[1][2]) > _RAISED_M:
+        return subject, thing
+    yaw = 0.0 if homes[0][0] <= homes[1][0] else math.pi
+    subject, thing = _run_into(subject, replace(thing, track=steady(homes[1], yaw)), yaw, contact_s)
+    edge_m = float(bounds(thing.own_parts(thing.pose(0.0)))[1][0])
+    keys = (
+        Key(contact_s, activity="stand"),
+        Key(_TIPPED_S, ramp_s=_TIPPED_S, activity="stand", pitch_rad=0.5 * math.pi),
+    )
+    way = thing.track.at(0.0)
+    return subject, moving(thing, Track(way.position, yaw, keys, edge_m=edge_m))
+
+
+_TIPPED_S, _TURNED_S, _LEAST_TURN = 0.5, 0.8, 0.5
+"""Times that a body takes to fall over and to turn after a contact, s; least turn, rad."""
+
+
 def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
     """The mover rebounds; the still object faces it."""
     if still.model.length < _THIN * still.model.width:
@@ -349,7 +372,7 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
 def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Track:
     """Along the ground to where it touches, and a little back; on a table from its place there.
 
-    It brakes as hard at any speed.
+    It brakes as hard at any speed. What is said to turn round does so then, and goes on.
     """
     length = actor.model.length
     haste = max(actor.haste, 1.0)
@@ -365,4 +388,7 @@ def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Tra
         Key(0.6 * haste, 0.0, ramp_s=0.6 * haste),
         Key(0.1, activity="stand"),
     )
+    turn = actor.track.at(actor.track.duration_s).yaw - actor.track.at(0.0).yaw
+    if abs(turn) > _LEAST_TURN:
+        keys = (*keys[:3], *arc(_TURNED_S, 0.0, turn, 0.0), Key(1.0, speed))
     return Track(ahead(touching, yaw, -speed * contact_s, touching[2]), yaw, keys)

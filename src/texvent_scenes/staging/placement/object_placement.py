@@ -313,7 +313,7 @@ class ObjectPlacer:
             return -lowest_point(group.models[0])
         if kind == "float" and "afloat" in levels:
             return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
-        if name in levels:
+        if name in levels and not (kind == "fly" and group.noun.motion == "fly"):
             return levels[name] * group.models[0].height
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
         if level == 0.0:

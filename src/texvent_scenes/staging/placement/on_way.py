@@ -64,6 +64,9 @@ def _lay_alongside(group: ObjectGroup, kind: str, subject: ObjectGroup, height: 
     if path is not None:
         state = path.at(0.0 if kind in _AT_START else subject.plan.duration_s)
         place, yaw = place + np.array(state.position), state.yaw
+    elif kind in _AT_START:
+        ahead = np.array([math.cos(yaw), math.sin(yaw), 0.0])
+        place -= 0.5 * subject.plan.travel_m * ahead
     group.plan = replace(group.plan, yaw=yaw)
     group.fit()
     apart = 0.5 * (subject.models[0].width + group.models[0].width) + _EDGE_M

@@ -116,7 +116,7 @@ def plan_motion(
         radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
         spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie",
     )  # fmt: skip
-    if needs_steering(motions):
+    if needs_steering(motions) or (motion.kind == "slide" and noun.motion == "drive"):
         path = build_path(
             motions, noun, model, yaw=yaw, stated_m_s=stated, duration_s=duration_s,
             spin_axis=plan.spin_axis, start_m=start_m,
@@ -144,11 +144,14 @@ def raised(plan: MotionPlan, by_m: float) -> MotionPlan:
 
 
 def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
-    """Motion kind that suits a noun: only hands rotate, other nouns spin; narrow ones topple."""
+    """Motion kind that suits a noun: only hands rotate, other nouns spin; what stands on a small
+    foot, on legs or on wheels falls over."""
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
-    is_falling_over = motion.kind == "fall" and noun.name in nouns_with("falls over")
-    is_falling_over = is_falling_over and start_m < 0.1
+    falls_over = noun.name in nouns_with("falls over") or (
+        noun.habitat == "ground" and noun.motion in ("walk", "drive")
+    )
+    is_falling_over = motion.kind == "fall" and falls_over and start_m < 0.1
     return replace(motion, kind="topple") if is_falling_over else motion
 
 

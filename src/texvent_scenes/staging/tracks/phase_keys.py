@@ -46,12 +46,16 @@ _TIPPING = 0.9
 """Height over length from which on a body that stands on the ground can fall over."""
 BOUNCY, DULL = 0.82, 0.3
 """Shares of its upward speed that a bounce keeps: of what bounces, and of what falls."""
-_RAMP_S = 0.3
+_RAMP_S, _SKID, _SUNK = 0.3, 1.1, 0.95
+"""Time to reach a speed, s; angle by which the rear of what skids comes round, rad; share of its
+height by which what floats goes down as it sinks."""
 _BRAKING_M_S2 = 6.0
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
+_OF_CAMERA = ("towards", "away")
+"""Directions to which something turns that say where it heads then, and not to which side."""
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
@@ -99,7 +103,7 @@ def build_path(
         (first, *builder.keys[1:]),
         tuple(builder.terms),
         usual_speed_m_s=builder.usual(motions[0]),
-        floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
+        floor_m=builder.floor_m,
         pivot_m=builder.pivot_m,
         edge_m=builder.edge_m,
     )
@@ -155,6 +159,7 @@ class _KeyBuilder:
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
         self.pivot_m = self.edge_m = 0.0
+        self.floor_m = 0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M
         self.initial_height = self._height
 
     def add(self, phase: Phase) -> None:
@@ -246,6 +251,8 @@ class _KeyBuilder:
         end = self._end_speed(motion, speed)
         slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
         climb = slope * abs(speed) if self._is_free else 0.0
+        if motion.kind == "slide" and self._noun.motion == "drive":
+            self._swing_round(span)
         segments = self._choose_segments(motion)
         self._start(speed)
         if end is not None and segments[-1][1]:
@@ -266,11 +273,26 @@ class _KeyBuilder:
             rest_s = (1.0 - lead) * last_s
             self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
 
+    @property
+    def _now_s(self) -> float:
+        """End of the last key, s."""
+        return sum(key.duration_s for key in self.keys)
+
+    def _swing_round(self, span: float) -> None:
+        """Skid: the rear comes round while it goes straight on."""
+        begin_s, end_s = self._now_s + 0.25 * span, self._now_s + 0.8 * span
+        drift = _SKID / (end_s - begin_s)
+        self.terms.append(
+            Term("yaw", drift=drift, offset=-drift * begin_s, begin_s=begin_s, end_s=end_s)
+        )
+
     def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
         angle = math.pi if direction == "around" else QUARTER
         angle = -angle if direction in _CLOCKWISE else angle
+        if motion.kind == "turn" and direction in _OF_CAMERA:
+            angle = math.remainder(YAWS[direction] - self._heading, 2.0 * math.pi)
         if motion.kind == "turn" or direction == "around":
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
             return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
@@ -301,7 +323,9 @@ class _KeyBuilder:
         climb *= motion.pace
         if motion.speed_m_s is not None:
             climb = motion.speed_m_s
-        if self._start_m is not None and not is_up:
+        if not is_up and self._noun.motion in ("sail", "paddle"):  # down from where it floats
+            climb, self.floor_m = -_SUNK * self._model.height / span, -2.0 * self._model.height
+        elif self._start_m is not None and not is_up:
             climb = -min(climb, self._height / span)
         elif not is_up and self._is_single:
             self.initial_height = climb * 0.85 * span
@@ -350,6 +374,9 @@ class _KeyBuilder:
         if kind == "topple" and self._is_first:
             self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
+        if kind == "topple" and self._noun.motion in ("walk", "drive"):
+            self._fall_sideways(span)
+            return
         key = Key(span, activity="stand", restitution=DULL)
         if kind == "topple" or is_standing:
             if self._noun.name not in nouns_with("falls over"):  # those stand on a small foot
@@ -358,6 +385,15 @@ class _KeyBuilder:
             key = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
         self._append(key)
         self._height = 0.0
+
+    def _fall_sideways(self, span: float) -> None:
+        """Over to its left, onto its side: what stands on legs or wheels."""
+        begin_s, fallen_s = self._now_s, min(0.7, 0.8 * span)
+        times = {"begin_s": begin_s, "end_s": begin_s + fallen_s}
+        for channel, way in (("roll", -QUARTER), ("z", 0.5 * self._model.width)):
+            drift = way / fallen_s
+            self.terms.append(Term(channel, drift=drift, offset=-drift * begin_s, **times))
+        self._append(Key(span, ramp_s=fallen_s, activity="stand"))
 
     def _rest(self, motion: Motion, span: float) -> None:
         """Come to rest, and act in place."""
