@@ -45,9 +45,7 @@ def test_a_cut_has_the_frames_times_and_truth_of_its_place(
     ranges = ClipRanges(speed=(slow, slow + more))
     truth = TRUTH if per == slow + more == 1 else ("depth", "boxes")
     plan = CutPlan(size, len(paused), per, ranges, truth)
-    draw = ClipDraw(
-        np.uint64(1), np.zeros(0), is_flipped, share, np.array(place), np.array(paused)
-    )
+    draw = ClipDraw(np.uint64(1), np.zeros(0), is_flipped, share, np.array(place), np.array(paused))
     cut = cut_clip(clip, draw, plan, np.zeros((len(paused) + 1, *size.shape), np.uint8))
     speeds = range(slow, min(slow + more, (COUNT - 1) // len(paused)) + 1)
     step = speeds[int(share * len(speeds))]

@@ -408,13 +408,10 @@ def test_broken_and_short_sources_are_skipped_once_and_said_at_the_end_of_a_pass
     (tmp_path / "short").rmdir()
     (tmp_path / "clip1" / "005.png").write_bytes(b"\x89PNG broken")
     stream = EventStream(tmp_path, **{**SMALL, "batch": size})
-    found, said = [], []
     with pytest.warns(TexventWarning, match="2 of 3 sources are skipped") as told:
-        for batch in itertools.islice(stream, 5):
-            found.append(batch)
-            said.append(len(told))
-    assert said == [int(number * size >= 3) for number in range(1, 6)]
-    assert {int(source) for batch in found for source in batch.draws["source"]} == {0}
+        found = [(batch, len(told)) for batch in itertools.islice(stream, 5)]
+    assert [said for _, said in found] == [int(number * size >= 3) for number in range(1, 6)]
+    assert {int(source) for batch, _ in found for source in batch.draws["source"]} == {0}
     assert len(stream.skipped) == 2
 
 
