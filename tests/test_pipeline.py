@@ -8,7 +8,7 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
-from texvent.frames import Video, frame_time_us
+from texvent.frames import Frame, Video, frame_time_us
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
@@ -25,9 +25,19 @@ def moving_clip(count=8, *, height=40, width=48, colour=True):
     for index in range(count):
         pixels[index] = background[index * 2 // count] + 60 * (index * 2 // count)
         pixels[index, 10:26, 4 + 2 * index : 20 + 2 * index] = rng.integers(150, 255, (16, 16, 3))
+    return video_of(pixels if colour else pixels[..., 0])
+
+
+def video_of(pixels):
+    """25 frames per second."""
     fps = Fraction(25)
-    chosen = pixels if colour else pixels[..., 0]
-    return Video(np.ascontiguousarray(chosen), [frame_time_us(i, fps) for i in range(count)], fps)
+    times_us = [frame_time_us(index, fps) for index in range(len(pixels))]
+    return Video(np.ascontiguousarray(pixels), times_us, fps)
+
+
+def faint_clip(moving_texture):
+    """A texture that moves by more pixels than its brightness changes by thresholds."""
+    return video_of(np.stack([90 + moving_texture(7 * index) / 4 for index in range(3)]))
 
 
 def serial_steps(video, settings):
@@ -49,11 +59,12 @@ def serial_steps(video, settings):
 
 
 @pytest.mark.parametrize(
-    ("interpolate", "simulator", "colour"),
-    [("none", "texvent", True), ("blend", "esim", False), ("flow", "texvent", False)],
+    ("interpolate", "simulator"),
+    [("none", "texvent"), ("blend", "esim"), *(("flow", one) for one in SIMULATORS.builtin)],
 )
-def test_events_and_frames_equal_the_serial_path(interpolate, simulator, colour):
-    video = moving_clip(colour=colour)
+@pytest.mark.parametrize("clip", ["colour", "grey", "faint"])
+def test_events_and_frames_equal_the_serial_path(interpolate, simulator, clip, moving_texture):
+    video = faint_clip(moving_texture) if clip == "faint" else moving_clip(colour=clip == "colour")
     settings = resolve("simulate", {"interpolate": interpolate, "simulator": simulator, "seed": 5})
     steps = list(video_to_events(video, settings).steps())
     expected = serial_steps(video, settings)
@@ -114,7 +125,38 @@ def test_a_reader_that_stops_leaves_no_thread_and_closes_the_source():
     assert not threads_of_the_pipeline()
 
 
-def test_a_live_source_is_read_only_when_its_next_frame_is_asked_for():
+class Known(Video):
+    """Frames of which every instant between is known too."""
+
+    def at(self, t_us):
+        share = np.interp(t_us, self.times_us, range(len(self)))
+        return Frame(self.pixels[int(share)].astype(np.float32), t_us, is_source=False)
+
+    def with_motion(self):
+        return self
+
+    def between(self, first, second, times_us):
+        return map(self.at, times_us)
+
+
+@pytest.mark.parametrize("kind", [Known, Video])
+@pytest.mark.parametrize("options", [{}, {"deflicker": True}])
+def test_what_is_known_at_any_instant_is_neither_cut_nor_steadied(kind, options):
+    gains = np.array([1, 0.8, 1.1, 0.9, 2, 1.8, 2.2, 2.4])[:, None, None]
+    clip = video_of((moving_clip(colour=False).pixels[:1] * 0.4 * gains).astype(np.uint8))
+    interpolate = "motion" if kind is Known else "blend"
+    settings = resolve("simulate", {"interpolate": interpolate, **options})
+    changes = []
+    video = kind(clip.pixels, clip.times_us)
+    steps = video_to_events(video, settings).steps(lambda *change: changes.append(change))
+    found = np.stack([frame.pixels for frame, _ in steps if frame.is_source])
+    is_known = kind is Known
+    assert (changes == []) is (is_known or bool(options))
+    assert np.array_equal(found, clip.pixels) is (is_known or not options)
+
+
+@pytest.mark.parametrize("first_step_us", [40_000, 20_000_000])
+def test_a_live_source_is_read_only_when_its_next_frame_is_asked_for(first_step_us):
     read = []
 
     class Live(Video):
@@ -126,8 +168,9 @@ def test_a_live_source_is_read_only_when_its_next_frame_is_asked_for():
                 yield frame
 
     video = moving_clip()
-    settings = resolve("simulate", {"interpolate": "none"})
-    for frame, _ in video_to_events(Live(video.pixels, video.times_us), settings).steps():
+    times_us = (0, *(t_us - 40_000 + first_step_us for t_us in video.times_us[1:]))
+    settings = resolve("simulate", {"interpolate": "none", "preset": "paper"})
+    for frame, _ in video_to_events(Live(video.pixels, times_us), settings).steps():
         assert read[-1] == frame.t_us
 
 

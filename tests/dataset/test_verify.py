@@ -23,6 +23,7 @@ from texvent.dataset.generation.shard_files import (
     write_record,
 )
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.statistics import DatasetStatistics
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.verify import Findings, verify
 from texvent.errors import ConfigError
@@ -42,8 +43,8 @@ def test_a_sound_set_is_sound(cars: Path) -> None:
     findings = check(cars)
     assert findings.is_sound
     assert not findings.notes
-    assert (findings.shards, findings.samples) == (4, 9)
-    assert findings.events > 0
+    total = DatasetStatistics.of(StoredDataset.open(cars)).total
+    assert (findings.shards, findings.samples, findings.events) == (4, 9, sum(total.events))
 
 
 def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path: Path) -> None:

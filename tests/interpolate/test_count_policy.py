@@ -95,6 +95,21 @@ def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
     assert 5.2 < fast < 7
 
 
+def test_motion_is_that_from_the_first_frame_to_the_second():
+    y, x = np.mgrid[-40:40, -50:50]
+
+    def zoomed(factor):
+        u, v = x / factor, y / factor
+        levels = 120 + 50 * np.sin(0.35 * u) * np.cos(0.3 * v) + 40 * np.sin(0.11 * u + 0.17 * v)
+        return Frame(levels.astype(np.float32), round(1000 * factor))
+
+    pair = zoomed(1.2), zoomed(1.0)
+    lengths = [np.hypot(*np.moveaxis(one, -1, 0)) for one in PairFlow().both_ways(*pair)]
+    forward, backward = (np.percentile(one, 99.9) for one in lengths)
+    assert PairFlow().motion_px(*pair) == pytest.approx(forward, rel=0.05)
+    assert abs(backward - forward) > 0.1 * forward
+
+
 def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
     first, second = pair(*[np.full((4, 4), 100, np.uint8)] * 2, interval_us=40_000)
     forward = np.zeros((4, 4, 2), np.float32)

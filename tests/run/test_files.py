@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import texvent
+from texvent.frames import Video
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
 from texvent.settings.resolution import resolve
@@ -33,3 +35,26 @@ def test_every_file_is_made_with_the_options_and_facts_of_the_run(tmp_path, pale
     for own, path in zip(preview.paths, files.paths[1:], strict=True):
         assert path.read_bytes() == own.read_bytes(), path
     assert sorted(files.outputs) == sorted(tmp_path.glob("a.*"))
+
+
+class Dropping(Video):
+    """Frames whose facts are known in part only when they have been read."""
+
+    def __iter__(self):
+        self.metadata.update(frames_dropped=0)
+        for frame in super().__iter__():
+            yield frame
+            self.metadata.update(frames_dropped=3, ended_by="the camera")
+
+
+@pytest.mark.parametrize("stated", [{}, {"frames_dropped": 0}])
+def test_facts_that_only_reading_tells_are_in_every_file(tmp_path, stated):
+    pixels = np.random.default_rng(1).integers(0, 255, (4, 12, 16)).astype(np.uint8)
+    video = Dropping(pixels, [0, 10_000, 20_000, 30_000], metadata={"source": "camera", **stated})
+    run = video_to_events(video, resolve("simulate", {"interpolate": "none"}))
+    files = RunFiles(tmp_path / "a.h5", previews=("html",))
+    write_run(run, files, on_step=lambda *step: None)
+    source = {"source": "camera", "frames_dropped": 3, "ended_by": "the camera"}
+    assert texvent.load(files.events).metadata["source"] == source
+    page = files.paths[1].read_text(encoding="utf-8")
+    assert all(name in page for name in source)

@@ -169,9 +169,11 @@ def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source,
     stored, both = texvent.load(tmp_path / "a.raw"), texvent.EventStream.concat(expected[3:5])
     assert np.array_equal(np.c_[stored.t + 20_000, stored.x], np.c_[both.t, both.x])
     live.change("v2e", 0.3)
+    assert live.describe()["state"] == "starting"  # it compiles
     assert len(step(live, source, 5)) == 0  # another camera, its first frame
     state = live.describe()
     assert (state["simulator"], state["contrast_threshold"]) == ("v2e", 0.3)
+    assert (state["state"], state["frames"]) == ("starting", 0)
     source.end()
     live.close()
     assert [path.name for path in tmp_path.iterdir()] == ["a.raw"]

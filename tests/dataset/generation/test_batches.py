@@ -105,3 +105,6 @@ def test_a_batch_gives_the_samples_that_clips_give_alone(
         assert {one[1] for one in alone} == {MADE, FAILED, FILTERED}
     # Those of one size, in two seeds, but for the damaged one.
     assert max(batches) == 6
+    batches.clear()
+    make(recipe, tmp_path / "together", device="auto", retry_failed=True)
+    assert max(batches, default=0) <= 2  # the damaged clip alone

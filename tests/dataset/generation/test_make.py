@@ -18,7 +18,6 @@ from tests.dataset.generation.small_sets import clips_recipe, digests, make
 import texvent
 from texvent.dataset.generation import make_sample, make_shard
 from texvent.dataset.generation.make import find_work
-from texvent.dataset.generation.make_sample import SampleRun, simulate_sample
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shard_files import (
     FAILED,
@@ -30,17 +29,14 @@ from texvent.dataset.generation.shard_files import (
     read_record,
 )
 from texvent.dataset.specification.reading import specification_from
-from texvent.dataset.specification.specification import Filters
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.generation import kept_frames
-from texvent.pipeline import text_to_events
 from texvent.runtime.work.engines import ProcessEngine
 from texvent.runtime.work.side_work import begin_side_work
 from texvent.settings import provenance
-from texvent.settings.resolution import resolve
 from texvent_scenes.raycast.incremental import IncrementalRenderer
 
 SMALL = {"duration": 0.1, "sensor": "32x24", "interpolate": "none"}
@@ -137,18 +133,6 @@ def test_variants_that_share_frames_are_what_each_is_alone(
         make(recipe_of(**few, variants={name: options}), tmp_path / name)
         for shard, alone in digests(tmp_path / name).items():
             assert digests(tmp_path / "all")[shard] == alone
-
-
-def test_as_many_events_as_are_allowed_are_kept() -> None:
-    settings = resolve(
-        "generate", {**SMALL, "duration": 0.2, "simulator": "esim", "point_spread": 0}
-    )
-    simulation = text_to_events("a red car drives left", settings)
-    count = len(simulation.packets.collect())
-    within = simulate_sample(SampleRun(simulation, Filters(max_events=count)))
-    assert (len(within.events), within.left_out) == (count, None)
-    over = simulate_sample(SampleRun(simulation, Filters(max_events=count - 1)))
-    assert over.left_out == f"more than {count - 1:,} events"
 
 
 def test_another_specification_is_refused_with_the_difference(cars: Path) -> None:

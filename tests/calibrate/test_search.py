@@ -1,0 +1,48 @@
+"""The search over the options of the circuit, on distances whose minimum is known."""
+
+import dataclasses
+import math
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.calibrate.recording import TimeSpan
+from texvent.calibrate.search import COORDINATES, STEPS, Candidate, Distance, Search
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+from .conftest import TRUTH
+
+
+class Bowl(Search):
+    """A search whose distance grows with the logarithm of each option over its best value."""
+
+    def __init__(self, best, keep):
+        nothing = EventStream.empty(SensorSize(2, 2))
+        super().__init__([], nothing, TimeSpan(0, 1), lambda line: None, keep=keep)
+        self.best = best
+
+    def match_counts(self, config):
+        away = sum(abs(math.log(getattr(config, name) / one)) for name, one in self.best.items())
+        return Candidate(config, Distance(away, 0.0, 0.0, 0.0))
+
+
+def between(limits):
+    return st.floats(math.log(limits[0]), math.log(limits[1])).map(math.exp)
+
+
+OPTIONS = st.fixed_dictionaries({name: between(ends) for name, ends in COORDINATES.items()})
+
+
+@given(best=OPTIONS, start=OPTIONS, keep=st.sampled_from([(), *((one,) for one in COORDINATES)]))
+def test_each_option_comes_within_a_step_of_its_best_value_from_any_side(best, start, keep):
+    search = Bowl(best, keep)
+    found = search.run(search.match_counts(dataclasses.replace(TRUTH, **start))).config
+    for name, (low, high) in COORDINATES.items():
+        value, step = getattr(found, name), STEPS[-1]
+        if name in keep:
+            assert value == start[name]
+        else:
+            assert low <= value <= high
+            is_at_end = value * step > high or value / step < low
+            assert is_at_end or 1 / step <= value / best[name] <= step

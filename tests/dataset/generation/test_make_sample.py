@@ -1,0 +1,67 @@
+"""One sample: what ends its simulation, and the picture of its events and boxes."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from texvent.dataset.generation.make_sample import (
+    SampleRun,
+    npy_bytes,
+    preview_png,
+    simulate_sample,
+)
+from texvent.dataset.specification.specification import Filters
+from texvent.events import EventStream
+from texvent.frames import Video
+from texvent.pipeline import video_to_events
+from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
+from texvent.truth.boxes import BOX_RECORD
+from texvent.truth.clip import ClipTruth
+
+STEP_US = 10_000
+
+
+@pytest.mark.parametrize("lacking", [None, 0, 1, 400])
+def test_a_clip_of_more_events_than_are_allowed_is_not_simulated_to_its_end(lacking):
+    pixels = np.random.default_rng(1).integers(0, 256, (6, 12, 16)).astype(np.uint8)
+    video = Video(pixels, [STEP_US * number for number in range(6)])
+    simulation = video_to_events(video, resolve("simulate", {"interpolate": "none"}))
+    counts = np.cumsum([len(packet) for packet in simulation])
+    most = None if lacking is None else int(counts[-1]) - lacking
+    clip = simulate_sample(SampleRun(simulation, Filters(min_events=0, max_events=most)))
+    ended = int(np.argmax(counts > most)) if lacking else len(counts) - 1
+    assert (len(clip.events), clip.duration_us) == (counts[ended], STEP_US * ended)
+    assert clip.left_out == (f"more than {most:,} events" if lacking else None)
+
+
+def truth_of(times_us: list[int], *shown: int) -> ClipTruth:
+    """One box that goes right, at some of the times."""
+    boxes = np.zeros(len(shown), BOX_RECORD)
+    boxes["t"], boxes["x"] = shown, np.array(shown) // STEP_US
+    boxes["w"] = boxes["h"] = 9
+    boxes["class_id"] = 2
+    facts = {"parts": ["boxes"], "times_us": times_us, "classes": {"2": "car"}}
+    run = {"width": 64, "height": 48, "truth": facts}
+    members = {
+        "json": json.dumps(run).encode(),
+        "boxes.npy": npy_bytes(boxes),
+        "visibility.npy": npy_bytes(np.ones(len(shown), np.float32)),
+    }
+    return ClipTruth(members.__getitem__, "the clip")
+
+
+@pytest.mark.parametrize("began_us", [0, 400_000])
+@pytest.mark.parametrize("busy_us", [0, 100_000, 163_000])
+def test_the_picture_of_a_clip_has_its_busiest_50_ms_and_the_boxes_at_their_end(began_us, busy_us):
+    t = began_us + np.r_[0, busy_us + np.arange(30) * 100, 200_000]
+    x, y = np.arange(32) * 2, np.arange(32)
+    events = EventStream.from_columns(x, y, np.sort(t), x % 2, size=SensorSize(64, 48))
+    times_us = [began_us + STEP_US * number for number in range(26)]
+    end_us = began_us + (busy_us // 50_000 + 1) * 50_000
+    picture = preview_png(events, truth_of(times_us, *times_us))
+    assert picture == preview_png(events, truth_of(times_us, end_us))
+    assert picture != preview_png(events, truth_of(times_us, end_us - 3 * STEP_US))
