@@ -84,7 +84,9 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     if row is None or not (senses or token.is_unknown):
         return token
     sense = senses[0] if senses else NounSense("")
-    return replace(token, senses=(Sense("noun", replace(sense, noun=row["noun"])),)[: bool(row["noun"])])
+    return replace(
+        token, senses=(Sense("noun", replace(sense, noun=row["noun"])),)[: bool(row["noun"])]
+    )
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

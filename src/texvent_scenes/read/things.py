@@ -120,9 +120,13 @@ class ThingReader:
         if whole is None or whole.noun is None or not whole.article or group.article != "the":
             return None
         apart = word_set("things", "vessels") | word_set("things", "depictions")
-        is_apart = part in apart or any(
-            one in self._nouns and self._nouns[one].speed_m_s for one in (part, whole.noun.noun)
-        ) or whole.noun.noun in PERSON_NOUNS
+        is_apart = (
+            part in apart
+            or any(
+                one in self._nouns and self._nouns[one].speed_m_s for one in (part, whole.noun.noun)
+            )
+            or whole.noun.noun in PERSON_NOUNS
+        )
         return None if is_apart else whole
 
     def _light_own(self, group: Group) -> None:

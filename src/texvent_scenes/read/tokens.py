@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from texvent_scenes.models.activities import TIMED
+from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.lexicon import (
     LONGEST_PHRASE,
@@ -112,7 +113,7 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
             sense = Sense("picture", ("picture", picture))
             found.append(Token(picture.value, len(found), (sense,)))
         start = end
-    found = _join_light_verbs(found, lexicon)
+    found = _join_verbs(found, lexicon)
     if len(found) > MOST_WORDS:
         found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
@@ -126,25 +127,45 @@ def _light_verbs() -> Mapping[str, str]:
     return {word: form for one in verbs for word, form in list_verb_forms(*one)}
 
 
-def _join_light_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
-    """The tokens, with a verb for "makes a sharp turn", before the words in between."""
-    nouns, found, skipped = read_table("words", "read")["light"]["nouns"], list[Token](), set[int]()
+def _join_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
+    """The tokens, with one verb for "makes a sharp turn" and "knits a blue scarf".
+
+    What an act is done to stays a thing of its own where that is drawn: "plays a black guitar".
+    """
+    found, skipped, unread = list[Token](), set[int](), set[int]()
     for token in tokens:
-        form, after = _light_verbs().get(token.text), tokens[token.at + 1 : token.at + 1 + _NEAR]
-        for done in after if form else ():
-            said = lexicon.get(tuple(nouns.get(done.text, done.text).split()), ())
-            acts = [VerbSense(*one.value) for one in said if one.kind == "pose"]
-            acts += [one.value for one in said if one.kind == "verb" and one.form == "base"]
-            if acts and not done.has("noun"):
-                senses = tuple(Sense("verb", one, form or "") for one in acts)
-                token = replace(token, text=f"{token.text} {done.text}", senses=senses)
-                skipped |= {one.at for one in after if one is done}
-                skipped |= {one.at for one in after if one.at < done.at and one.has("articles")}
+        between: list[Token] = []
+        for done in tokens[token.at + 1 : token.at + 1 + _NEAR]:
+            if acts := _list_acts(token, done, lexicon):
+                token = replace(token, senses=acts)
+                props = {(noun, each.count > 1) for one in acts
+                         for each in list_props(one.value.kind) for noun in each.nouns}  # fmt: skip
+                said = {(one.value.noun, one.value.is_plural) for one in done.all("noun")}
+                if not props & said:
+                    token = replace(token, text=f"{token.text} {done.text}")
+                    skipped |= {done.at, *(one.at for one in between if one.has("articles"))}
+                    unread |= {one.at for one in between if one.has("field")}
                 break
-            if not (done.has("articles", "adverb", "field") or done.is_unknown):
+            if not (done.has("articles", "adverb", "field") or done.is_unknown) or done.is_sign:
                 break
-        found += [replace(token, at=len(found))] if token.at not in skipped else []
+            between.append(done)
+        if token.at not in skipped:
+            senses = () if token.at in unread else token.senses
+            found.append(replace(token, at=len(found), senses=senses))
     return found
+
+
+def _list_acts(token: Token, done: Token, lexicon: Lexicon) -> Senses:
+    """Senses of a verb with what is done a few words later, of "take" with "turn"."""
+    if form := _light_verbs().get(token.text):
+        nouns = read_table("words", "read")["light"]["nouns"]
+        said = lexicon.get(tuple(nouns.get(done.text, done.text).split()), ())
+        acts = [VerbSense(*one.value) for one in said if one.kind == "pose"]
+        acts += [one.value for one in said if one.kind == "verb" and one.form == "base"]
+        if not done.has("noun"):
+            return tuple(Sense("verb", one, form) for one in acts)
+    said = lexicon.get((*token.text.split(), *done.text.split()), ())
+    return tuple(one for one in said if one.kind == "verb" and one.value.kind in ACTIVITIES)
 
 
 @cache

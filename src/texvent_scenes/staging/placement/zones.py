@@ -15,6 +15,7 @@ import numpy as np
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PlaceModel, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -86,10 +87,14 @@ def list_orphans(description: SceneDescription) -> Iterator[int]:
     bound |= {n for n in (description.index(description.camera.target),) if n is not None}
     if not any(one.noun in PERSON_NOUNS | nouns_with("person on a vehicle") for one in objects):
         return
+    kinds = {motion.kind for one in objects for motion in one.motions}
+    used = {noun for kind in kinds for prop in list_props(kind) if prop.is_own
+            for noun in prop.nouns}  # fmt: skip
     for number, one in enumerate(objects):
         rests = {motion.kind for motion in one.motions} <= {"stand"}
         is_placed = one.position_m is not None or one.height_m is not None
         is_loose = one.noun in nouns_with("in hand or on something") and number not in bound
+        is_loose &= one.noun not in used  # the scarf that is knitted
         if is_loose and rests and not is_placed and one.placement is None:
             yield number
 
