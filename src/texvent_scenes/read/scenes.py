@@ -10,6 +10,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import claim_way, find_move, go_through, is_ego, is_shot, sit_in
@@ -225,11 +226,25 @@ class _SentenceReader(ThingReader):
                 told = self._relate(one, who, moved) or moved
                 last = one.preposition
                 self._space(last, who)
+                self._push_with(subjects, who)
             elif not self._draft.set_scene(one, told):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
                 self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
+
+    def _push_with(self, subjects: Sequence[int], riders: Sequence[int]) -> None:
+        """Have who is pushed in or on something pushed with it; no swing is pushed."""
+        draft = self._draft
+        for index in subjects:
+            for row in [one for one in draft.things[index]["relations"] if one["kind"] == "push"]:
+                below = [one["to"] for n in riders for one in draft.things[n]["relations"]
+                         if one["kind"] in ("in", "on") and n in row["to"]]  # fmt: skip
+                for to in below[:1]:
+                    is_swing = draft.things[to[0]]["noun"] in nouns_with("swings")
+                    row |= {"kind": "behind" if is_swing else "push", "to": to}
+                    if is_swing and self._verb is not None:
+                        draft.mark(self._verb, "lost")
 
     def _space(self, preposition: Token, subjects: Sequence[int]) -> None:
         """Apply the distance before a preposition: "2 m behind a car"."""
@@ -265,6 +280,10 @@ class _SentenceReader(ThingReader):
             return told
         if all(one.head and names_place(one.head, kind) for one in phrase.groups):
             return subjects
+        led = [n for index in subjects for one in draft.things[index]["relations"]
+               if one["kind"] in ("push", "pull") for n in one["to"]]  # fmt: skip
+        if kind in ("on", "in") and {draft.things[n]["noun"] for n in led} & PERSON_NOUNS:
+            return led  # "pushes a man in a wheelchair", which it is pushed with
         if kind in ("on", "in") and before in SPACED:
             like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
             return [*dict.fromkeys((*like, *told))]
