@@ -101,6 +101,11 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int
         drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
+        for one in has if len(counts) == 1 and not counts <= drawn else ():
+            like = [noun for noun, count in owned[part].items()
+                    if {float(count)} == counts and noun.endswith(draft.things[one]["noun"])]
+            draft.things[one]["noun"] = [*like, draft.things[one]["noun"]][0]
+        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         for word in each if has and counts <= drawn else ():
             _say_of_part(draft, word, part, has)
     return True
