@@ -75,7 +75,8 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     if phrase.preposition.text == "with" and subjects and _are_built_in(draft, phrase, subjects):
         return True
     is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
-    if is_so and all(map(draft.shows, _list_words(phrase.groups[0]))):
+    named = [one for one in _list_words(phrase.groups[0]) if one.text != "and"]
+    if is_so and all(map(draft.shows, named)):
         draft.show(phrase.preposition)
     return is_so
 
@@ -97,14 +98,14 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int
     if not subjects or not parts or not all(parts):
         return False
     for part, each in zip(parts, words, strict=True):
-        has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
-        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
-        for one in has if len(counts) == 1 and not counts <= drawn else ():
-            like = [noun for noun, count in owned[part].items()
-                    if {float(count)} == counts and noun.endswith(draft.things[one]["noun"])]
-            draft.things[one]["noun"] = [*like, draft.things[one]["noun"]][0]
+        for thing in (draft.things[one] for one in subjects):
+            if thing["noun"] not in owned[part] or not counts <= {owned[part][thing["noun"]]}:
+                like = (noun for noun, count in owned[part].items()
+                        if noun.endswith(f" {thing['noun']}") and counts <= {count})  # fmt: skip
+                thing["noun"] = next(like, thing["noun"])  # "a fan with three blades"
+        has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
         drawn = {owned[part][draft.things[one]["noun"]] for one in has}
         for word in each if has and counts <= drawn else ():
             _say_of_part(draft, word, part, has)
