@@ -75,8 +75,7 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     if phrase.preposition.text == "with" and subjects and _are_built_in(draft, phrase, subjects):
         return True
     is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
-    named = [one for one in _list_words(phrase.groups[0]) if one.text != "and"]
-    if is_so and all(map(draft.shows, named)):
+    if is_so and all(draft.shows(one) for one in words if one.text != "and"):
         draft.show(phrase.preposition)
     return is_so
 
