@@ -1,7 +1,5 @@
 """Sentences become scenes, and every word of them is accounted for."""
 
-import time
-
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -19,8 +17,6 @@ from texvent_scenes.spec.data import checked_scene
 
 MOST_WRONG, MOST_SILENT = 0.07, 0.03
 """Share of facts that are wrong, and of prompts that are wrong without a word in the report."""
-MOST_SECONDS = 0.001
-"""Mean time to read a prompt."""
 WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None))
 VOCABULARY = list_words(NOUNS)
 SIGNS = [",", ".", "and", "the", "a", "then", "of", "it", "wug", "7", "2 Hz", "1e9",
@@ -60,24 +56,10 @@ def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
     assert checked_scene(reading.scene, VOCABULARY) == reading.scene
 
 
-def test_a_prompt_is_read_in_less_than_a_millisecond():
-    prompts = [prompt["text"] for prompt in PROMPTS]
-    reader.read(prompts[0], NOUNS)  # the lexicon is made once
-    times = []
-    for _ in range(3):  # the least: other work on the machine slows it
-        started = time.process_time()
-        for prompt in prompts:
-            reader.read(prompt, NOUNS)
-        times.append(time.process_time() - started)
-    assert min(times) / len(prompts) < MOST_SECONDS
-
-
 @pytest.mark.parametrize("text", ["a dog, ", "a dog behind a cat ", "a bowl of ", "x y, and "])
 def test_long_texts_are_read_too(text):
-    started = time.process_time()
     reading = reader.read(text * 1000, NOUNS)
     assert checked_scene(reading.scene, VOCABULARY) == reading.scene
-    assert time.process_time() - started < 2.0
 
 
 @pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])
