@@ -432,8 +432,11 @@ def _darken(description: SceneDescription) -> SceneDescription:
 def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
     """The place that is said, or the usual one of the objects."""
     led = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
-    led |= {one.subject for one in description.relations if one.kind in ("in", "on")
-            and _swims(nouns[description.objects[one.subject].noun])}  # "on a puddle"
+    led |= {
+        one.subject
+        for one in description.relations
+        if one.kind in ("in", "on") and _swims(nouns[description.objects[one.subject].noun])
+    }  # "on a puddle"
     members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in led]
     kinds = {one.motion.kind for one in description.objects if one.motion is not None}
     said, usual = description.place, _usual_place(members, description, kinds)
@@ -470,9 +473,11 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
     )
     of_acts = [trait_value("place of activity", kind) for kind in sorted(kinds)]
     for place in filter(None, (*of_nouns, *of_acts)):
-        is_wrong = (is_outdoors and is_room(place)) or (
-            "ground" in habitats and place in _NO_GROUND
-        ) or ("fixed" in habitats and place == "sky")
+        is_wrong = (
+            (is_outdoors and is_room(place))
+            or ("ground" in habitats and place in _NO_GROUND)
+            or ("fixed" in habitats and place == "sky")
+        )
         if not is_wrong:
             return str(place)
     if "water" in habitats and kinds & {"swim", "jump"}:  # "a dolphin jumps through a hoop"
