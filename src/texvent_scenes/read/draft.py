@@ -39,11 +39,6 @@ PLURAL_COUNT = 3
 """Copies that a bare plural means."""
 _TURNS, _TURN_S = 5, 0.25
 """Copies of what does something one after another, and time between them, s."""
-_ADJECTIVES = (
-    "y", "ed", "ing", "ful", "ous", "al", "ic", "ive", "able", "ible", "ish", "less", "en", "ern", "ant",
-    "ent", "er", "est", "ary", "’s", "'s",
-)  # fmt: skip
-"""Ends of adjectives."""
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
 """Senses of words that a report does not list unless they are lost or shown."""
 
@@ -442,9 +437,12 @@ class SceneDraft(Abilities):
     def name_kind(self, words: Sequence[Token], head: Token, noun: str) -> None:
         """Report a compound that is shown as its head: "a face shield" as a shield."""
         before = self.tokens[head.at - 1] if head.at else NO_TOKEN
-        is_noun = before.has("noun", "place") or not before.text.endswith(_ADJECTIVES)
+        is_noun = before.has("noun", "place") or not before.text.endswith(
+            (*word_set("things", "adjective_ends"),)
+        )
         is_noun &= before.is_unknown or before.has("noun", "place") or bool(before.verbs("base"))
-        is_noun &= before.text.isalpha() and before.text not in word_set("things", "adjectives")
+        no_kinds = word_set("things", "adjectives") | word_set("things", "masses")  # "a glass pot"
+        is_noun &= before.text.isalpha() and before.text not in no_kinds
         if is_noun and before in words and not self.shows(before):
             self.compounds[head.at] = f"{before.text} {head.text}"
             self.mark(before, "")

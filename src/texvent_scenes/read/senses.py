@@ -83,10 +83,8 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     row = next((one for one in rows if others & {*one["nouns"]}), None)
     if row is None or not (senses or token.is_unknown):
         return token
-    sense = senses[0] if senses else NounSense("")
-    return replace(
-        token, senses=(Sense("noun", replace(sense, noun=row["noun"])),)[: bool(row["noun"])]
-    )
+    sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
+    return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

@@ -94,21 +94,26 @@ class ThingReader:
             return found if relation else []  # what a part does, the whole does not
         elif head is not None and head.has("noun", "pose"):
             found = self._name_thing(group, head)
-        else:  # an effect, light, weather, or nothing that is known
-            for token in group.unknown if relation not in ("", "with") else ():
-                if names_place(token, relation):  # "in a city centre"
-                    self._draft.set_place(Group(token), token, relation)
-            self._light_own(group)
-            for token in (*group.modifiers, *([head] if head else [])):
-                effect = token.first("effect")
-                is_mark = relation == "with" and any(map(self._draft.walks, owners))
-                marks = word_set("things", "marks") if is_mark else ()
-                if not self._draft.set_scene(token) and effect and effect.value not in marks:
-                    self._draft.add_effect(token, effect.value, owners)
+        else:
+            self._name_others(group, relation, owners)
         phrase = group.of or Phrase(head or NO_TOKEN, ())
         for content in phrase.groups:
             self._fill(found, content, phrase.preposition)
         return found
+
+    def _name_others(self, group: Group, relation: str, owners: Sequence[int]) -> None:
+        """Add an effect, light or weather, or nothing that is known."""
+        head = group.head
+        for token in group.unknown if relation not in ("", "with") else ():
+            if names_place(token, relation):  # "in a city centre"
+                self._draft.set_place(Group(token), token, relation)
+        self._light_own(group)
+        for token in (*group.modifiers, *([head] if head else [])):
+            effect = token.first("effect")
+            is_mark = relation == "with" and any(map(self._draft.walks, owners))
+            marks = word_set("things", "marks") if is_mark else ()
+            if not self._draft.set_scene(token) and effect and effect.value not in marks:
+                self._draft.add_effect(token, effect.value, owners)
 
     def _find_whole(self, group: Group) -> Group | None:
         """The thing of which a group names a part that is not drawn alone: "the bell of a church".
