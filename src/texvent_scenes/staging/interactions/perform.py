@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -17,7 +18,7 @@ from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import SENT
+from texvent_scenes.spec.data import PLACING, SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import handling, holding, striking
@@ -250,6 +251,7 @@ def perform_acts(
     """
     cast = dict(enumerate(actors))
     _turn_to_goals(cast, description.relations)
+    _turn_queues(cast, description)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
@@ -284,6 +286,20 @@ def _turn_to_goals(cast: dict[int, Actor], relations: Sequence[IndexedRelation])
         if goals and one.track.is_resting and one.track.at(0.0).activity.split()[0] in AIMED:
             x, y = (goals[0].middle(0.0) - one.middle(0.0))[:2]
             cast[number] = replace(one, track=replace(one.track, yaw=float(np.arctan2(y, x))))
+
+
+def _turn_queues(cast: dict[int, Actor], description: SceneDescription) -> None:
+    """Turn those who stand in a queue to what it is for."""
+    queues = {one.subject for one in description.claims
+              if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
+    for said in (one for one in description.relations if one.subject in queues):
+        goals = [one for one in cast.values() if one.object_index == said.targets[0]]
+        own = [n for n, one in cast.items() if one.object_index == said.subject]
+        for number in own if goals and said.kind in PLACING else ():
+            one, middle = cast[number], cast[own[len(own) // 2]].middle(0.0)
+            yaw = 0.0 if goals[0].middle(0.0)[0] >= middle[0] else math.pi
+            if one.track.is_resting and one.noun.motion == "walk":
+                cast[number] = replace(one, track=replace(one.track, yaw=yaw))
 
 
 def _send_to(
