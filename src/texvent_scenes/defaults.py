@@ -413,7 +413,8 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
         is_parked = n not in ridden and kinds == {"stand"}
         variants = (f"parked {one.noun}",) if is_parked else ()
         variants += (f"flying {one.noun}",) if kinds & _FLYING else ()
-        new |= {n: replace(one, noun=each) for each in variants if each in nouns}
+        for each in nouns.keys() & variants:
+            new[n] = replace(one, noun=each)
     return _change(description, new)
 
 

@@ -12,8 +12,9 @@ from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import (
     ACTIVITIES,
-    ANIMAL_ACTIVITIES,
     HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
     TRAVELLING,
 )
 from texvent_scenes.models.protocol import Pose
@@ -24,6 +25,7 @@ _LEAST_SHARE = 0.03
 """Way of a limb, as a share of the height of the image, from which on an act is seen."""
 _POSTURES = frozenset({"stand", "sit", "lie", "kneel", "crouch", "look", "jump"})
 """Acts that the whole body shows."""
+_ACTS = (ACTIVITIES.keys() | HAND_GESTURES.keys()) - TRAVELLING
 _REST = Pose(0.0, 0.0, 0.0, "stand")
 
 
@@ -43,11 +45,12 @@ def find_tiny(
         times: these instants, s.
         size: of the image, pixels.
     """
-    acts = (ACTIVITIES.keys() | HAND_GESTURES.keys() | ANIMAL_ACTIVITIES.keys()) - TRAVELLING
     for index, said in enumerate(description.objects):
         kinds = {one.kind for one in said.motions}
         own = [one for one in actors if one.object_index == index]
-        if not (own and kinds and kinds <= acts - _POSTURES):
+        able = own[0].noun.acts if own else frozenset()
+        able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
+        if not (own and kinds and kinds <= able - _POSTURES):
             continue
         most = max(_limb_way(one, cameras, times, size) for one in own)
         if most < _LEAST_SHARE * size.height:
@@ -65,10 +68,12 @@ def _limb_way(
     ways = []
     for state, camera, time_s in zip(states, cameras, times, strict=True):
         middle = one.middle(time_s)
-        seen = project(camera, size, np.array([middle, middle + [0.0, 0.0, 1.0]]))
+        seen = project(camera, size, np.array([middle, middle + np.array([0.0, 0.0, 1.0])]))
         per_m = float(np.linalg.norm(seen[1, :2] - seen[0, :2]))
         same = [each for each in bases if each.shape == state.shape]
-        way_m = max((float(np.linalg.norm(state - each, axis=1).max()) for each in same), default=1.0)
+        way_m = max(
+            (float(np.linalg.norm(state - each, axis=1).max()) for each in same), default=1.0
+        )
         ways.append(per_m * way_m if seen[0, 2] > 0.0 else 0.0)
     return max(ways)
 

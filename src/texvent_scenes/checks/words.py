@@ -38,6 +38,7 @@ from texvent_scenes.checks.acts import (
     stops_before,
     swings,
     tips,
+    turns,
 )
 from texvent_scenes.checks.camera_ways import is_camera_so
 from texvent_scenes.checks.looks import has_look
@@ -69,6 +70,7 @@ _DONE = (
     "land",
     "descend",
     "tip",
+    "turn",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera")
@@ -251,6 +253,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "camera": is_camera_so, "stop": stops, "tip": tips, "sit at": _sits_at,
+    "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

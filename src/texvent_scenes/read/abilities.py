@@ -152,10 +152,9 @@ class Abilities:
                 return self._acts_on(verb, names, objects)
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
-            case "walker":
-                return not has_object and all(map(self.walks, subjects))
-            case "machine":
-                return not has_object and all(self.nouns[one].is_working for one in names)
+            case "walker" | "machine":
+                walk, work = map(self.walks, subjects), (self.nouns[n].is_working for n in names)
+                return not has_object and all(walk if verb.who == "walker" else work)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
             case "source" | "lamp":

@@ -32,8 +32,20 @@ WAYS = frozenset({"to", "into", "out of", "off", "up", "down"})
 """Relations whose subject goes a way that its target decides."""
 
 ACTED = frozenset(
-    {"push", "kick", "throw", "roll", "lift", "set down", "drop", "collide", "knock over", "catch",
-     "hit", "pull"}
+    {
+        "push",
+        "kick",
+        "throw",
+        "roll",
+        "lift",
+        "set down",
+        "drop",
+        "collide",
+        "knock over",
+        "catch",
+        "hit",
+        "pull",
+    }
 )
 """Relations in which the subject moves its target."""
 

@@ -170,7 +170,7 @@ def _swinging(
 
 
 def _at_its_pace(said: SceneObject) -> SceneObject:
-    """Body that collides, of whose motion the speed and a turn are left: the rest the act decides."""
+    """Body that collides, of whose motions speed and a turn are left: the act decides the rest."""
     motion = said.motion or STANDING
     kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
     turns = tuple(one for one in said.motions if one.kind == "turn")[:1]

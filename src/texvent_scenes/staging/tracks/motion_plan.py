@@ -144,8 +144,10 @@ def raised(plan: MotionPlan, by_m: float) -> MotionPlan:
 
 
 def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
-    """Motion kind that suits a noun: only hands rotate, other nouns spin; what stands on a small
-    foot, on legs or on wheels falls over."""
+    """Motion kind that suits a noun: only hands rotate, other nouns spin.
+
+    What stands on a small foot, on legs or on wheels falls over.
+    """
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
     falls_over = noun.name in nouns_with("falls over") or (
