@@ -263,11 +263,14 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 
 
 def turns(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it heads another way at some instant; to the camera or away from it, at the end."""
+    """Whether it heads another way at some instant; to the camera or away from it, at the end.
+
+    Machines turn by themselves.
+    """
     said = () if claim.subject is None else staged.description.objects[claim.subject].motions
     goals = [YAWS[one.direction or ""] for one in said
              if one.kind == "turn" and one.direction in ("towards", "away")]  # fmt: skip
-    for one in staged.own(claim):
+    for one in (each for each in staged.own(claim) if not each.noun.is_working):
         yaws = np.unwrap([one.track.at(at).yaw for at in staged.times])
         off = [abs(math.remainder(float(yaws[-1]) - goal, math.tau)) for goal in goals]
         if np.ptp(yaws) < _TURNED or max(off, default=0.0) > _TURNED:

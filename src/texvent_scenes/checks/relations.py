@@ -91,7 +91,7 @@ def find_violations(
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
         kind = "sent" if who != one.subject else kind
-        kind = "at" if who in queues and kind in PLACING else kind
+        kind = "with" if who in queues and kind in PLACING else kind
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1

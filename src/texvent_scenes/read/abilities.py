@@ -146,10 +146,10 @@ class Abilities:
                 is_used |= verb.relation is not None
                 is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
-            case "hand":
-                return names <= HAND_NOUNS and not has_object
             case "person" | "animal" if verb.relation == "act on":
                 return self._acts_on(verb, names, objects)
+            case noun if noun in self.nouns:
+                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
             case "walker" | "machine":
