@@ -268,12 +268,12 @@ def turns(staged: StagedClip, claim: Claim) -> bool:
     Machines turn by themselves.
     """
     said = () if claim.subject is None else staged.description.objects[claim.subject].motions
-    goals = [YAWS[one.direction or ""] for one in said
+    goals = [YAWS[str(one.direction)] for one in said
              if one.kind == "turn" and one.direction in ("towards", "away")]  # fmt: skip
     for one in (each for each in staged.own(claim) if not each.noun.is_working):
-        yaws = np.unwrap([one.track.at(at).yaw for at in staged.times])
+        yaws = np.unwrap(np.array([one.track.at(at).yaw for at in staged.times]))
         off = [abs(math.remainder(float(yaws[-1]) - goal, math.tau)) for goal in goals]
-        if np.ptp(yaws) < _TURNED or max(off, default=0.0) > _TURNED:
+        if float(np.ptp(yaws)) < _TURNED or max(off, default=0.0) > _TURNED:
             return False
     return True
 
@@ -287,7 +287,7 @@ def tips(staged: StagedClip, claim: Claim) -> bool:
     gaps = [np.linalg.norm(one.middle(at) - other.middle(at)) / (one.size_m + other.size_m)
             for one, other in pairs for at in staged.fine_times]  # fmt: skip
     is_fallen = (up[:, 0] > _UPRIGHT).all() and (up[:, 1] < 1.0 - _UPRIGHT).all()
-    return bool(is_fallen) and min(gaps, default=math.inf) <= _MET
+    return bool(is_fallen and min(gaps, default=math.inf) <= _MET)
 
 
 def bounces(staged: StagedClip, claim: Claim) -> bool:

@@ -164,9 +164,9 @@ class Abilities:
             case "camera":
                 return False
         walks = all(map(self.walks, subjects))
-        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         is_unfit |= is_way and verb.kind == "move"
-        is_unfit &= is_ground or is_way or walks or verb.kind == "break"
+        is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:

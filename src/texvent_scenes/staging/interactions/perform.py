@@ -330,10 +330,10 @@ def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> 
     """Let what stands on a thing that is knocked over go down with it."""
     down = [one.targets[0] for one in relations if one.kind == "knock over"]
     for index in down:
-        below = next((one for one in cast.values() if one.object_index == index), None)
+        fallen = [one for one in cast.values() if one.object_index == index and one.is_mover]
         on = [one.subject for one in relations if one.kind == "on" and index in one.targets]
-        for number, one in cast.items() if below is not None else ():
-            if one.object_index in on and below.is_mover:
+        for below, (number, one) in itertools.product(fallen[:1], list(cast.items())):
+            if one.object_index in on:
                 frame, own = (np.vstack([each.track.at(0.0).to_world(), [0.0, 0.0, 0.0, 1.0]])
                               for each in (below, one))  # fmt: skip
                 path = attached(below.track, np.linalg.solve(frame, own)[:3])
@@ -371,9 +371,8 @@ def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: floa
         for target in targets if not subjects else ():
             del cast[target]
         pairs = zip(itertools.cycle(subjects), targets, strict=False)
-    if relation.kind == "knock over":  # the first of several, and what stands on it
-        pairs = itertools.islice(pairs, 1)
-    for place, (one, other) in enumerate(pairs):
+    most = 1 if relation.kind == "knock over" else None  # the first of several
+    for place, (one, other) in enumerate(itertools.islice(pairs, most)):
         if one != other:
             turn = place // max(len(subjects), 1)
             bodies = ACTS[relation.kind](cast[one], cast[other], duration_s, turn)
