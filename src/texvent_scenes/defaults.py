@@ -414,9 +414,10 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     for n, one in enumerate(description.objects):
         kinds = {motion.kind for motion in one.motions}
         is_parked = n not in ridden and kinds == {"stand"}
-        variants = (f"parked {one.noun}",) if is_parked else ()
-        variants += (f"flying {one.noun}",) if kinds & _FLYING else ()
-        new |= {n: replace(one, noun=each) for each in variants if each in nouns}
+        variants = {f"parked {one.noun}"} if is_parked else set()
+        variants |= {f"flying {one.noun}"} if kinds & _FLYING else set()
+        for each in nouns.keys() & variants:
+            new[n] = replace(one, noun=each)
     return _change(description, new)
 
 

@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.environment import is_afloat
+from texvent_scenes.staging.tracks.phases import YAWS
 
 _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 """Shares of the greatest departure from the first pose at which a repetition is begun and done;
@@ -29,6 +30,8 @@ _BESIDE = 0.2
 """Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
+_TURNED = 0.7
+"""Least angle of a turn, and most angle from where what turns heads then, rad."""
 _UPRIGHT, _MET = 0.7, 0.6
 """Cosine of the greatest angle at which a body still stands; distance of bodies that meet, in the
 sum of their sizes."""
@@ -259,15 +262,32 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
     return all(each[2] < max(each[:2]) for each in sizes)
 
 
+def turns(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it heads another way at some instant; to the camera or away from it, at the end.
+
+    Machines turn by themselves.
+    """
+    said = () if claim.subject is None else staged.description.objects[claim.subject].motions
+    goals = [YAWS[str(one.direction)] for one in said
+             if one.kind == "turn" and one.direction in ("towards", "away")]  # fmt: skip
+    for one in (each for each in staged.own(claim) if not each.noun.is_working):
+        yaws = np.unwrap(np.array([one.track.at(at).yaw for at in staged.times]))
+        off = [abs(math.remainder(float(yaws[-1]) - goal, math.tau)) for goal in goals]
+        if float(np.ptp(yaws)) < _TURNED or max(off, default=0.0) > _TURNED:
+            return False
+    return True
+
+
 def tips(staged: StagedClip, claim: Claim) -> bool:
     """Whether each thing stands at first and lies at the end, and who does it comes up to it."""
     fallen = [one for n in claim.targets for one in staged.list_actors(n)]
     up = np.array([[one.track.at(at).to_world()[2, 2] for at in (0.0, staged.duration_s)]
                    for one in fallen])  # fmt: skip
+    pairs = [(one, other) for one in staged.own(claim) for other in fallen]
     gaps = [np.linalg.norm(one.middle(at) - other.middle(at)) / (one.size_m + other.size_m)
-            for one in staged.own(claim) for other in fallen for at in staged.fine_times]  # fmt: skip
+            for one, other in pairs for at in staged.fine_times]  # fmt: skip
     is_fallen = (up[:, 0] > _UPRIGHT).all() and (up[:, 1] < 1.0 - _UPRIGHT).all()
-    return bool(is_fallen) and min(gaps, default=math.inf) <= _MET
+    return bool(is_fallen and min(gaps, default=math.inf) <= _MET)
 
 
 def bounces(staged: StagedClip, claim: Claim) -> bool:

@@ -18,6 +18,7 @@ import numpy as np
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.looks import find_unlike
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
@@ -166,6 +167,7 @@ def find_unseen(
     violations += find_unlike(description, scene.actors, scene.missing)
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
+    violations += find_tiny(description, scene.actors, cameras, times, size)
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
     notes = [*list_hidden(scene, seen, cameras, times, size)]

@@ -80,6 +80,8 @@ def find_violations(
     names = [f"the {VARIANTS.get(one.noun, one.noun)}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
+    queues = {one.subject for one in description.claims
+              if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
     down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
@@ -89,6 +91,7 @@ def find_violations(
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
         kind = "sent" if who != one.subject else kind
+        kind = "with" if who in queues and kind in PLACING else kind
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
@@ -100,7 +103,9 @@ def find_violations(
             holds("facing", each, others) for each in copies[one.subject]
         ):
             held = []
-        is_queue = one.kind == "beside" and are_driven(description.objects[who].noun)
+        is_queue = who in queues or (
+            one.kind == "beside" and are_driven(description.objects[who].noun)
+        )
         least = 1 if is_queue else _MOST_COPIES * len(own)  # only the first stands at the light
         if sum(held) < least or not own:
             targets = " and ".join(names[target] for target in one.targets)

@@ -38,6 +38,7 @@ from texvent_scenes.checks.acts import (
     stops_before,
     swings,
     tips,
+    turns,
 )
 from texvent_scenes.checks.camera_ways import is_camera_so
 from texvent_scenes.checks.looks import has_look
@@ -69,6 +70,7 @@ _DONE = (
     "land",
     "descend",
     "tip",
+    "turn",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera")
@@ -157,7 +159,10 @@ def _arrives(staged: StagedClip, claim: Claim) -> bool:
 
 
 def _is_row(staged: StagedClip, claim: Claim) -> bool:
-    """Whether copies stand on a line; "side by side" it is across their way."""
+    """Whether copies stand on a line; "side by side" it is across their way.
+
+    In a queue those on feet are one behind the other.
+    """
     own = staged.own(claim)
     first, last = (np.array([one.middle(share * staged.duration_s)[:2] for one in own])
                    for share in (0.0, 1.0))  # fmt: skip
@@ -165,7 +170,11 @@ def _is_row(staged: StagedClip, claim: Claim) -> bool:
     along = np.abs((places[-1] - places[0]) @ way)
     whole = float(np.linalg.norm(way) * np.linalg.norm(places[-1] - places[0]))
     is_across = along <= math.sqrt(0.5) * whole
-    return is_in_line(places) and (bool(is_across) or claim.value != "across")
+    heads = np.array([one.track.at(0.0).to_world()[:2, 0] for one in own])
+    line = (places[-1] - places[0]) / max(float(np.linalg.norm(places[-1] - places[0])), 1e-9)
+    is_queue = own[0].noun.motion != "walk" or bool((np.abs(heads @ line) > math.sqrt(0.5)).all())
+    is_so = {"across": bool(is_across), "queue": is_queue}.get(str(claim.value), True)
+    return is_in_line(places) and is_so
 
 
 def is_in_line(places: Float64Array) -> bool:
@@ -244,6 +253,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "camera": is_camera_so, "stop": stops, "tip": tips, "sit at": _sits_at,
+    "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns, "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

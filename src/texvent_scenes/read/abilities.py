@@ -146,16 +146,15 @@ class Abilities:
                 is_used |= verb.relation is not None
                 is_used &= not is_mutual(verb.kind) or sum(one["count"] for one in things) == 2
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
-            case "hand":
-                return names <= HAND_NOUNS and not has_object
             case "person" | "animal" if verb.relation == "act on":
                 return self._acts_on(verb, names, objects)
+            case noun if noun in self.nouns:
+                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
-            case "walker":
-                return not has_object and all(map(self.walks, subjects))
-            case "machine":
-                return not has_object and all(self.nouns[one].is_working for one in names)
+            case "walker" | "machine":
+                walk, work = map(self.walks, subjects), (self.nouns[n].is_working for n in names)
+                return not has_object and all(walk if verb.who == "walker" else work)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
             case "source" | "lamp":
@@ -165,9 +164,9 @@ class Abilities:
             case "camera":
                 return False
         walks = all(map(self.walks, subjects))
-        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         is_unfit |= is_way and verb.kind == "move"
-        is_unfit &= is_ground or is_way or walks or verb.kind == "break"
+        is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
+        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         return False if is_unfit else None
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:

@@ -366,13 +366,16 @@ class ThingReader:
         if not objects:
             self._meet(act, verb, subjects)
         for index in subjects if act.relation is not None else ():
-            who, kind = ridden_by(self._draft, index, act.relation or ""), act.relation or ""
-            is_left = kind == "out of" and bool(objects)
-            is_so = relate_one(draft, kind, who, objects) if is_left else False
-            if (is_so or draft.relate(who, kind, objects)) and kind in WAYS:
-                way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
-                draft.claim(verb, "relation", way, [who], objects)
+            self._relate_act(act.relation or "", verb, index, objects)
         return list(objects if act.object and objects else subjects)
+
+    def _relate_act(self, kind: str, verb: Token, index: int, objects: Sequence[int]) -> None:
+        """Relate who acts to what the act is about, on a way that the staged scene holds."""
+        draft, who = self._draft, ridden_by(self._draft, index, kind)
+        is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
+        if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
+            way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
+            draft.claim(verb, "relation", way, [who], objects)
 
     def _switch(self, state: str, index: int) -> None:
         """Switch the lamp of what an act lights or puts out."""
@@ -429,18 +432,17 @@ class ThingReader:
 
     def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Leave it to the staged scene whether an object does it."""
-        draft = self._draft
-        if act.kind in ("swim", "surf"):
-            draft.claim(verb, "water", "", [index])
+        draft, outcomes = self._draft, read_table("words", "read")["outcomes"]
+        if outcome := outcomes.get(act.who, {}).get(act.kind):
+            draft.claim(verb, outcome, "", [index])
+        if outcome := outcomes["relation"].get(act.relation):
+            draft.claim(verb, outcome, "", [index], objects)
+        if act.kind == "swim":
             draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
             draft.claim(verb, "stop", "", [index])
-        if act.relation == "knock over":
-            draft.claim(verb, "tip", "", [index], objects)
-        if act.relation in ("hold", "act on"):
-            draft.claim(verb, act.relation, "", [index], objects)
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
             draft.claim(verb, "shine", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":
@@ -448,8 +450,6 @@ class ThingReader:
             draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
         elif verb.text in word_set("things", "hung"):
             draft.claim(verb, "ground", False, [index])
-        elif act.kind in ("bounce", "reverse", "break"):
-            draft.claim(verb, act.kind, "", [index])
         elif act.kind in ("walk", "run", "fly", "hover"):
             draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -17,7 +18,7 @@ from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import SENT
+from texvent_scenes.spec.data import PLACING, SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import handling, holding, striking
@@ -169,7 +170,7 @@ def _swinging(
 
 
 def _at_its_pace(said: SceneObject) -> SceneObject:
-    """Body that collides, of whose motion the speed and a turn are left: the rest the act decides."""
+    """Body that collides, of whose motions speed and a turn are left: the act decides the rest."""
     motion = said.motion or STANDING
     kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
     turns = tuple(one for one in said.motions if one.kind == "turn")[:1]
@@ -250,6 +251,7 @@ def perform_acts(
     """
     cast = dict(enumerate(actors))
     _turn_to_goals(cast, description.relations)
+    _turn_queues(cast, description)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
         _perform(cast, relation, duration_s)
@@ -286,6 +288,20 @@ def _turn_to_goals(cast: dict[int, Actor], relations: Sequence[IndexedRelation])
             cast[number] = replace(one, track=replace(one.track, yaw=float(np.arctan2(y, x))))
 
 
+def _turn_queues(cast: dict[int, Actor], description: SceneDescription) -> None:
+    """Turn those who stand in a queue to what it is for."""
+    queues = {one.subject for one in description.claims
+              if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
+    for said in (one for one in description.relations if one.subject in queues):
+        goals = [one for one in cast.values() if one.object_index == said.targets[0]]
+        own = [n for n, one in cast.items() if one.object_index == said.subject]
+        for number in own if goals and said.kind in PLACING else ():
+            one, middle = cast[number], cast[own[len(own) // 2]].middle(0.0)
+            yaw = 0.0 if goals[0].middle(0.0)[0] >= middle[0] else math.pi
+            if one.track.is_resting and one.noun.motion == "walk":
+                cast[number] = replace(one, track=replace(one.track, yaw=yaw))
+
+
 def _send_to(
     cast: dict[int, Actor], act: IndexedRelation, said: Sequence[SceneObject], goal: int,
     duration_s: float,
@@ -314,10 +330,10 @@ def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> 
     """Let what stands on a thing that is knocked over go down with it."""
     down = [one.targets[0] for one in relations if one.kind == "knock over"]
     for index in down:
-        below = next((one for one in cast.values() if one.object_index == index), None)
+        fallen = [one for one in cast.values() if one.object_index == index and one.is_mover]
         on = [one.subject for one in relations if one.kind == "on" and index in one.targets]
-        for number, one in cast.items() if below is not None else ():
-            if one.object_index in on and below.is_mover:
+        for below, (number, one) in itertools.product(fallen[:1], list(cast.items())):
+            if one.object_index in on:
                 frame, own = (np.vstack([each.track.at(0.0).to_world(), [0.0, 0.0, 0.0, 1.0]])
                               for each in (below, one))  # fmt: skip
                 path = attached(below.track, np.linalg.solve(frame, own)[:3])
@@ -355,9 +371,8 @@ def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: floa
         for target in targets if not subjects else ():
             del cast[target]
         pairs = zip(itertools.cycle(subjects), targets, strict=False)
-    if relation.kind == "knock over":  # the first of several, and what stands on it
-        pairs = itertools.islice(pairs, 1)
-    for place, (one, other) in enumerate(pairs):
+    most = 1 if relation.kind == "knock over" else None  # the first of several
+    for place, (one, other) in enumerate(itertools.islice(pairs, most)):
         if one != other:
             turn = place // max(len(subjects), 1)
             bodies = ACTS[relation.kind](cast[one], cast[other], duration_s, turn)

@@ -381,7 +381,7 @@ def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> Tra
         room_m = math.dist(actor.track.at(0.0).position[:2], touching[:2])
         speed = min(speed, max(room_m, _LEAST_ROOM_M) / contact_s)
     back = speed * _REBOUND.get(actor.noun.motion, 0.0)
-    keys = (
+    keys: tuple[Key, ...] = (
         Key(0.0, speed),
         Key(contact_s, speed),
         Key(0.25, -back, ramp_s=_TURN_ROUND_S),

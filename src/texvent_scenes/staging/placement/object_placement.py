@@ -148,9 +148,12 @@ class ObjectPlacer:
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng, start_m)
-        plan = with_heading(plan, scene_object.heading_deg)
-        is_row = any(one.kind == "row" and one.subject == index for one in self._description.claims)
-        offsets = stagger(models, plan, noun, rng, is_row=is_row)
+        rows = [one.value for one in self._description.claims
+                if one.kind == "row" and one.subject == index]  # fmt: skip
+        is_queue = "queue" in rows and noun.motion == "walk" and not plan.motion.is_moving
+        heading_deg = 0.0 if is_queue and not scene_object.heading_deg else scene_object.heading_deg
+        plan = with_heading(plan, heading_deg)
+        offsets = stagger(models, plan, noun, rng, is_row=bool(rows))
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
 

@@ -18,7 +18,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.phase_keys import build_path
+from texvent_scenes.staging.tracks.phase_keys import build_path, falls_sideways
 from texvent_scenes.staging.tracks.phases import (
     COMING_DOWN,
     GOING,
@@ -144,13 +144,13 @@ def raised(plan: MotionPlan, by_m: float) -> MotionPlan:
 
 
 def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
-    """Motion kind that suits a noun: only hands rotate, other nouns spin; what stands on a small
-    foot, on legs or on wheels falls over."""
+    """Motion kind that suits a noun: only hands rotate, other nouns spin.
+
+    What stands on a small foot, on legs or on wheels falls over.
+    """
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
-    falls_over = noun.name in nouns_with("falls over") or (
-        noun.habitat == "ground" and noun.motion in ("walk", "drive")
-    )
+    falls_over = noun.name in nouns_with("falls over") or falls_sideways(noun)
     is_falling_over = motion.kind == "fall" and falls_over and start_m < 0.1
     return replace(motion, kind="topple") if is_falling_over else motion
 

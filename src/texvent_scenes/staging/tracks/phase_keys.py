@@ -110,6 +110,12 @@ def build_path(
     return centred(path, duration_s)
 
 
+def falls_sideways(noun: Noun) -> bool:
+    """Whether it falls onto its side, as what stands on four legs or on wheels does."""
+    is_carried = noun.motion in ("walk", "drive") and noun.habitat == "ground"
+    return is_carried and noun.name not in PERSON_NOUNS
+
+
 def spin_lift(model: Model) -> float:
     """Height at which the corners of a flat shape that turns in the picture are above ground, m."""
     return 0.5 * (math.hypot(model.width, model.height) - model.height)
@@ -374,7 +380,7 @@ class _KeyBuilder:
         if kind == "topple" and self._is_first:
             self._append(Key(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
-        if kind == "topple" and self._noun.motion in ("walk", "drive"):
+        if kind == "topple" and falls_sideways(self._noun):
             self._fall_sideways(span)
             return
         key = Key(span, activity="stand", restitution=DULL)
@@ -389,10 +395,11 @@ class _KeyBuilder:
     def _fall_sideways(self, span: float) -> None:
         """Over to its left, onto its side: what stands on legs or wheels."""
         begin_s, fallen_s = self._now_s, min(0.7, 0.8 * span)
-        times = {"begin_s": begin_s, "end_s": begin_s + fallen_s}
-        for channel, way in (("roll", -QUARTER), ("z", 0.5 * self._model.width)):
-            drift = way / fallen_s
-            self.terms.append(Term(channel, drift=drift, offset=-drift * begin_s, **times))
+        drift, times = QUARTER / fallen_s, {"begin_s": begin_s, "end_s": begin_s + fallen_s}
+        self.terms += [
+            Term("roll", drift=-drift, offset=drift * begin_s, **times),
+            Term("z", 0.5 * self._model.width, 0.25 / fallen_s, -drift * begin_s, **times),
+        ]
         self._append(Key(span, ramp_s=fallen_s, activity="stand"))
 
     def _rest(self, motion: Motion, span: float) -> None:

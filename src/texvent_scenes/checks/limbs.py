@@ -1,0 +1,85 @@
+"""Limb check: acts in place of which the image shows too little to tell them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.checks.relations import Violation
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor
+
+_LEAST_SHARE = 0.03
+"""Way of a limb, as a share of the height of the image, from which on an act is seen."""
+_POSTURES = frozenset({"stand", "sit", "lie", "kneel", "crouch", "look", "jump"})
+"""Acts that the whole body shows."""
+_ACTS = (ACTIVITIES.keys() | HAND_GESTURES.keys()) - TRAVELLING
+_REST = Pose(0.0, 0.0, 0.0, "stand")
+
+
+def find_tiny(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[Violation]:
+    """Acts in place whose limbs go less far in the image than a viewer sees, by all who do them.
+
+    Args:
+        description: the scene.
+        actors: bodies of its objects.
+        cameras: the camera at each instant.
+        times: these instants, s.
+        size: of the image, pixels.
+    """
+    for index, said in enumerate(description.objects):
+        kinds = {one.kind for one in said.motions}
+        own = [one for one in actors if one.object_index == index]
+        able = own[0].noun.acts if own else frozenset()
+        able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
+        if not (own and kinds and kinds <= able - _POSTURES):
+            continue
+        most = max(_limb_way(one, cameras, times, size) for one in own)
+        if most < _LEAST_SHARE * size.height:
+            for kind in sorted(kinds):
+                line = f"the {said.noun}'s {kind}: too small to be seen ({most:.1f} pixels)"
+                yield Violation("motion", kind, line)
+
+
+def _limb_way(
+    one: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> float:
+    """The farthest that a part of a body is from where it is at first, or at rest, pixels."""
+    states = [_corners(one, one.pose(time_s)) for time_s in times]
+    bases = [each for each in (states[0], _corners(one, _REST)) if each.shape == states[0].shape]
+    ways = []
+    for state, camera, time_s in zip(states, cameras, times, strict=True):
+        middle = one.middle(time_s)
+        seen = project(camera, size, np.array([middle, middle + np.array([0.0, 0.0, 1.0])]))
+        per_m = float(np.linalg.norm(seen[1, :2] - seen[0, :2]))
+        same = [each for each in bases if each.shape == state.shape]
+        way_m = max(
+            (float(np.linalg.norm(state - each, axis=1).max()) for each in same), default=1.0
+        )
+        ways.append(per_m * way_m if seen[0, 2] > 0.0 else 0.0)
+    return max(ways)
+
+
+def _corners(one: Actor, pose: Pose) -> Float64Array:
+    """[n, 3] Middles and ends of the parts of a body, m."""
+    axes = np.array([part.to_body for part in one.model.parts(pose)])
+    ends = [axes[:, :, 3], *(axes[:, :, 3] + axes[:, :, n] for n in range(3))]
+    return np.concatenate(ends)
