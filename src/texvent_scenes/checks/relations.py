@@ -16,7 +16,7 @@ from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
@@ -48,6 +48,8 @@ _TOGETHER = (
     "beside",
     "going beside",
 )
+_HANDLED, _MACHINES = ("lift", "move over", "set down", "drop"), trait_values("gripper").keys()
+"""Relations to what machines take from somewhere or leave there: it is there at one end."""
 _ON_SIDE = {"front": "front of a body", "behind": "behind a body"}
 """Relations to who has a face, which are of that body as well as of the image."""
 _PASSED_ALL = ("past", "overtake")
@@ -80,6 +82,7 @@ def find_violations(
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
+    handled = _list_handled(description)
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -91,7 +94,16 @@ def find_violations(
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
-        held = [holds(kind, body, others, at_end=goes_on) for body in own]
+        if (
+            who in handled
+            and one.kind == "in"
+            and has_rim(description.objects[one.targets[0]].noun)
+        ):
+            kind = "down into"
+        is_taken = who in handled and kind != "down into"
+        ends = [slice(1), slice(-1, None)] if is_taken else [slice(None)]
+        held = [any(holds(kind, body.cut(when), [each.cut(when) for each in others], at_end=goes_on)
+                    for when in ends) for body in own]  # fmt: skip
         if kind == "sent" and not all(
             holds("facing", each, others) for each in copies[one.subject]
         ):
@@ -139,6 +151,13 @@ def _list_read_as(kind: str, description: SceneDescription) -> Iterator[Violatio
     for word in _BY if kind == "beside" else ():
         if word not in said:
             yield Violation("relation", word, "")
+
+
+def _list_handled(description: SceneDescription) -> set[int]:
+    """Objects that machines take, move or leave."""
+    said, objects = description.relations, description.objects
+    return {target for one in said if one.kind in _HANDLED for target in one.targets
+            if objects[one.subject].noun in _MACHINES}  # fmt: skip
 
 
 def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:

@@ -20,7 +20,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
@@ -405,8 +405,10 @@ class ThingReader:
             draft.claim(verb, "land", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
             draft.claim(verb, "stop", "", [index])
-        if act.relation in ("hold", "act on"):
-            draft.claim(verb, act.relation, "", [index], objects)
+        is_machine = draft.things[index]["noun"] in trait_values("gripper")
+        said = ("grip", act.relation) if act.relation and is_machine else (act.relation, "")
+        if said[0] in ("grip", "hold", "act on"):
+            draft.claim(verb, said[0], said[1], [index], objects)
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
             draft.claim(verb, "shine", "", [index])
         if act.who in ("person", "hand", "animal") or act.kind == "lie":

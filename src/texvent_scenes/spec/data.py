@@ -32,7 +32,20 @@ WAYS = frozenset({"to", "into", "out of", "off", "up", "down"})
 """Relations whose subject goes a way that its target decides."""
 
 ACTED = frozenset(
-    {"push", "kick", "throw", "roll", "lift", "set down", "drop", "collide", "catch", "hit", "pull"}
+    {
+        "push",
+        "kick",
+        "throw",
+        "roll",
+        "lift",
+        "set down",
+        "drop",
+        "collide",
+        "catch",
+        "hit",
+        "pull",
+        "move over",
+    }
 )
 """Relations in which the subject moves its target."""
 
