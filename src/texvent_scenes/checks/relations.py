@@ -135,6 +135,9 @@ def goes_so(body: BodyBoxes, motion: Motion) -> bool:
     if direction == "across" and kind in _DIRECTED:
         aside, away = np.abs(body.displacement[[0, 2]])
         return bool(aside > max(0.33 * away, _LEAST_GONE * body.size.max()))
+    if direction == "diagonal" and kind in _DIRECTED:
+        _, second, most = np.sort(np.abs(body.displacement))
+        return bool(second > 0.33 * most)
     if direction in _AXES and kind in _DIRECTED:
         axis, sign = _AXES[direction]
         moved = body.displacement

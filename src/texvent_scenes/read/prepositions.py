@@ -453,6 +453,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
+    if noun in trait_values("circled on") and kind in ("on", "past") and draft.can_go(index):
+        thing["motions"] = thing["motions"] or [{"kind": "orbit"}]
+        return "around"
     acts = {one["kind"] for one in thing["relations"]}
     if near := _choose_near(kind, noun, {*does}, acts):
         return near

@@ -36,7 +36,7 @@ Surface: TypeAlias = Annotated[str, Colour("surface")]
 
 Direction: TypeAlias = Literal[
     "left", "right", "towards", "away", "forward", "backward", "up", "down", "across",
-    "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
+    "to and fro", "up and down", "around", "clockwise", "counter-clockwise", "diagonal",
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
