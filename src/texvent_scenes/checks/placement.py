@@ -178,7 +178,8 @@ class _Bodies:
         is_drawn = one.noun.name in nouns_with("flat pattern") | nouns_with("flat picture")
         is_fixed = one.noun.habitat == "fixed" and one.size_m >= _HEAVY_M and not is_drawn
         free = _FREE - _AIRBORNE if is_fixed else _FREE
-        is_free = bool(does & free) or bool(acts & (_IN_HAND | ACTED) - {"push", "pull"})
+        is_free = is_drawn and any(motion.direction == "diagonal" for motion in said.motions)
+        is_free |= bool(does & free) or bool(acts & (_IN_HAND | ACTED) - {"push", "pull"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_body &= one.noun.name not in nouns_with("may hang")
         is_mark = any(

@@ -16,7 +16,7 @@ from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT, NOUNS, VARIANTS
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
@@ -48,6 +48,8 @@ _TOGETHER = (
     "beside",
     "going beside",
 )
+_HANDLED, _MACHINES = ("lift", "move over", "set down", "drop"), trait_values("gripper").keys()
+"""Relations to what machines take from somewhere or leave there: it is there at one end."""
 _ON_SIDE = {"front": "front of a body", "behind": "behind a body"}
 """Relations to who has a face, which are of that body as well as of the image."""
 _PASSED_ALL = ("past", "overtake")
@@ -83,6 +85,7 @@ def find_violations(
     queues = {one.subject for one in description.claims
               if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
     down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
+    handled = _list_handled(description)
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -95,10 +98,15 @@ def find_violations(
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
+        is_taken = who in handled
+        if is_taken and one.kind == "in" and has_rim(description.objects[one.targets[0]].noun):
+            kind, is_taken = "down into", False
+        ends = [slice(1), slice(-1, None)] if is_taken else [slice(None)]
         if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
             down.append(one.subject)
-            own, others = ([body.cut(slice(1)) for body in each] for each in (own, others))
-        held = [holds(kind, body, others, at_end=goes_on) for body in own]
+            ends = ends[:1] if is_taken else [slice(1)]
+        held = [any(holds(kind, body.cut(when), [each.cut(when) for each in others], at_end=goes_on)
+                    for when in ends) for body in own]  # fmt: skip
         if kind == "sent" and not all(
             holds("facing", each, others) for each in copies[one.subject]
         ):
@@ -132,6 +140,9 @@ def goes_so(body: BodyBoxes, motion: Motion) -> bool:
     if direction == "across" and kind in _DIRECTED:
         aside, away = np.abs(body.displacement[[0, 2]])
         return bool(aside > max(0.33 * away, _LEAST_GONE * body.size.max()))
+    if direction == "diagonal" and kind in _DIRECTED:
+        _, second, most = np.sort(np.abs(body.displacement))
+        return bool(second > 0.33 * most)
     if direction in _AXES and kind in _DIRECTED:
         axis, sign = _AXES[direction]
         moved = body.displacement
@@ -148,6 +159,13 @@ def _list_read_as(kind: str, description: SceneDescription) -> Iterator[Violatio
     for word in _BY if kind == "beside" else ():
         if word not in said:
             yield Violation("relation", word, "")
+
+
+def _list_handled(description: SceneDescription) -> set[int]:
+    """Objects that machines take, move or leave."""
+    said, objects = description.relations, description.objects
+    return {target for one in said if one.kind in _HANDLED for target in one.targets
+            if objects[one.subject].noun in _MACHINES}  # fmt: skip
 
 
 def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:

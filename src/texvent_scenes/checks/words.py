@@ -41,6 +41,7 @@ from texvent_scenes.checks.acts import (
     turns,
 )
 from texvent_scenes.checks.camera_ways import is_camera_so
+from texvent_scenes.checks.grips import handles_by_hand
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
@@ -61,6 +62,7 @@ _LEAST_CLIP_S = 1.0
 _DONE = (
     "act on",
     "aside",
+    "grip",
     "bounce",
     "break",
     "ground",
@@ -253,6 +255,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns, "sit at": _sits_at,
+    "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns,
+    "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

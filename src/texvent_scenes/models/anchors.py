@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.models.shapes import Affine, Point
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.rendered_scene import Shape
 
 _ON_BOX: dict[str, Point] = {
@@ -213,3 +213,29 @@ def has_rim(noun: str) -> bool:
     is_closed = noun in nouns_with("lidded") and trait_value("drawn open", noun) is None
     known = trait_value("rim", noun) or trait_value("container", noun)
     return known is not None and not is_closed
+
+
+@dataclass(frozen=True)
+class Gripper:
+    """Hand of a machine: a row of the trait "gripper"."""
+
+    acts: tuple[str, ...]
+    """Relations to what it handles."""
+    reach: tuple[float, float]
+    """Least and greatest shift to a height: rad or m."""
+    turn: float
+    """Shift between both places."""
+    width: float
+    """Greatest width of a thing, m."""
+    is_below: bool = False
+    """Whether the hand is below the thing, not about its middle."""
+
+
+def gripper_of(noun: str) -> Gripper:
+    """The hand of a machine that has one."""
+    return Gripper(**trait_values("gripper")[noun])
+
+
+def grips(noun: str, relation: str) -> bool:
+    """Whether a noun is a machine that does so to things."""
+    return noun in trait_values("gripper") and relation in gripper_of(noun).acts

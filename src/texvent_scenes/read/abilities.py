@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import (
     is_mutual,
     nouns_upon,
 )
+from texvent_scenes.models.anchors import grips
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun
@@ -67,6 +68,9 @@ class Abilities:
         things = [self.things[one] for one in subjects]
         names = {one["noun"] for one in things}
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        is_machine = bool(names) and names <= trait_values("gripper").keys()
+        if has_object and is_machine and verb.who in ("plain", "machine"):
+            return bool(objects) and all(grips(one, verb.relation or "") for one in names)
         if (is_able := self._is_able(verb, subjects, objects, has_object)) is not None:
             return is_able
         seats = [n for each in things for one in each["relations"] for n in one["to"]
@@ -96,6 +100,7 @@ class Abilities:
                 can_be_worn(self.things[n]["noun"]) for n in objects
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
+            is_moved &= verb.relation != "move over"
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         meets |= bool(verb.brings) and names <= PERSON_NOUNS

@@ -302,6 +302,31 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
 
 
+_HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
+
+
+def hand_over(
+    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+) -> str:
+    """Fate of where a machine takes or leaves things: "picks a box off a belt"; "" = it does not.
+
+    The thing is there at first, or at the end; the staged scene tells.
+    """
+    machines = trait_values("gripper").keys()
+    acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
+            if draft.things[n]["noun"] in machines and one["kind"] in ACTED
+            and (n in subjects or {*one["to"]} & {*subjects})]  # fmt: skip
+    things = [n for one in acts for n in one["to"]]
+    is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
+    place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
+    if not (things and place) or not {*targets}.isdisjoint(things):
+        return ""
+    is_so = all([draft.relate(one, place, targets) for one in things])
+    left = ("relation", "into") if place == "in" else ("arrive", place)
+    draft.claim(token, *(("off", "") if is_taken else left), things, targets)
+    return "shown" if is_so else "lost"
+
+
 def claim_relation(
     draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
 ) -> None:
@@ -435,6 +460,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
+    if noun in trait_values("circled on") and kind in ("on", "past") and draft.can_go(index):
+        thing["motions"] = thing["motions"] or [{"kind": "orbit"}]
+        return "around"
     acts = {one["kind"] for one in thing["relations"]}
     if near := _choose_near(kind, noun, {*does}, acts):
         return near

@@ -26,6 +26,7 @@ from texvent_scenes.read.prepositions import (
     find_mutual,
     find_relation,
     go_to_place,
+    hand_over,
     is_rained_on,
     lose_drift,
     lose_ways,
@@ -411,15 +412,25 @@ class _SentenceReader(ThingReader):
             draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
-            able = () if kind == "route" else subjects
-            placed = [relate_one(self._draft, kind, index, targets) for index in able]
-            is_so = any(placed) or is_rained_on(draft, token, kind)
-            draft.mark(token, "shown" if is_so else "lost")
-            claim_relation(draft, token, kind, subjects, targets)
+            self._relate_all(token, kind, subjects, targets)
         is_lone = not targets or (kind == "with" and bool(subjects or moved or not self._acts))
         if is_lone and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
+
+    def _relate_all(
+        self, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+    ) -> None:
+        """Apply a preposition to all that it is said of."""
+        draft = self._draft
+        if handled := hand_over(draft, token, kind, subjects, targets):
+            draft.mark(token, handled)
+            return
+        able = () if kind == "route" else subjects
+        placed = [relate_one(draft, kind, index, targets) for index in able]
+        is_so = any(placed) or is_rained_on(draft, token, kind)
+        draft.mark(token, "shown" if is_so else "lost")
+        claim_relation(draft, token, kind, subjects, targets)
 
     def _relate_back(self, kind: str, phrase: Phrase, subjects: Sequence[int]) -> None:
         """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""

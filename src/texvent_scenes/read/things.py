@@ -20,7 +20,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
@@ -435,7 +435,10 @@ class ThingReader:
         draft, outcomes = self._draft, read_table("words", "read")["outcomes"]
         if outcome := outcomes.get(act.who, {}).get(act.kind):
             draft.claim(verb, outcome, "", [index])
-        if outcome := outcomes["relation"].get(act.relation):
+        is_machine = draft.things[index]["noun"] in trait_values("gripper")
+        if act.relation and is_machine:
+            draft.claim(verb, "grip", act.relation, [index], objects)
+        elif outcome := outcomes["relation"].get(act.relation):
             draft.claim(verb, outcome, "", [index], objects)
         if act.kind == "swim":
             draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])

@@ -45,6 +45,7 @@ ACTED = frozenset(
         "catch",
         "hit",
         "pull",
+        "move over",
     }
 )
 """Relations in which the subject moves its target."""

@@ -36,7 +36,7 @@ Surface: TypeAlias = Annotated[str, Colour("surface")]
 
 Direction: TypeAlias = Literal[
     "left", "right", "towards", "away", "forward", "backward", "up", "down", "across",
-    "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
+    "to and fro", "up and down", "around", "clockwise", "counter-clockwise", "diagonal",
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
@@ -44,7 +44,7 @@ RelationKind: TypeAlias = Literal[
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
     "to", "into", "out of", "off", "up", "down",
     "hold", "wear", "ride", "push", "kick", "throw", "roll", "lift", "set down", "drop",
-    "collide", "knock over", "catch", "hit", "pull", "act on",
+    "collide", "knock over", "catch", "hit", "pull", "act on", "move over",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",

@@ -201,7 +201,7 @@ def test_a_number_beyond_all_is_not_understood():
     [
         ("a hand picks up an apple from a bowl and puts it on a plate", ("apple", "on", "plate")),
         ("a man takes a cup from a shelf and sets it on a table", ("cup", "on", "table")),
-        ("a robot arm lifts a cube off a box and drops it in a crate", ("cube", "in", "crate")),
+        ("a crane lifts a cube off a box and drops it in a crate", ("cube", "in", "crate")),
     ],
 )
 def test_a_pronoun_is_what_was_acted_on_last(text, expected):

@@ -5,6 +5,8 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE, in_image
 from tests.scenes.staging.test_containers import lost_relations, staged
 from tests.scenes.staging.test_resting_places import box, moved
+from tests.scenes.test_short_prompts import is_right
+from tests.scenes.test_short_prompts import staged as staged_short
 
 from texvent_scenes.checks.in_view import find_unseen
 
@@ -80,3 +82,29 @@ def test_rows_and_parked_vehicles_stand_on_a_line_at_even_gaps(text):
     gaps = np.diff(np.sort(places[:, 0]))
     assert gaps.min() > 0.8 * reach
     assert gaps.max() < 1.3 * gaps.min()
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a white square moves diagonally", "a bird flies diagonally",
+     "a dog runs diagonally across a field"],
+)  # fmt: skip
+def test_what_goes_diagonally_goes_along_two_axes_of_the_picture(text):
+    actor = staged_short(text)[0].actors[0]
+    way = np.sort(np.abs(actor.middle(2.0) - actor.middle(0.0)))
+    assert way[1] > 0.3 * way[2] > way[0] - 1e-6
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a toy train going around a circular track", "a toy train on a round track",
+     "a toy train drives along a loop of track"],
+)  # fmt: skip
+def test_what_goes_round_on_a_track_keeps_to_it_and_is_nearest_at_half_time(text):
+    train, track = staged_short(text)[0].actors
+    way = np.array([train.middle(at) - track.middle(0.0) for at in np.linspace(0.0, 2.0, 9)])
+    np.testing.assert_allclose(np.linalg.norm(way[:, :2], axis=1), 0.55, atol=1e-6)
+    np.testing.assert_allclose(way[4, 0], 0.0, atol=1e-6)
+    assert way[4, 1] < 0.0
+    assert is_right(text)

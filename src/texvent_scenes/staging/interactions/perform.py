@@ -21,7 +21,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING, SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.interactions import handling, holding, striking
+from texvent_scenes.staging.interactions import handling, holding, machines, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.interactions.sending import send_into
 from texvent_scenes.staging.placement.zones import are_driven
@@ -34,6 +34,7 @@ ACTS: Mapping[str, _Act] = {
     "pull": lambda who, what, *_: holding.pull(who, what),
     "ride": lambda who, what, *_: holding.board(who, what),
     **{kind: partial(striking.strike, kind) for kind in striking.IMPACTS},
+    "move over": partial(striking.strike, "lift"),
     "act on": lambda who, what, _, number: handling.handle(who, what, number),
     "hold": lambda who, what, *_: holding.hold(who, what),
     "wear": lambda who, what, *_: holding.wear(who, what),
@@ -66,12 +67,7 @@ def settle_motions(
     relations += _implied_acts(objects, relations)
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
-            pair = relation.subject, relation.targets[0]
-            direction = _choose_direction(objects, pair, seed)
-            objects[pair[0]] = _swinging(relation.kind, pair, objects, relations)
-            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, direction)
-            for index, one in zip(pair, settled, strict=True):
-                objects[index] = one
+            _settle_act(relation, objects, relations, nouns, seed)
     for each in relations:
         if each.kind == "on" and objects[each.targets[0]].noun in nouns_with("across a road"):
             objects[each.subject] = _directed(objects[each.subject], "across")
@@ -92,6 +88,23 @@ def settle_motions(
         for number in pair if said else ():
             objects[number] = _directed(objects[number], said[0])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _settle_act(
+    act: IndexedRelation, objects: list[SceneObject], relations: Sequence[IndexedRelation],
+    nouns: Mapping[str, Noun], seed: int,
+) -> None:  # fmt: skip
+    """Give both bodies of an act the motions that it leaves them."""
+    pair = act.subject, act.targets[0]
+    direction = _choose_direction(objects, pair, seed)
+    objects[pair[0]] = who = _swinging(act.kind, pair, objects, relations)
+    if machines.grips(who.noun, act.kind):
+        is_free = not any(one.subject == pair[1] for one in relations)
+        settled = machines.fit_hand(who, objects[pair[1]], nouns, is_free=is_free)
+    else:
+        settled = _settle(act.kind, who, objects[pair[1]], nouns, direction)
+    for index, one in zip(pair, settled, strict=True):
+        objects[index] = one
 
 
 def _directed(said: SceneObject, direction: Direction) -> SceneObject:
@@ -148,8 +161,11 @@ def _settle(
         return subject, still
     if kind in ("wear", "act on"):
         return subject, still if kind == "wear" else target
-    size = trait_value("carried size", target.noun) or 1.0
-    return subject, replace(still, size=size * target.size)
+    return subject, _smaller(still, trait_value("carried size", target.noun) or 1.0)
+
+
+def _smaller(said: SceneObject, share: float) -> SceneObject:
+    return replace(said, size=share * said.size)
 
 
 def _swinging(
@@ -254,7 +270,7 @@ def perform_acts(
     _turn_queues(cast, description)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
-        _perform(cast, relation, duration_s)
+        _perform(cast, relation, description, duration_s)
     sent = {one.subject: one for one in acts if one.kind in SENT}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
@@ -356,8 +372,13 @@ def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
     cast[rider] = replace(one, track=track, is_mover=True)
 
 
-def _perform(cast: dict[int, Actor], relation: IndexedRelation, duration_s: float) -> None:
+def _perform(
+    cast: dict[int, Actor], relation: IndexedRelation, description: SceneDescription,
+    duration_s: float,
+) -> None:  # fmt: skip
     """An act of each subject on a target of its own."""
+    if machines.grips(description.objects[relation.subject].noun, relation.kind):
+        return machines.perform_grip(cast, relation, description, duration_s)
     subjects, targets = (
         [number for number, actor in cast.items() if actor.object_index == index]
         for index in (relation.subject, relation.targets[0])

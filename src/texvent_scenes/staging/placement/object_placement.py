@@ -14,11 +14,11 @@ from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
-from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded
+from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded, size_of
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
@@ -386,6 +386,9 @@ class ObjectPlacer:
             reach += 0.1 * group.orbits.size_m
             if group.noun.name in PERSON_NOUNS:  # close round it, and so far round
                 reach = group.orbits.reach_below(group.top_m) + _PACE * group.size_m
+            ring = trait_value("circled on", group.orbits.noun.name)
+            if ring is not None:
+                reach = ring * size_of(group.orbits.models[0])
             reach = group.ring_m if group.ring_m is not None else reach
             home = (float(x), float(y), float(group.centre[2]))
             return orbit(group.plan, home, reach, number / len(group.models))

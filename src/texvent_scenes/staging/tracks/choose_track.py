@@ -24,6 +24,8 @@ _ORBIT_HASTE = 1.5
 """Most multiple of its usual speed at which a body goes round something large in the clip."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Ground motions for which "up and down" means back and forth."""
+_NEAREST = -0.5 * math.pi
+"""Direction from the middle of a circle to the camera."""
 _LIFT = 0.5
 """Greatest usual reach up and down, in sizes of a body."""
 
@@ -91,7 +93,7 @@ def orbit_radius(plan: MotionPlan, size_m: float) -> float:
 
 
 def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Track:
-    """Once round a point in the clip, or as far as it gets, from that share of the round on."""
+    """Once round a point in the clip, or as far as it gets; at share 0 before it at half time."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     if plan.motion.speed_m_s is not None:
         rate = plan.motion.speed_m_s / radius_m
@@ -99,7 +101,7 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
         rate = min(rate, _ORBIT_HASTE * plan.speed_m_s / radius_m)
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = plan.motion.kind if plan.motion.kind in ("walk", "run") else "move"
-    begin, (x, y, z) = 2.0 * math.pi * share, centre
+    begin, (x, y, z) = _NEAREST + 2.0 * math.pi * share - 0.5 * rate * plan.duration_s, centre
     start = (x + radius_m * math.cos(begin), y + radius_m * math.sin(begin), z)
     yaw = begin + math.copysign(0.5 * math.pi, rate)
     circle = steady(start, yaw, abs(rate) * radius_m, turn_rad_s=rate, activity=activity)
@@ -125,7 +127,8 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Track:
 
 def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
-    start = ahead(home, plan.yaw, -half_m, home[2] - plan.climb * half_m)
+    risen_m = 0.0 if plan.is_facing else plan.climb * half_m  # a shape goes up from the ground
+    start = ahead(home, plan.yaw, -half_m, home[2] - risen_m)
     line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind))
     waves = oscillations(plan.motion, model, phase)
     return replace(line, terms=waves, radius_m=plan.radius_m, is_facing=plan.is_facing)

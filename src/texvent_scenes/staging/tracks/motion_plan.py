@@ -29,6 +29,8 @@ from texvent_scenes.staging.tracks.phases import (
 )
 from texvent_scenes.staging.tracks.track import Track
 
+_DIAGONAL = 0.6
+"""Metres up per metre along of what goes diagonally in the picture."""
 _TALL = 1.2
 """Height over width from which on a thing lies on its side, not on its foot."""
 FLAT, _WIDE = 0.62, 0.7
@@ -77,8 +79,11 @@ class MotionPlan:
     @property
     def climb(self) -> float:
         """Metres up per metre along."""
-        is_free = self.motion.kind in ("fly", "swim") and not self.is_facing
-        return {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0) if is_free else 0.0
+        direction, is_free = self.motion.direction or "", self.motion.kind in ("fly", "swim")
+        if direction == "diagonal" and (is_free or self.is_facing):
+            return _DIAGONAL
+        is_free &= not self.is_facing
+        return {"up": 0.45, "down": -0.45}.get(direction, 0.0) if is_free else 0.0
 
 
 def plan_motion(
@@ -169,7 +174,10 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
         return default  # what falls over does so to a side of the picture
     if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
         return _face_camera(noun, model, motion, toss)
-    if motion.kind in ("fly", "swim") and direction in ("up", "down"):
+    is_flat = noun.name in nouns_with("flat pattern")
+    if direction == "diagonal" and is_flat:
+        return default
+    if motion.kind in ("fly", "swim") and direction in ("up", "down", "diagonal"):
         return default  # up or down in the picture, and to a side only as it likes
     return YAWS.get(direction, default)
 

@@ -29,6 +29,7 @@ YAWS = {
     "up": 0.5 * math.pi,
     "towards": -0.5 * math.pi,
     "down": -0.5 * math.pi,
+    "diagonal": -0.25 * math.pi,
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
 _STEERED_DIRECTIONS = frozenset({"backward", "around"})

@@ -1,0 +1,287 @@
+"""Gripping: machines whose hand lifts, carries, sets down or moves things.
+
+The joints of a machine follow its activity and how far it goes for that, its "shift": to the height
+at which it takes a thing, to that at which it leaves it, and between both places.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from texvent_scenes.models.anchors import (
+    Gripper,
+    find_rim,
+    find_support,
+    gripper_of,
+    has_rim,
+    locate,
+)
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import Affine, point, shift
+from texvent_scenes.models.tables import trait_value
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor, size_of
+from texvent_scenes.staging.interactions.holding import moving
+from texvent_scenes.staging.tracks.keys import Key
+from texvent_scenes.staging.tracks.track import (
+    Attachment,
+    BodyState,
+    Term,
+    Track,
+    attached,
+    rotation,
+    steady,
+)
+
+ACTIVITIES = {
+    "lift": "machine lifts", "set down": "machine sets down", "move over": "machine moves",
+    "drop": "machine moves", "hold": "machine lifts",
+}  # fmt: skip
+"""Relation → activity of a machine."""
+_CARRIED_S, _OVER_RIM_M, _LATEST_S = 1.2, 0.12, 0.8
+"""From where a thing is taken to where it is left, s; height above a rim at which it is let go, m;
+the last instant at which what is moved is taken."""
+_HELD_S = 60.0
+"""Time for which something has been held that is held all along, s."""
+_TO_CAMERA = -0.5 * math.pi
+_WIDE_M = 0.8
+"""Size from which on a goal is put a quarter turn away from where a thing is taken."""
+_STEPS, _ROUNDS = 33, 5
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """An act: the machine where it stands, its activity, and its settings."""
+
+    machine: Actor
+    gripper: Gripper
+    kind: str
+    contact_s: float
+
+    @property
+    def activity(self) -> str:
+        return ACTIVITIES[self.kind]
+
+    def hand(self, act_s: float, settings: tuple[float, float, float]) -> Affine:
+        """Axes of the hand in body coordinates, at a time since the contact."""
+        pose = Pose(0.0, 0.0, 0.0, self.activity, act_s=act_s, grips=(("shift", settings),))
+        return locate(self.machine.model, "hands", pose)
+
+    def solve(self, height_m: float, act_s: float, place: int) -> float:
+        """The setting that brings the hand to a height above the machine's foot, or closest."""
+        low, high = self.gripper.reach
+        best = low
+        for _ in range(_ROUNDS):
+            tried = np.linspace(low, high, _STEPS)
+            off = [abs(float(self.hand(act_s, _settings(one, place, self.gripper.turn))[2, 3])
+                       - height_m) for one in tried]  # fmt: skip
+            best, step = float(tried[int(np.argmin(off))]), float(tried[1] - tried[0])
+            low, high = max(best - step, low), min(best + step, high)
+        return best
+
+
+def _settings(value: float, place: int, turn: float) -> tuple[float, float, float]:
+    return (value, 0.0, turn) if place == 0 else (0.0, value, turn)
+
+
+def grip(
+    kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
+    support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
+) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
+    """The machine, the things and the goal of an act.
+
+    Args:
+        kind: a relation of `ACTIVITIES`.
+        machine: who does it.
+        things: the first is handled; what is moved ends on the others.
+        duration_s: length of the clip, s.
+        support: what the first is on; else the machine has it where its hand is.
+        goal: what it is set down on or in, which is put there.
+        is_turned: whether the machine may be turned, its side to the camera.
+    """
+    row = gripper_of(machine.noun.name)
+    if kind == "hold":
+        return *_carry(machine, row, things[0]), goal
+    if goal is not None and goal.size_m > _WIDE_M:
+        row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
+    if support is None and is_turned:
+        machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
+    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s))
+    first, *others = things
+    level_m = machine.track.at(0.0).position[2]
+    pick = 0.0
+    if kind != "set down":
+        low_m = first.lowest_m(plan.contact_s) if support is not None else level_m
+        pick = plan.solve(_hand_height(row, first, low_m - level_m), 0.0, 0)
+        hand = plan.hand(0.0, (pick, 0.0, row.turn))
+        if support is not None:
+            plan = replace(plan, machine=_placed_at(machine, first, hand, plan.contact_s))
+        else:
+            first = moving(first, _at_hand(plan, first, hand, low_m))
+    put = 0.0
+    if kind != "lift":
+        left_m = _left_height(plan, goal, others, first)
+        put = plan.solve(_hand_height(row, first, left_m - level_m), _left_s(kind), 1)
+    settings = (pick, put, row.turn)
+    plan = replace(plan, machine=_acting(plan, settings))
+    if kind != "lift":
+        goal, others = _put_below(plan, settings, goal, others)
+    return plan.machine, [_follow_hand(plan, settings, first, goal), *others], goal
+
+
+def _contact_s(kind: str, duration_s: float) -> float:
+    """Instant at which the hand takes the thing, or leaves what it has from the beginning."""
+    if _is_moved(kind):
+        return min(max(0.25 * duration_s, 0.3), _LATEST_S)
+    return min(max(0.4 * duration_s, 0.3), 1.1)
+
+
+def _is_moved(kind: str) -> bool:
+    return kind in ("move over", "drop")
+
+
+def _left_s(kind: str) -> float:
+    """Time since the contact at which the thing is left."""
+    return _CARRIED_S if _is_moved(kind) else 0.0
+
+
+def _hand_height(row: Gripper, thing: Actor, low_m: float) -> float:
+    """Height of the hand that has a thing whose lowest point is so high, m."""
+    pocket = float(trait_value("fork pockets", thing.noun.name) or 0.0) * size_of(thing.model)
+    return low_m + (pocket if row.is_below else 0.5 * thing.model.height)
+
+
+def _placed_at(machine: Actor, thing: Actor, hand: Affine, time_s: float) -> Actor:
+    """The machine behind a thing, whose place then is that of its hand."""
+    x, y, _ = thing.middle(time_s)
+    off = rotation(_TO_CAMERA, 0.0, 0.0) @ hand[:, 3]
+    level_m = machine.track.at(0.0).position[2]
+    place = (float(x - off[0]), float(y - off[1]), level_m)
+    return replace(machine, track=replace(machine.track, start=place, yaw=_TO_CAMERA))
+
+
+def _at_hand(plan: _Plan, thing: Actor, hand: Affine, low_m: float) -> Track:
+    """Rest where the hand takes the thing."""
+    home = plan.machine.track.at(0.0)
+    back = _behind(plan.gripper, thing, plan.machine)
+    x, y, _ = home.to_world() @ np.array([hand[0, 3] + back, hand[1, 3], hand[2, 3], 1.0])
+    return steady((float(x), float(y), low_m + thing.foot_m), home.yaw, activity="stand")
+
+
+def _behind(row: Gripper, thing: Actor, machine: Actor) -> float:
+    """How far its middle is ahead of the middle of forks that it stands at the back of, m."""
+    return max(0.5 * (thing.model.length - size_of(machine.model)), 0.0) if row.is_below else 0.0
+
+
+def _acting(plan: _Plan, settings: tuple[float, float, float]) -> Actor:
+    home = plan.machine.track.at(0.0)
+    rest = steady(home.position, home.yaw, activity=plan.activity)
+    track = replace(rest, contact_s=plan.contact_s, grips=(("shift", settings),))
+    return moving(plan.machine, track)
+
+
+def _left_height(plan: _Plan, goal: Actor | None, others: Sequence[Actor], first: Actor) -> float:
+    """Height at which the bottom of the thing is left, m."""
+    level_m = plan.machine.track.at(0.0).position[2]
+    if goal is not None:
+        rim = find_rim(goal.noun.name, goal.model)
+        return level_m + (rim.height + _OVER_RIM_M if rim else find_support(goal.model).height)
+    fallen = 2.0 * first.model.height if plan.kind == "drop" else 0.0
+    return level_m + fallen + sum(one.model.height for one in others)
+
+
+def _put_below(
+    plan: _Plan, settings: tuple[float, float, float], goal: Actor | None, others: Sequence[Actor]
+) -> tuple[Actor | None, list[Actor]]:
+    """The goal, or the other things on top of each other, where the first is left."""
+    x, y, _ = plan.machine.anchor("hands", plan.contact_s + _left_s(plan.kind))[:, 3]
+    height_m, yaw = plan.machine.track.at(0.0).position[2], plan.machine.track.yaw
+    if goal is not None:
+        there = (float(x), float(y), goal.track.at(0.0).position[2])
+        across = 0.5 * math.pi * (goal.model.length > goal.model.width)
+        return moving(goal, steady(there, yaw + settings[2] + across, activity="stand")), [*others]
+    stacked = []
+    for one in others:
+        place = (float(x), float(y), height_m + one.foot_m)
+        stacked.append(moving(one, steady(place, yaw + settings[2], activity="stand")))
+        height_m += one.model.height
+    return goal, stacked
+
+
+def _follow_hand(
+    plan: _Plan, settings: tuple[float, float, float], thing: Actor, goal: Actor | None
+) -> Actor:
+    """The thing on its way: at rest, in the hand, and where it is left."""
+    axes, begin_s = partial(plan.machine.anchor, "hands"), plan.contact_s
+    left_s = begin_s + _left_s(plan.kind)
+    if plan.kind == "set down":
+        here = axes(left_s)
+        place = here[:, 3] - [0.0, 0.0, 0.5 * thing.model.height - thing.foot_m]
+        rest = steady(point(place), plan.machine.track.yaw + settings[2], activity="stand")
+        anchor = _bound(plan.machine.track, axes, rest.at(0.0).to_world(), left_s)
+        return moving(thing, replace(rest, anchor=anchor, release_s=left_s))
+    anchor = _bound(plan.machine.track, axes, thing.track.at(begin_s).to_world(), begin_s)
+    if not _is_moved(plan.kind):
+        return replace(thing, track=replace(thing.track, anchor=anchor, grab_s=begin_s),
+                       is_mover=True)  # fmt: skip
+    end = anchor.at(left_s)
+    floor_m = _floor_below(plan, thing, goal)
+    track = _moved_on(thing.track.at(begin_s), end, begin_s, left_s, floor_m)
+    return moving(thing, replace(track, anchor=anchor, grab_s=begin_s, release_s=left_s))
+
+
+def _bound(carrier: Track, axes: partial[Float64Array], place: Affine, time_s: float) -> Attachment:
+    """What keeps a place [3, 4] in the world at an instant in axes that move."""
+    square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in (axes(time_s), place))
+    return Attachment(carrier, axes, np.linalg.solve(*square)[:3])
+
+
+def _floor_below(plan: _Plan, thing: Actor, goal: Actor | None) -> float | None:
+    """Height of its origin where it comes to rest after it is let go; None: it stays there."""
+    is_dropped = plan.kind == "drop" or (goal is not None and has_rim(goal.noun.name))
+    level_m = plan.machine.track.at(0.0).position[2]
+    return level_m + thing.foot_m if is_dropped else None
+
+
+def _moved_on(
+    first: BodyState, last: BodyState, begin_s: float, end_s: float, floor_m: float | None
+) -> Track:
+    """At rest at the first place until it is taken, at the last one or falling from there on."""
+    way = np.subtract(last.position, first.position)
+    span_s, heading = end_s - begin_s, math.atan2(float(way[1]), float(way[0]))
+    carried = Key(span_s, math.hypot(way[0], way[1]) / span_s, climb_m_s=float(way[2]) / span_s,
+                  ramp_s=0.0, activity="stand")  # fmt: skip
+    after = Key(1.0, 0.0, ramp_s=0.0, activity="stand")
+    if floor_m is not None:
+        after = replace(after, restitution=0.3)
+    turned = math.remainder(last.yaw - first.yaw, math.tau) / span_s
+    term = Term("yaw", offset=first.yaw - heading - turned * begin_s, drift=turned,
+                begin_s=begin_s, end_s=end_s)  # fmt: skip
+    keys = (Key(begin_s, 0.0, ramp_s=0.0, activity="stand"), carried, after)
+    low = -math.inf if floor_m is None else floor_m
+    return Track(first.position, heading, keys, (term,), floor_m=low, pivot_m=first.pivot_m)
+
+
+def _carry(machine: Actor, row: Gripper, thing: Actor) -> tuple[Actor, list[Actor]]:
+    """Both, the thing in the hand all along."""
+    settings = (0.0, 0.0, 0.0 if row.is_below else row.turn)
+    track = replace(machine.track, grips=(("shift", settings),))
+    if not row.is_below:
+        track = replace(track, activity=ACTIVITIES["hold"], contact_s=-_HELD_S)
+    machine = replace(machine, track=track)
+    up = thing.foot_m - _hand_height(row, thing, 0.0)
+    offset = shift(_behind(row, thing, machine), 0.0, up)
+    upright = partial(_level, machine)
+    held = attached(machine.track, offset, axes=upright)
+    return machine, [replace(thing, track=held, is_mover=machine.is_mover, lead_m=0.0)]
+
+
+def _level(machine: Actor, time_s: float) -> Float64Array:
+    """Axes at the hand that stay level."""
+    yaw = machine.track.at(time_s).yaw
+    return np.column_stack([rotation(yaw, 0.0, 0.0), machine.anchor("hands", time_s)[:, 3]])
