@@ -191,6 +191,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     work = make(recipe, folder, retry_failed=True)
     after = {shard.variant: counts for shard, counts in work.complete.items()}
     assert after["esim"][MADE] == 3
+    assert not find_work(recipe, folder, retry_failed=True).todo  # nothing failed
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)
