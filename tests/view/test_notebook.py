@@ -141,3 +141,9 @@ def test_a_live_stream_loses_no_frame():
     stream = open_frames(frames(), CaptureConfig(fps=Fraction(100)))
     html_of(stream)
     assert [int(one.pixels[0, 0]) for one in stream] == [10, 20, 30]
+
+
+@pytest.mark.parametrize("source", ["/films/a.mp4", {"source": "/films/a.mp4", "kind": "file"}])
+def test_the_source_is_named_without_its_folder(source):
+    shown = text_of(html_of(some_events().with_metadata({"source": source})))
+    assert re.search(r"Source\s+a\.mp4", shown)
