@@ -194,6 +194,21 @@ def test_each_door_makes_the_run_of_the_function(name, door, place):
     assert facts(found, expected.metadata) == facts(expected, expected.metadata)
 
 
+@pytest.mark.parametrize("door", ["function", "packets", "command", "batch"])
+def test_the_words_for_a_video_are_stored_by_each_door(door, place):
+    if door == "command":
+        words = ("simulate", "clip.npy", "--fps", 10, "-o", "a.h5", "--previews", "none", "-q")
+        assert run(*words, "--prompt", PROMPT) == 0
+        events = texvent.load("a.h5")
+    elif door == "batch":
+        Path("list.csv").write_text(f"video,prompt,name\nclip.npy,{PROMPT},a\n")
+        assert run("batch", "list.csv", "-o", "out", "--fps", 10, "--previews", "none", "-q") == 0
+        events = texvent.load("out/a.h5")
+    else:
+        events = texvent.simulate("clip.npy", fps=10, prompt=PROMPT, as_packets=door == "packets")
+    assert events.metadata["prompt"] == PROMPT
+
+
 @pytest.mark.parametrize("door", ["truth", "command", "batch"])
 def test_each_door_says_what_the_function_warns_of(door, place, capsys):
     case = CASES["lost"]
