@@ -135,6 +135,25 @@ def test_the_folder_of_another_version_is_refused_whatever_its_rows_hold(folder,
     assert "made with other options: the version of texvent was not set" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("flag", "value"),
+    [
+        *(("palette", "dv"), ("previews", "png"), ("format", "npz"), ("seed", 1)),
+        *(("preset", "paper"), ("contrast-threshold", 0.3), ("sensor", "8x8"), ("stop", 0.1)),
+    ],
+)
+def test_a_batch_made_with_other_options_is_not_gone_on_with(folder, capsys, flag, value):
+    write_video(folder / "v.npy", 0)
+    words = ("batch", "v.npy", "-o", "out", *FLAT)
+    assert run(*words) == 0
+    before = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
+    capsys.readouterr()
+    assert run(*words, f"--{flag}", value) == 2
+    assert f"made with other options: --{flag} was " in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == before
+    assert run(*words) == 0
+
+
 def test_options_of_a_batch_that_made_nothing_may_be_mended(folder, capsys):
     write_video(folder / "v.npy", 0)
     assert run("batch", "v.npy", "-o", "out", "--duration", 1, *FLAT) == 2
