@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.truth.hand_video import board_video
 
 import texvent
 from texvent.dataset.generation.make import make
@@ -54,6 +55,12 @@ WORK = {
     "target rate": (
         lambda told: texvent.simulate(FRAMES, progress=told, target_rate=1e4, noise="none", **RUN),
         9,
+    ),
+    "truth": (
+        lambda told: texvent.simulate(
+            board_video(), fixed_count=2, truth_folder="a.truth", progress=told
+        ),
+        6,
     ),
     "check": (lambda told: check_source(FRAMES, fps=20, progress=told), 6),
     "compare": (compared, 3),
