@@ -5,7 +5,6 @@ import sys
 
 import numpy as np
 import pytest
-from tests.truth.hand_video import board_video
 
 import texvent
 from texvent.api.functions import compare
@@ -93,19 +92,6 @@ def test_pixel_models_are_there_by_class_and_load_when_named():
         "assert not {'torch', 'numba'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
-
-
-@pytest.mark.parametrize("door", ["events", "packets", "truth"])
-def test_a_function_is_told_how_far_the_simulation_is_in_frames_of_the_video(door, tmp_path):
-    calls, video = [], board_video()
-    options = {"fixed_count": 2, "progress": lambda *step: calls.append(step)}
-    if door == "packets":
-        packets = texvent.simulate(video, fixed_count=2, as_packets=True)
-        packets.save(tmp_path / "out.h5", progress=options["progress"])
-    else:
-        truth = {"truth_folder": tmp_path / "a.truth"} if door == "truth" else {}
-        texvent.simulate(video, **options, **truth)
-    assert [*dict.fromkeys(calls)] == [(number, 6, "simulate") for number in range(1, 7)]
 
 
 @pytest.mark.parametrize(

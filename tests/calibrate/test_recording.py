@@ -6,7 +6,9 @@ from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.frames import Video
+from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 
 from .conftest import TRUTH, moving_blobs
 
@@ -49,3 +51,15 @@ def test_clocks_that_do_not_meet_are_refused(recording):
         CalibrationRecording(late, recording.events, InterpolateConfig()).halves()
     with pytest.raises(InputError, match="lacks one"):
         CalibrationRecording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()
+
+
+def test_a_fit_sees_the_frames_that_a_run_of_the_model_sees(moving_texture):
+    faint = np.stack([90 + moving_texture(7 * index) / 4 for index in range(9)])
+    frames = Video(faint, [40_000 * index for index in range(9)])
+    events = EventStream.empty(frames.size)
+    settings = resolve("simulate", {"simulator": "physical", "contrast_threshold": 0.2})
+    recording = CalibrationRecording(frames, events, settings.interpolate)
+    dense = recording.dense_frames(TimeSpan(0, 320_000), settings.simulate)
+    steps = video_to_events(frames, settings).steps()
+    assert [one.t_us for one in dense] == [frame.t_us for frame, _ in steps]
+    assert len(dense) > 2 * len(faint)

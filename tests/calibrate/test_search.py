@@ -2,7 +2,9 @@
 
 import dataclasses
 import math
+import random
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -46,3 +48,27 @@ def test_each_option_comes_within_a_step_of_its_best_value_from_any_side(best, s
             assert low <= value <= high
             is_at_end = value * step > high or value / step < low
             assert is_at_end or 1 / step <= value / best[name] <= step
+
+
+class Noisy(Bowl):
+    """Counts that follow the thresholds, and an overlap that is drawn anew each time."""
+
+    match_counts = Search.match_counts
+
+    def measure(self, config):
+        on, off = (config.contrast_threshold_on, config.contrast_threshold_off)
+        found = Distance(self.chance.random(), 0.0, math.log(0.2 / on), math.log(0.3 / off))
+        self.measured.append((found.total, config))
+        return found
+
+
+@given(seed=st.integers(0, 99), threshold=st.floats(0.1, 0.6), ratio=st.floats(0.6, 1.7))
+def test_of_all_thresholds_that_are_tried_the_nearest_stay(seed, threshold, ratio):
+    search = Noisy({}, ())
+    search.chance, search.measured = random.Random(seed), []
+    start = dataclasses.replace(TRUTH, contrast_threshold=threshold, on_off_ratio=ratio)
+    found = search.match_counts(start)
+    assert (found.distance.total, found.config) == min(search.measured, key=lambda one: one[0])
+    last = search.measured[-1][1]
+    assert last.contrast_threshold_on == pytest.approx(0.2, rel=0.01)
+    assert last.contrast_threshold_off == pytest.approx(0.3, rel=0.01)

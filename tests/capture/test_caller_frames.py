@@ -141,7 +141,6 @@ SOUND = {
     "a fade from black in 8 bits": (LEVELS * FADE).astype(np.uint8),
     "a fade from black in 16 bits": (LEVELS * 257.0 * FADE).astype(np.uint16),
     "a fade from black in 12 bits of 16": (LEVELS * 257.0 * FADE * FADE).astype(np.uint16),
-    "a slow fade from black": LEVELS[4] * np.array([0, 1, 2, 3, 4, 5, 9, 300])[:, None, None] / 300,
     "black": np.zeros_like(UNIT),
     "half floats": LEVELS.astype(np.float16),
     "booleans": LEVELS > 128,

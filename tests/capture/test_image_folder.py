@@ -23,11 +23,14 @@ def save_images(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png"
     return folder
 
 
-def test_a_frame_rate_gives_the_times(tmp_path):
+@pytest.mark.parametrize("listed", ["", "0.5\n0.6\n0.7\n", "0.5 frame1.png\n", "damaged"])
+def test_a_frame_rate_gives_the_times_whatever_a_list_beside_the_images_says(tmp_path, listed):
     save_images(tmp_path)
+    if listed:
+        (tmp_path / "timestamps.txt").write_text(listed)
     stream = open_frames(tmp_path, CaptureConfig(fps=Fraction(30_000, 1001)))
     assert [frame.t_us for frame in stream] == [0, 33_367, 66_733]
-    assert stream.frame_count == 3
+    assert (stream.frame_count, stream.metadata["timestamps"]) == (3, None)
 
 
 def test_ecd_layout_is_found_without_options_and_keeps_its_clock(tmp_path):

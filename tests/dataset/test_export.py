@@ -18,6 +18,7 @@ import texvent
 from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export
 from texvent.dataset.layouts.checks import folder_name
+from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, InputError, OutputError
 
@@ -46,6 +47,30 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
     assert texvent.load(next((tmp_path / "h" / "train").iterdir())).label is not None
     done = export(made, "n-imagenet", tmp_path / "n")
     assert "does not hold which events are noise" in " ".join(done.doubts)
+
+
+@pytest.mark.parametrize("began_us", [0, 5_000_000, -30_000])
+def test_a_layout_is_given_each_sample_with_its_span(tmp_path: Path, monkeypatch, began_us) -> None:
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).integers(0, 255, (5, 12, 16), np.uint8))
+    times = [(began_us + 20_000 * number) / 1e6 for number in range(5)]
+    (tmp_path / "times.txt").write_text("".join(f"{one:.6f}\n" for one in times))
+    folder = make_set(
+        tmp_path / "set",
+        sources=[{"videos": [str(tmp_path / "a.npy")]}],
+        options={"timestamps": str(tmp_path / "times.txt"), "interpolate": "none"},
+        variants={"paper": {}},
+        splits={"train": 1.0},
+    )
+    given = list[LayoutSample]()
+    layout = Layout(place="{split}/{key}.x", write=lambda one, path: not given.append(one))
+    monkeypatch.setitem(LAYOUTS, "own", layout)
+    export(StoredDataset.open(folder), "own", tmp_path / "out")
+    (sample,) = given
+    assert (sample.start_us, sample.stop_us) == (began_us, began_us + 80_000)
+    t = sample.read_events().t
+    assert len(t) > 50
+    assert began_us <= t[0] <= t[-1] < began_us + 80_000
+    assert (sample.split, sample.size) == ("train", (16, 12))
 
 
 def test_classes_become_folder_names() -> None:

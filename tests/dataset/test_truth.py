@@ -294,6 +294,10 @@ def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path
     middles = (boxes["x"][1:] + boxes["x"][:-1]) / 4
     np.testing.assert_allclose(sample.truth.boxes["x"][1::2], middles, atol=1e-3)
     assert verify(StoredDataset.open(tmp_path / "rated")).is_sound
+    part = video_set(filmed, options={"fps": 24, "interpolate": "none", "stop": 0.1})
+    assert not make(part, tmp_path / "part").failures
+    (cut,) = texvent.dataset.open(tmp_path / "part")
+    assert cut.truth.boxes.tolist() == boxes[boxes["t"] < 100_000].tolist()
 
 
 def test_labels_of_more_frames_are_refused_before_any_work(filmed: Path, tmp_path: Path) -> None:

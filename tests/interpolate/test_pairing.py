@@ -46,14 +46,6 @@ def flashing(moving_texture):
     return Video(np.stack(frames), [0, 20_000, 40_000, 60_000])
 
 
-def test_black_to_white_gets_the_count_of_eq4():
-    frames = run(field([0, 255], [0, 12_000]))
-    assert [frame.is_source for frame in frames] == [True] + [False] * 11 + [True]
-    assert [frame.t_us for frame in frames] == [1000 * k for k in range(13)]
-    levels = [float(frame.pixels[0, 0]) for frame in frames]
-    assert levels == pytest.approx([255 * k / 12 for k in range(13)], abs=1e-3)
-
-
 class Beating(Video):
     """A grey field under light that beats at 100 Hz, between 50 and 150."""
 

@@ -33,6 +33,14 @@ def test_a_clip_of_twice_the_size_moves_by_twice_the_px(images, times):
     assert found["motion_share"] == pytest.approx(3.0 * times / max(320, 128 * times), rel=0.04)
 
 
+def test_motion_is_the_median_and_what_the_fastest_hundredth_exceeds():
+    ground, fast = pan(2, width=300, step=1, blur=6), pan(2, width=40, step=6, blur=6, seed=8)
+    ground[:, 30:60, 100:140] = fast[:, 30:60]  # one of 24 pixels
+    found = check_source(video_of(ground), progress=False).report.measurements
+    assert found["motion_px"] == pytest.approx(1.0, abs=0.2)
+    assert found["fast_px"] == pytest.approx(6.0, abs=1.0)
+
+
 def test_motion_does_not_depend_on_linear_light(images):
     light = 255 * (images / 255.0) ** 2.2
     measured = check_source(light, fps=25, transfer="linear", progress=False).report.measurements

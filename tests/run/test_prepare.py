@@ -17,6 +17,7 @@ from texvent.run.prepare import (
     prepare_prompt,
     prepare_source,
     prepare_video,
+    report_prompt,
 )
 from texvent.settings.resolution import resolve
 from texvent_lab.bench.fidelity.entries import simulate_video
@@ -133,3 +134,13 @@ def test_a_field_of_a_scene_file_without_effect_is_refused_with_the_name_of_the_
         open_subject(str(path))
     where = f"{path}: objects[0].motions[0].rate_hz has no effect: 'drive' of a car"
     assert str(caught.value).startswith(where)
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+@pytest.mark.parametrize("options", [{}, {"duration": 1.0}, {"sensor": "346x260"}])
+@pytest.mark.filterwarnings("ignore")
+def test_the_report_of_a_prompt_is_that_of_its_video(seed, options):
+    settings = resolve("generate", {**SMALL, "seed": seed, **options})
+    prompt = "an ant crawls on a table"
+    report = report_prompt(prompt, settings)
+    assert report.to_json() == make_video(prompt, settings).metadata["prompt_report"]

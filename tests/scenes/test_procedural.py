@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
+import pytest
 
 import texvent
-from texvent.errors import warnings_to
+from texvent.errors import InputError, warnings_to
 from texvent.generation.kept_frames import KeptFrames
+from texvent.options.values import plain
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
@@ -114,3 +118,40 @@ def test_frames_from_one_on_are_those_of_the_whole_video() -> None:
         assert frame.t_us == expected.t_us
         np.testing.assert_array_equal(frame.pixels, expected.pixels)
         assert (frame.motion.forward is None) == (expected.motion.forward is None)
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a red ball bounces", "a wug and a red ball", "an ant crawls on a table", "a wug"]
+)
+@pytest.mark.parametrize("is_staged", [True, False])
+def test_strict_refuses_what_the_report_would_refuse_and_nothing_else(prompt, is_staged) -> None:
+    options = {"duration": 0.3, "samples": 1}
+    usual, strict = (
+        ProceduralGenerator(ProceduralConfig(strict=one, **options), seed=1, size=SMALL)
+        for one in (False, True)
+    )
+    refusal = "nothing in the prompt was understood" if prompt == "a wug" else None
+    if refusal is None:
+        refusal = usual.report(prompt, is_staged=is_staged).refusal()
+    calls = [partial(strict.report, prompt, is_staged=is_staged)]
+    calls += [partial(strict.generate, prompt)] if is_staged else []
+    for call in calls:
+        with pytest.raises(InputError) if refusal else nullcontext() as caught:
+            call()
+        assert refusal is None or refusal in str(caught.value)
+
+
+@pytest.mark.parametrize("given", [
+    {}, {"fps": Fraction(50), "duration": 0.1}, {"samples": 3, "shadows": False, "hdr": True},
+    {"point_spread": 0.0, "vignetting": False, "duration": 0.2},
+])  # fmt: skip
+def test_a_video_says_with_what_it_was_made(given) -> None:
+    config = ProceduralConfig(**given)
+    video = ProceduralGenerator(config, seed=7, size=SMALL).generate("a red ball bounces")
+    made = dict(video.metadata["options"])
+    assert {name: made[name] for name in given} == plain(given)
+    assert made == plain(config)
+    again = texvent.video("a red ball bounces", sensor=str(SMALL), seed=video.metadata["seed"], **{
+        name: value for name, value in made.items() if value is not None
+    })  # fmt: skip
+    assert np.array_equal(next(iter(again)).pixels, next(iter(video)).pixels)

@@ -134,3 +134,15 @@ def test_a_misspelled_noun_is_named_with_the_one_that_is_meant():
     assert "not understood: fokrlift (did you mean 'forklift'?), " in words.faults()[0]
     sound = ("a red car drives left past two trees", "a man with three hats flaps in a narrow way")
     assert not any(understand(one, list_nouns()).words.meant for one in sound)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["a red ball bounces", "a wug and a red ball", "a dog drives at 600 rpm on wet grass"],
+)
+def test_what_a_scene_does_not_show_of_a_sentence_is_not_understood(prompt):
+    words = understand(prompt, list_nouns()).words
+    lost = {one.partition(" (")[0] for one in words.not_shown}
+    reading = texvent.read(prompt)
+    assert set(reading.not_understood) == {*words.not_understood, *lost}
+    assert not lost & {*reading.shown}

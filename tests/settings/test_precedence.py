@@ -170,3 +170,12 @@ def test_none_as_a_word_beats_the_config_file_and_none_in_python_is_not_given(tm
     said = resolve_command("simulate", words, subject, description="")[0]
     assert values_in(said, ["stop"]) == {"stop": None}
     assert values_in(resolve("simulate", {"stop": None}, config=path), ["stop"]) == {"stop": 0.5}
+
+
+@pytest.mark.parametrize("place", ["nowhere", "config", "given"])
+def test_vectors_beside_the_frames_are_followed_where_no_others_are_named(tmp_path, place):
+    path, given = tmp_path / "run.toml", {"motion": "named.npy"} if place == "given" else {}
+    path.write_text('motion = "named.npy"\n' if place == "config" else "")
+    settings = resolve("simulate", given, config=path, motion_beside=Path("beside.npy"))
+    assert settings.source.motion == Path("beside.npy" if place == "nowhere" else "named.npy")
+    assert settings.interpolate.interpolate == "motion"

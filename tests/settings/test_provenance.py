@@ -56,8 +56,12 @@ UNSEEN = {"folder": {*INSIDE}, "pattern": {*INSIDE}, "file": {rename, Path.unlin
 @pytest.mark.parametrize("change", CHANGES)
 @pytest.mark.parametrize("kind", UNSEEN)
 def test_what_counts_as_a_change_does(tmp_path, monkeypatch, kind: str, change: Callable):
-    monkeypatch.setattr(provenance, "END_BYTES", 16)
-    folder = tmp_path / "frames"
+    for end_bytes in (16, 40, 64):
+        monkeypatch.setattr(provenance, "END_BYTES", end_bytes)
+        check_change(tmp_path / str(end_bytes), kind, change)
+
+
+def check_change(folder: Path, kind: str, change: Callable) -> None:
     folder.mkdir()
     for number, name in reversed([*enumerate(NAMES)]):
         (folder / name).write_bytes(bytes(range(number, number + 64)))

@@ -25,7 +25,7 @@ from texvent.simulation.clips.physical import seed_of
 from texvent.simulation.clips.pixels import ClipOutputs
 from texvent.simulation.physical.simulator import PhysicalSimulator
 
-from .written import HEIGHT, STEP, WIDTH, Sliding, write_folders
+from .written import HEIGHT, WIDTH, Sliding, write_folders
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -286,29 +286,22 @@ def test_thresholds_reach_the_events(folder):
     assert numbers[1] < 0.6 * numbers[0]
 
 
-def test_flips_crops_and_pauses_keep_the_truth_of_a_clip():
-    ranges = ClipRanges(pause=(0.3, 0.5))
-    stream = EventStream(Sliding(), randomize=ranges, truth=("flow", "depth", "boxes"), **SMALL)
-    seen = set()
-    for batch in take(stream, 6):
-        frames = torch.cat([batch.first[:, None], batch.frames], 1).numpy()
-        assert np.array_equal(batch.truth["depth"], frames[:, 1:].astype(np.float32))
-        for clip, window in np.ndindex(SMALL["batch"], SMALL["frames"]):
-            flow = batch.truth["flow"][clip, window].numpy()
-            moved, (before, now) = int(flow[0, 0, 0]), frames[clip, window : window + 2]
-            assert (flow[0] == moved).all()
-            assert not flow[1].any()
-            if moved > 0:
-                assert np.array_equal(before[:, :-moved], now[:, moved:])
-            elif moved < 0:
-                assert np.array_equal(before[:, -moved:], now[:, :moved])
-            else:
-                assert np.array_equal(before, now)
-            seen.add(moved)
-            boxes = batch.truth["boxes"][clip][window]["boxes"].numpy()
-            assert (boxes >= 0).all()
-            assert (boxes <= [16, 12, 16, 12]).all()
-    assert seen == {-STEP, 0, STEP}
+def test_a_batch_brings_the_frames_times_and_truth_of_its_cuts():
+    ranges, truth = ClipRanges(pause=(0.3, 0.5)), ("flow", "depth", "boxes")
+    plan = CutPlan(SensorSize(16, 12), 4, 1, ranges, truth)
+    for batch in take(EventStream(Sliding(), randomize=ranges, truth=truth, seed=3, **SMALL), 3):
+        for clip, source in enumerate(batch.draws["source"].tolist()):
+            draw = draw_clip(ranges, 3, batch.number * SMALL["batch"] + clip, 4)
+            film = Sliding().read(source, truth, 2**30)
+            cut = cut_clip(film, draw, plan, np.empty((5, 12, 16), np.uint8))
+            assert np.array_equal(batch.first[clip], cut.frames[0])
+            assert np.array_equal(batch.frames[clip], cut.frames[1:])
+            assert batch.times_us[clip].tolist() == cut.times_us.tolist()
+            assert batch.draws["is_flipped"][clip] == draw.is_flipped
+            for name in ("flow", "depth"):
+                assert np.array_equal(batch.truth[name][clip], cut.truth[name])
+            for found, boxes in zip(batch.truth["boxes"][clip], cut.truth["boxes"], strict=True):
+                assert all(np.array_equal(found[key], one) for key, one in boxes.items())
 
 
 ORDERS = [[1, 4, 3, 5, 0, 2], [1, 3, 4, 2, 0, 5], [4, 2, 0, 3, 5, 1]]

@@ -141,3 +141,17 @@ def test_a_live_stream_loses_no_frame():
     stream = open_frames(frames(), CaptureConfig(fps=Fraction(100)))
     html_of(stream)
     assert [int(one.pixels[0, 0]) for one in stream] == [10, 20, 30]
+
+
+@pytest.mark.parametrize("source", ["/films/a.mp4", {"source": "/films/a.mp4", "kind": "file"}])
+def test_the_source_is_named_without_its_folder(source):
+    shown = text_of(html_of(some_events().with_metadata({"source": source})))
+    assert re.search(r"Source\s+a\.mp4", shown)
+
+
+@pytest.mark.parametrize(("count", "width"), [(1, 480), (2, 2 * 240 + 2), (9, 4 * 240 + 6)])
+def test_frames_of_a_video_stand_side_by_side_in_half_the_size_of_one(count, width):
+    pixels = np.zeros((max(count, 2), 600, 960), np.uint8)
+    video = Video(pixels, range(len(pixels)))
+    image = image_of(html_of(video[0] if count == 1 else video))
+    assert image.shape[:2] == (300 if count == 1 else 150, width)

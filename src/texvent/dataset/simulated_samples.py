@@ -18,7 +18,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.frames import Frame, FrameStream, RenderableStream
 from texvent.pipeline import Simulation
-from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.run.prepare import open_subject, prepare_prompt, prepare_source
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulation.random.draws import frame_key
@@ -237,5 +237,6 @@ class SimulatedSamples(SampleTable):
     def _simulation(self, number: int) -> Simulation:
         settings, source = self._resolve(number), number % self.count
         if self.prompts:
-            return prepare_prompt(self.prompts[source], settings)
+            assets = getattr(settings.source, "assets", None)
+            return prepare_prompt(open_subject(self.prompts[source], assets), settings)
         return prepare_source(self._videos[source], settings)

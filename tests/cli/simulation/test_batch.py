@@ -25,15 +25,6 @@ def recordings(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted(folder.glob("*.h5"))}
 
 
-def test_every_prompt_gets_its_own_file_with_its_own_seed(folder, capsys):
-    (folder / "p.csv").write_text("prompt,name,seed\na red car drives left,,5\na dog runs,dog,\n")
-    assert run("batch", "p.csv", "-o", "out", "--seed", 3, *QUICK) == 0
-    car, dog = (texvent.load(path) for path in sorted((folder / "out").glob("*.h5")))
-    assert (car.metadata["prompt"], car.metadata["seed"]) == ("a red car drives left", 5)
-    assert dog.metadata["prompt"] == "a dog runs"
-    assert (folder / "out" / "dog.h5").exists()
-
-
 def test_a_strict_batch_names_a_row_that_it_refuses_and_makes_nothing(folder, capsys):
     (folder / "p.txt").write_text("a wug and a dog run\na red ball bounces\nqwerty zxcv\n")
     assert run("batch", "p.txt", "-o", "out", "--strict", *QUICK) == 2
@@ -55,14 +46,6 @@ def test_a_batch_keeps_the_report_of_every_prompt_and_counts_them(folder, capsys
     assert "not_understood" not in reports["a red ball bounces"]
     (event_file, _) = sorted((folder / "out").glob("*.h5"))
     assert texvent.load(event_file).metadata["prompt_report"]["scene"]
-
-
-def test_a_sample_can_be_made_alone_with_its_seed(folder, capsys):
-    (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
-    assert run("batch", "p.csv", *QUICK) == 0
-    seed = texvent.load("p/dog.h5").metadata["seed"]
-    assert run("generate", "a dog runs", "-o", "alone.h5", "--seed", seed, *QUICK) == 0
-    assert texvent.load("alone.h5").equals(texvent.load("p/dog.h5"))
 
 
 def test_images_of_a_folder_each_shake_in_their_own_way(folder, capsys):
@@ -150,6 +133,25 @@ def test_the_folder_of_another_version_is_refused_whatever_its_rows_hold(folder,
         (folder / "out" / name).write_text(json.dumps(dict(facts, **{key: None})) + "\n")
     assert run("batch", "v.npy", "-o", "out", *FLAT) == 2
     assert "made with other options: the version of texvent was not set" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("flag", "value"),
+    [
+        *(("palette", "dv"), ("previews", "png"), ("format", "npz"), ("seed", 1)),
+        *(("preset", "paper"), ("contrast-threshold", 0.3), ("sensor", "8x8"), ("stop", 0.1)),
+    ],
+)
+def test_a_batch_made_with_other_options_is_not_gone_on_with(folder, capsys, flag, value):
+    write_video(folder / "v.npy", 0)
+    words = ("batch", "v.npy", "-o", "out", *FLAT)
+    assert run(*words) == 0
+    before = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
+    capsys.readouterr()
+    assert run(*words, f"--{flag}", value) == 2
+    assert f"made with other options: --{flag} was " in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == before
+    assert run(*words) == 0
 
 
 def test_options_of_a_batch_that_made_nothing_may_be_mended(folder, capsys):

@@ -13,7 +13,14 @@ from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.rig.description import IMU_NOISES, ImuNoise
-from texvent_scenes.rig.imu import GRAVITY, ImuSamples, sample_times_us, true_samples, with_noise
+from texvent_scenes.rig.imu import (
+    _BLOCK,
+    GRAVITY,
+    ImuSamples,
+    sample_times_us,
+    true_samples,
+    with_noise,
+)
 from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.staging.compose import compose_scene
 
@@ -175,3 +182,18 @@ def test_across_a_corner_of_the_path_it_leads_to_the_same_pose() -> None:
     samples = true_samples(HandScene(camera_at=camera_at), np.eye(4), sample_times_us(RATE, 10**6))
     place, _ = integrate(samples, np.array([0.0, 0.0, -1.0]))
     np.testing.assert_allclose(place, samples.position[-1], atol=1e-3)
+
+
+def test_noise_goes_on_from_block_to_block_and_differs_by_sensor_and_seed():
+    count = 2 * _BLOCK + 5
+    still = np.zeros((count, 3))
+    samples = ImuSamples(np.arange(count), still, still, still, np.zeros((count, 3, 3)))
+    noise = ImuNoise(1.0, 0.0, 1.0, 0.0)
+    made, other = (with_noise(samples, noise, 1.0, seed) for seed in (1, 2))
+    parts = [one[start : start + 1000, axis]
+             for one in (made.acceleration, made.rate, other.acceleration)
+             for start in (0, _BLOCK, 2 * _BLOCK - 1000) for axis in range(3)]  # fmt: skip
+    correlation = np.corrcoef(parts) - np.eye(len(parts))
+    assert np.abs(correlation).max() < 0.2
+    again = with_noise(samples, noise, 1.0, 1)
+    assert np.array_equal(again.acceleration, made.acceleration)
