@@ -98,13 +98,12 @@ def find_violations(
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
-        is_taken = who in handled
-        if is_taken and one.kind == "in" and has_rim(description.objects[one.targets[0]].noun):
-            kind, is_taken = "down into", False
-        ends = [slice(1), slice(-1, None)] if is_taken else [slice(None)]
+        is_into = one.kind == "in" and has_rim(description.objects[one.targets[0]].noun)
+        kind = "down into" if who in handled and is_into else kind
+        ends = [slice(1), slice(-1, None)] if who in handled and not is_into else [slice(None)]
         if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
             down.append(one.subject)
-            ends = ends[:1] if is_taken else [slice(1)]
+            ends = [slice(1)]
         held = [any(holds(kind, body.cut(when), [each.cut(when) for each in others], at_end=goes_on)
                     for when in ends) for body in own]  # fmt: skip
         if kind == "sent" and not all(

@@ -430,8 +430,10 @@ class ThingReader:
             self._draft.relate(who, "act on", others or [who])
             self._draft.claim(verb, "act on", "", [who], others or [who])
 
-    def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
-        """Leave it to the staged scene whether an object does it."""
+    def _claim_outcome(
+        self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]
+    ) -> None:
+        """Leave it to the staged scene whether an act has its outcome."""
         draft, outcomes = self._draft, read_table("words", "read")["outcomes"]
         if outcome := outcomes.get(act.who, {}).get(act.kind):
             draft.claim(verb, outcome, "", [index])
@@ -440,6 +442,11 @@ class ThingReader:
             draft.claim(verb, "grip", act.relation, [index], objects)
         elif outcome := outcomes["relation"].get(act.relation):
             draft.claim(verb, outcome, "", [index], objects)
+
+    def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
+        """Leave it to the staged scene whether an object does it."""
+        draft = self._draft
+        self._claim_outcome(act, verb, index, objects)
         if act.kind == "swim":
             draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
