@@ -12,10 +12,12 @@ from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import (
     ACTIVITIES,
+    ANIMAL_ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
     PERSON_NOUNS,
     TRAVELLING,
+    motion_of,
 )
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.rendered_scene import Float64Array
@@ -25,6 +27,10 @@ _LEAST_SHARE = 0.03
 """Way of a limb, as a share of the height of the image, from which on an act is seen."""
 _POSTURES = frozenset({"stand", "sit", "lie", "kneel", "crouch", "look", "jump"})
 """Acts that the whole body shows."""
+_OF_LIGHTS = frozenset(
+    one for one in ANIMAL_ACTIVITIES if "signal" in str(motion_of("animal_activities", one))
+)
+"""Acts of lamps, which have no limbs."""
 _ACTS = (ACTIVITIES.keys() | HAND_GESTURES.keys()) - TRAVELLING
 _REST = Pose(0.0, 0.0, 0.0, "stand")
 
@@ -50,7 +56,7 @@ def find_tiny(
         own = [one for one in actors if one.object_index == index]
         able = own[0].noun.acts if own else frozenset()
         able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
-        if not (own and kinds and kinds <= able - _POSTURES):
+        if not (own and kinds and kinds <= able - _POSTURES - _OF_LIGHTS):
             continue
         most = max(_limb_way(one, cameras, times, size) for one in own)
         if most < _LEAST_SHARE * size.height:

@@ -121,6 +121,12 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("close-up of a man at the beach", "beach", True),
         ("close-up of a drone taking off", "close up of", True),
         ("a bus on a city street, rear view", "rear view", True),
+        ("a traffic light shows red", "shows red", True),
+        (
+            "a traffic light changes from green to yellow to red",
+            "changes from green to yellow to red",
+            True,
+        ),
         ("a woman walks through a corridor, filmed from behind", "filmed from behind", True),
         ("a woman feeding a dog on a bench", "feeding", True),
         ("a man on a bench waves to a child", "waves", True),
