@@ -204,9 +204,17 @@ def _list_names(nouns: Iterable[str]) -> str:
 
 def _name_owners(text: str) -> str:
     """A text that says "a car, its headlights" for those of a car."""
-    for pattern, said in _owned():
+    words = {*re.findall(r"[^\W\d_]+", text.casefold())}
+    for pattern, said in _owned() if words & _part_words() else ():
         text = pattern.sub(said, text)
     return text
+
+
+@cache
+def _part_words() -> frozenset[str]:
+    """Words of parts, of several the last."""
+    parts = [one.split()[-1] for one in (*owned_parts(), *word_set("things", "leaves"))]
+    return frozenset((*parts, *(one.removesuffix("s") for one in parts)))
 
 
 def _read_phrase(
