@@ -148,8 +148,6 @@ class Abilities:
                 return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "person" | "animal" if verb.relation == "act on":
                 return self._acts_on(verb, names, objects)
-            case noun if noun in self.nouns:
-                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
             case "walker" | "machine":
@@ -163,6 +161,8 @@ class Abilities:
                 return not has_object and not is_acting
             case "camera":
                 return False
+            case noun if noun in self.nouns:
+                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
         walks = all(map(self.walks, subjects))
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
