@@ -1,7 +1,12 @@
 """What a clip shows of several acts and of a place: each check in unrelated sentences."""
 
+from dataclasses import replace
+
 import pytest
+from tests.scenes.checks.test_placement import SIZE, staged
 from tests.scenes.checks.test_words import check, report, told
+
+from texvent_scenes.checks.limbs import find_tiny
 
 
 @pytest.mark.parametrize(
@@ -175,3 +180,31 @@ def test_what_is_large_in_the_image_is_not_far(text, word, is_shown):
 def test_what_a_body_has_is_not_said_to_be_absent(text, is_shown):
     word = text.split(" ")[-1] if "hat" not in text else "hat"
     check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a dog knocks over a chair", "knocks over", True),
+        ("a man knocks down a stack of boxes", "knocks down", True),
+        ("a cat knocks over a glass on a table", "knocks over", False),  # it stands below
+        ("a robot bumps into a chair and turns around", "turns around", True),
+        ("a man turns to the camera", "turns", True),
+        ("a train leaving the station", "leaving", True),
+        ("a woman enters a shop", "enters", False),  # whose door nobody goes through
+        ("customers stand in line in front of a counter", "in line", True),
+        ("a ship sinks in the sea", "sinks", True),
+        ("a horse rises", "rises", False),
+    ],
+)
+def test_what_an_act_changes_is_seen_to_change(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(("share", "lost"), [(1.0, []), (0.01, ["wave"])])
+def test_an_act_whose_limbs_hardly_move_in_the_image_is_said(share, lost):
+    said, scene = staged("a woman waves in the street")
+    times = [0.0, 0.5, 1.0]
+    cameras = [replace(each, focal=share * each.focal) for each in map(scene.camera, times)]
+    found = find_tiny(said, scene.actors, cameras, times, SIZE)
+    assert [one.value for one in found] == lost
