@@ -433,3 +433,18 @@ def test_copies_that_take_turns_begin_at_different_times(text, count):
     begun = {next(t for t in times if np.abs(one.middle(t) - one.middle(0.0)).max() > 1e-4)
              for one in actors}  # fmt: skip
     assert len(actors) == len(begun) == count
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a black disc with a white line spins", "white-lined disc"),
+     ("a spinning disc with a black dot", "black-dotted disc"),
+     ("a rotating disk with black and white sectors", "spinning disc"),
+     ("a fan with three blades", "three-bladed fan"),
+     ("a two-blade fan at 60 rpm", "two-bladed fan"),
+     ("a spinning fan with a black dot on one blade", "dotted fan"),
+     ("a disc with two white lines", "disc"), ("a fan with a red ribbon", "fan")],
+)  # fmt: skip
+def test_a_mark_makes_a_disc_or_a_fan_one_that_turns_visibly(text, noun):
+    assert staged(text)[0].actors[0].noun.name == noun
+    assert is_right(text) == (noun not in ("disc", "fan"))
