@@ -84,11 +84,12 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
-    marks, words = read_table("words", "read")["marks"], _list_words(phrase.groups[0])
+    marks = read_table("words", "read")["marks"]
+    words = [word for group in phrase.groups[:1] for word in _list_words(group)]
     nouns = {draft.things[one]["noun"] for one in subjects}
     if phrase.preposition.text == "on":
-        is_there = bool(nouns) and nouns <= {*marks["fan"].values()} and len(phrase.groups) == 1
-        is_there &= any(one.text in ("blade", "blades") for one in words)
+        bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
+        is_there = bool(nouns) and any(nouns <= {*one} for one in bears)
         draft.show(*((phrase.preposition, *words) if is_there else ()))
         return is_there
     fields = [one.value for word in words for one in word.all("field")]
