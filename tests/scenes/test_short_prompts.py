@@ -433,3 +433,36 @@ def test_copies_that_take_turns_begin_at_different_times(text, count):
     begun = {next(t for t in times if np.abs(one.middle(t) - one.middle(0.0)).max() > 1e-4)
              for one in actors}  # fmt: skip
     assert len(actors) == len(begun) == count
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a black disc with a white line spins", "white-lined disc"),
+     ("a spinning disc with a black dot", "black-dotted disc"),
+     ("a rotating disk with black and white sectors", "spinning disc"),
+     ("a fan with three blades", "three-bladed fan"),
+     ("a two-blade fan at 60 rpm", "two-bladed fan"),
+     ("a spinning fan with a black dot on one blade", "dotted fan"),
+     ("a disc with two white lines", "disc"), ("a fan with a red ribbon", "fan")],
+)  # fmt: skip
+def test_a_mark_makes_a_disc_or_a_fan_one_that_turns_visibly(text, noun):
+    assert staged(text)[0].actors[0].noun.name == noun
+    assert is_right(text) == (noun not in ("disc", "fan"))
+
+
+@pytest.mark.parametrize(
+    ("text", "activity"),
+    [("a pancake being flipped in a pan", "toss"), ("wood being chopped", "chop wood"),
+     ("dough being kneaded on a table", "knead"), ("a hammer striking a nail", "hammer"),
+     ("a pen writing on white paper", "write"), ("a broom sweeping the floor", "sweep")],
+)  # fmt: skip
+def test_an_act_that_only_a_person_does_brings_one(text, activity):
+    actors = staged(text)[0].actors
+    assert actors[0].track.at(0.0).activity == activity
+    assert is_right(text)
+
+
+def test_a_tool_does_nothing_else_by_itself():
+    actors = [one for text in ("a pen rolls off a table", "a hammer falls", "a broom on a table")
+              for one in staged(text)[0].actors]  # fmt: skip
+    assert {one.noun.name for one in actors} == {"pen", "table", "hammer", "broom"}

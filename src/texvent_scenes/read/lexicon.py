@@ -208,8 +208,27 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
             yield from _with_plurals(phrase, Sense("effect", name))
     for who, table in _PERFORMERS:
         for name, activity in table.items():
-            yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
+            named = (*activity.named, *_list_passives(activity))
+            yield from ((phrase, Sense("pose", (who, name))) for phrase in named)
     yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
+
+
+def _list_passives(activity: Activity) -> Iterator[str]:
+    """Passives of acts, without who does it: "a pancake being flipped"."""
+    for phrase in activity.words:
+        verb, _, rest = phrase.partition(" ")
+        what = " ".join(one for one in rest.split() if one not in word_set("senses", "articles"))
+        written = read_table("words", "read")["irregular"].get(verb, "")
+        if what and not any(one in _PARTICLES for one in what.split()):
+            yield from (f"{what} being {word}" for word, form in list_verb_forms(verb, written)
+                        if form == "ed")  # fmt: skip
+
+
+_PARTICLES = frozenset(
+    {"on", "in", "at", "with", "for", "to", "into", "down", "up", "out", "off", "over", "around",
+     "his", "her", "their"}
+)  # fmt: skip
+"""Words after a verb of an act that is done to nothing, or to a part of oneself."""
 
 
 def _list_words() -> Iterator[tuple[str, Sense]]:

@@ -11,7 +11,7 @@ from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.abilities import MEANS
 from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
@@ -72,12 +72,44 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     if phrase.preposition.text == "with" and draft.names_tool(subjects, words):
         draft.show(phrase.preposition, *words)
         return True
+    if phrase.preposition.text in ("with", "on") and _take_mark(draft, phrase, subjects):
+        return True
     if phrase.preposition.text == "with" and subjects and _are_built_in(draft, phrase, subjects):
         return True
     is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
     if is_so and all(draft.shows(one) for one in words if one.text != "and"):
         draft.show(phrase.preposition)
     return is_so
+
+
+def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
+    marks = read_table("words", "read")["marks"]
+    words = [word for group in phrase.groups[:1] for word in _list_words(group)]
+    nouns = {draft.things[one]["noun"] for one in subjects}
+    if phrase.preposition.text == "on":
+        bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
+        is_there = bool(nouns) and any(nouns <= {*one} for one in bears)
+        draft.show(*((phrase.preposition, *words) if is_there else ()))
+        return is_there
+    fields = [one.value for word in words for one in word.all("field")]
+    said = [f"{value:g}" if field == "count" else str(value) for field, value in fields]
+    names = [f"{each} {word.text}" for word in words for each in said]
+    names += [word.text for word in words]
+    found = {marks[noun][name] for noun in nouns if noun in marks for name in names
+             if name in marks[noun]}  # fmt: skip
+    if len(nouns) != 1 or len(found) != 1 or len(phrase.groups) != 1:
+        return False
+    for thing in (draft.things[index] for index in subjects):
+        if draft.nouns[thing["noun"]].is_working and not draft.nouns[next(iter(found))].is_working:
+            thing["motions"] = thing["motions"] or [{"kind": "spin"}]
+        thing["noun"] = next(iter(found))
+    draft.show(phrase.preposition, *words)
+    is_any = not any(" " in name for noun in nouns for name in names if name in marks[noun])
+    for word in words if is_any else ():
+        for field, value in (one.value for one in word.all("field")):
+            draft.claim(word, "colour", value, subjects if field == "colour" else [])
+    return True
 
 
 def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:

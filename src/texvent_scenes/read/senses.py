@@ -80,8 +80,10 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
     others = {one.value.noun for each in tokens for one in each.all("noun")}
     others |= {one.text for one in tokens}
+    others |= {one.value[1] for each in tokens for one in each.all("pose")}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
-    if row is None or not (senses or token.is_unknown):
+    is_led = token.at > 0 and tokens[token.at - 1].has("articles")  # "a pan", no camera's
+    if row is None or not (senses or token.is_unknown or is_led):
         return token
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
     return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())

@@ -19,6 +19,7 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
@@ -391,6 +392,9 @@ class ThingReader:
         if verb.text in _list_performing():
             done = {draft.things[one].get("deed", "") for one in subjects} - {""}
             acts[:0] = [VerbSense("person", one) for one in done]
+        tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
+        if act := self._act_as_person(tools, subjects, objects, has_object=has_object):
+            return act
         act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
         return act or self._act_as_person(acts, subjects, objects, has_object=has_object)
 
@@ -406,10 +410,12 @@ class ThingReader:
         self, acts: Sequence[VerbSense], subjects: Sequence[int], objects: Sequence[int], *,
         has_object: bool,
     ) -> VerbSense | None:  # fmt: skip
-        """An act of people that hands do, "hands typing": those of a person."""
+        """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
         things = [self._draft.things[one] for one in subjects]
         acts = [one for one in acts if one.who == "person"]
-        if not (things and acts) or not all(one["noun"] in HAND_NOUNS for one in things):
+        if not all(one["noun"] in HAND_NOUNS for one in things):
+            acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
+        if not (things and acts):
             return None
         said = [(one["noun"], one["count"]) for one in things]
         for one in things:
@@ -495,6 +501,12 @@ class ThingReader:
                 thing["blink_hz"] = BLINK_HZ
             else:
                 self._draft.add_effect(verb, act.kind, [index])
+
+
+def _list_tools(activity: str) -> set[str]:
+    """Nouns that a person has in hand in an act."""
+    props = (one for one in list_props(activity) if one.anchor.endswith("hand"))
+    return {noun for prop in props for noun in prop.nouns}
 
 
 def _list_formed(group: Group, head: Token) -> Sequence[Group]:
