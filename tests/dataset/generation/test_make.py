@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from tests.dataset.conftest import CARS
@@ -54,6 +55,24 @@ def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> No
     one, pool, parts = (digests(tmp_path / name) for name in ("one", "pool", "parts"))
     assert one == pool == parts
     assert len(one) == 6
+
+
+def test_simulations_of_a_shaken_photo_see_the_same_film(tmp_path: Path) -> None:
+    image = np.random.default_rng(1).integers(0, 255, (24, 32), np.uint8)
+    cv2.imwrite(str(tmp_path / "a.png"), image)
+    recipe = recipe_of(
+        tmp_path,
+        sources=[{"videos": ["*.png"]}],
+        options={"camera": "shake", "duration": 0.1, "sensor": "16x12", "noise": "none"},
+        splits={"train": 1.0},
+        variants={"paper": {"seeds": 2, "preset": "paper"}},
+    )
+    make(recipe, tmp_path / "out")
+    (shard,) = StoredDataset.open(tmp_path / "out").shards()
+    first, second = (shard.files(sample).events() for sample in shard.samples)
+    assert first.metadata["seed"] != second.metadata["seed"]
+    assert len(first) > 50
+    assert first.equals(second)
 
 
 def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) -> None:
