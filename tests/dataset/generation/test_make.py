@@ -30,6 +30,7 @@ from texvent.dataset.generation.shard_files import (
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
+from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.generation import kept_frames
@@ -184,6 +185,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)
+    assert verify(StoredDataset.open(folder)).is_sound
 
 
 def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
