@@ -41,6 +41,15 @@ def test_motion_is_the_median_and_what_the_fastest_hundredth_exceeds():
     assert found["fast_px"] == pytest.approx(6.0, abs=1.0)
 
 
+@pytest.mark.parametrize("scale", [1, 2, 3])
+def test_motion_counts_where_it_is(scale):
+    still, fast = pan(2, width=320, step=0, blur=6), pan(2, width=80, step=3, blur=6, seed=8)
+    still[:, 40:, 230:310] = fast[:, 40:]  # at the lower right
+    film = still.repeat(scale, axis=1).repeat(scale, axis=2)
+    found = check_source(video_of(film), progress=False).report.measurements
+    assert found["motion_px"] == pytest.approx(3.0 * scale, rel=0.2)
+
+
 def test_motion_does_not_depend_on_linear_light(images):
     light = 255 * (images / 255.0) ** 2.2
     measured = check_source(light, fps=25, transfer="linear", progress=False).report.measurements
