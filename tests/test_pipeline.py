@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.errors import InputError
 from texvent.frames import Frame, Video, frame_time_us
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
-from texvent.pipeline import select_events, video_to_events
+from texvent.pipeline import fit_to_sensor, select_events, video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulation.build import benefits_from_denser_frames
 
@@ -172,6 +173,15 @@ def test_a_live_source_is_read_only_when_its_next_frame_is_asked_for(first_step_
     settings = resolve("simulate", {"interpolate": "none", "preset": "paper"})
     for frame, _ in video_to_events(Live(video.pixels, times_us), settings).steps():
         assert read[-1] == frame.t_us
+
+
+@pytest.mark.parametrize("fit", ["cover", "contain", "stretch"])
+@pytest.mark.parametrize("sensor", ["20x16", "48x40"])
+def test_a_video_that_is_made_is_fitted_as_its_options_say(fit, sensor):
+    video = moving_clip(2)
+    settings = resolve("simulate", {"sensor": sensor, "fit": fit})
+    for frame, fitted in zip(video, fit_to_sensor(video, settings), strict=True):
+        assert np.array_equal(fitted.pixels, fit_pixels(frame.pixels, settings.size, fit))
 
 
 def threads_of_the_pipeline():

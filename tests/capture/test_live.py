@@ -1,3 +1,4 @@
+import contextlib
 import itertools
 import os
 import signal
@@ -113,3 +114,18 @@ def test_a_source_that_does_not_answer_is_named_without_password(address):
         open_frames(address, CaptureConfig())
     assert "secret" not in str(caught.value)
     assert address.split("@")[-1] in str(caught.value)
+
+
+@pytest.mark.parametrize("again", [0, 1, 3])
+def test_frames_without_a_time_of_their_own_are_left_out_and_counted(pipe, clips, again):
+    times = [0, 40_000, *(40_100 + number for number in range(again)), 80_000]
+    frames = [np.full((48, 64, 3), 8 * i, np.uint8) for i in range(len(times))]
+    mjpeg = {"codec": "mjpeg", "stored": "yuvj420p", "ticks": 1_000_000}
+    path = clips.write("b.mkv", frames, times_ms=times, **mjpeg)  # which stores whole ms
+    pipe.fill([path.read_bytes()])
+    stream = open_frames(pipe.path, CaptureConfig())
+    said = pytest.warns(TexventWarning, match="frames are left out from 40000 µs on")
+    with said if again else contextlib.nullcontext():
+        found = [frame.t_us for frame in stream]
+    assert found == [0, 40_000, 80_000]
+    assert stream.metadata["frames_dropped"] == again

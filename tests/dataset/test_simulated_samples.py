@@ -69,16 +69,19 @@ def test_a_sample_depends_on_its_number_alone_and_passes_differ(samples):
     assert len(seeds | {again.seed_of(number) for number in range(50)}) == 52
 
 
-def test_videos_give_the_last_frame_of_each_slice():
+@pytest.mark.parametrize("slice_us", [7_000, 20_000, 30_000, 33_333, 50_000, 99_999, 100_000])
+def test_videos_give_the_last_frame_of_each_slice(slice_us):
     samples = SimulatedSamples(
         videos=[CLIP],
-        slice_us=30_000,
+        slice_us=slice_us,
         targets=["frame"],
         simulation={"fps": 50, "interpolate": "none"},
     )
     sample = samples.make(0)
     # Frames lie at 0, 20, .. 100 ms; a frame at the very end of a slice is its last.
-    np.testing.assert_array_equal(sample["frame"], CLIP[[1, 3, 4]].astype(np.float32))
+    ends = range(slice_us, 100_001, slice_us)
+    assert sample["stop_us"].tolist() == [*ends]
+    np.testing.assert_array_equal(sample["frame"], CLIP[[end // 20_000 for end in ends]])
 
 
 def test_a_folder_stands_for_the_videos_in_it(tmp_path):

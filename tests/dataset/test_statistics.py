@@ -8,11 +8,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.cli.dataset.stored import _print_counts
 from texvent.dataset.generation.dry_run import StageEstimate
 from texvent.dataset.generation.shard_files import (
     FAILED,
+    FILTERED,
     MADE,
     SampleRecord,
     ShardRecord,
@@ -67,19 +70,66 @@ def test_reasons_and_warnings_count_together_and_are_said(copied: Path) -> None:
     ]
 
 
-def test_boxes_and_reports_are_counted_by_hand() -> None:
-    report = PromptReport(not_understood=("wug",)).to_json()
-    sample = SampleRecord(key="a", clip="c", status=MADE, seed=1, tracks=2, prompt_report=report,
-                          boxes={"car": (1, 2, 4)})  # fmt: skip
-    samples = (sample, replace(sample, key="b"), replace(sample, key="d", clip="e", boxes={}))
-    record = ShardRecord(name="train-000000", split="train", variant="v", identity="i", sha256="",
-                         bytes=1, samples=samples, seconds=1.0)  # fmt: skip
-    total = Statistics.of([record])
-    assert (total.boxes, total.tracks, total.without_boxes) == ({"car": 14}, 6, 1)
-    assert total.box_sizes == {"small": 2, "medium": 4, "large": 8}
-    assert total.reports.prompts == 2  # a clip counts once
-    trial = StageEstimate("v", 3, (record, replace(record, samples=samples[:1])), 0.0, 0.0, 0.0)
-    assert (trial.tried, trial.share(MADE), trial.share(FAILED)) == (4, 1.0, 0.0)
+COUNTS = st.tuples(*[st.integers(0, 3)] * 3)
+NAMES = st.sampled_from(["car", "bus"])
+SAMPLES = st.builds(
+    SampleRecord,
+    key=st.just("k"),
+    clip=st.sampled_from("abc"),
+    status=st.sampled_from([MADE, FILTERED, FAILED]),
+    seed=st.just(1),
+    label=st.none() | NAMES,
+    reason=st.sampled_from(["too few", "frame 3 fails", "frame 4 fails"]),
+    warnings=st.lists(st.sampled_from(["1 Hz", "2 Hz", "dark"]), max_size=2).map(tuple),
+    prompt_report=st.none() | st.just(PromptReport(not_understood=("wug",)).to_json()),
+    events=st.integers(0, 9),
+    duration_us=st.sampled_from([0, 1_000_000, 2_000_000]),
+    width=st.sampled_from([32, 64]),
+    height=st.just(24),
+    boxes=st.none() | st.dictionaries(NAMES, COUNTS),
+    tracks=st.integers(0, 3),
+    unboxed=st.lists(st.just("tree"), max_size=1).map(tuple),
+)
+
+
+@given(st.lists(SAMPLES, max_size=8), st.lists(SAMPLES, max_size=8))
+def test_figures_are_counts_of_the_records(first, second):
+    records = [
+        ShardRecord(name=f"train-{at:06d}", split="train", variant="v", identity="i", sha256="",
+                    bytes=7 + at, samples=tuple(samples), seconds=1.5)
+        for at, samples in enumerate((first, second))
+    ]  # fmt: skip
+    samples, of = [*first, *second], Statistics.of(records)
+    made = [one for one in samples if one.status == MADE]
+    boxed = [one for one in made if one.boxes is not None]
+    sizes = [sum(counts[at] for one in boxed for counts in one.boxes.values()) for at in range(3)]
+    told = {one.clip for one in samples if one.prompt_report is not None}
+    lost = {one.clip for one in samples if one.status == FAILED and one.prompt_report is None}
+    tables, trial = of.tables, StageEstimate("v", 3, tuple(records), 0.0, 0.0, 0.0)
+    assert (of.samples, of.left_out, of.failed, of.shards, of.bytes, of.seconds) == (
+        len(made), sum(one.status == FILTERED for one in samples),
+        sum(one.status == FAILED for one in samples), 2, 15, 3.0,
+    )  # fmt: skip
+    assert of.events == [one.events for one in made]
+    assert of.rates == [1e6 * o.events / o.duration_us for o in made if o.duration_us]
+    assert tables["clips"] == len({one.clip for one in made})
+    assert tables["classes"] == dict(sorted(Counter(o.label for o in made if o.label).items()))
+    assert sum(of.sensors.values()) == len(made)
+    assert sum(tables["warnings"].values()) == sum(len(one.warnings) for one in samples)
+    assert sum(tables["reasons"].values()) == len(samples) - len(made)
+    assert (
+        len([one for one in tables["reasons"] if one.startswith("failed: frame")]) <= 1
+    )  # numbers do not count
+    assert [of.box_sizes[name] for name in ("small", "medium", "large")] == sizes
+    assert of.tracks == sum(one.tracks for one in boxed)
+    assert of.unboxed["tree"] == sum(len(one.unboxed) for one in made)
+    if boxed:
+        assert tables["samples_without_boxes"] == sum(not o.boxes for o in boxed) / len(boxed)
+    refused = len(lost - told) if told else 0
+    prompts = (len(told) + refused, refused)
+    assert (tables["prompts"]["prompts"], tables["prompts"]["refused"]) == prompts
+    assert trial.tried == len(samples)
+    assert trial.share(FAILED) * max(len(samples), 1) == pytest.approx(of.failed)
 
 
 def test_quantiles_by_hand() -> None:

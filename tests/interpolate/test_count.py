@@ -12,7 +12,7 @@ from hypothesis.extra import numpy as hnp
 
 from texvent.brightness import balanced_log
 from texvent.frames import Frame
-from texvent.interpolate.count_policy import count_intermediate
+from texvent.interpolate.count_policy import count_for_flicker, count_intermediate
 from texvent.pairs.instants import intermediate_times_us
 
 BLACK = np.zeros((2, 2), np.uint8)
@@ -43,6 +43,13 @@ def test_eq4_equals_its_definition_in_float64(first, second, balance, threshold)
 
 
 times = st.integers(-(2**40), 2**40)
+
+
+@given(times, st.integers(1, 10**7), st.floats(0.01, 1e4), st.integers(0, 99))
+def test_light_that_beats_is_shown_in_twelfths_of_its_period(first_us, interval_us, hz, cap):
+    count = count_for_flicker(first_us, first_us + interval_us, hz, cap=cap)
+    assert count == min(math.ceil(12 * (hz * interval_us / 1e6)) - 1, cap)
+    assert count_for_flicker(first_us, first_us + interval_us, None, cap=cap) == 0
 
 
 @given(times, st.integers(1, 10**7), st.integers(0, 200))

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from tests.examples import examples
 
 from texvent._registry import METRICS
@@ -30,6 +30,9 @@ def _without_weights(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", EVERY_METRIC)
 @given(a=streams(), b=streams())
+@example(a=EventStream.empty(SMALL), b=random_events(1, 9))
+@example(a=random_events(1, 9), b=EventStream.empty(SMALL))
+@example(a=EventStream.empty(SMALL), b=EventStream.empty(SMALL))
 def test_every_metric_equals_its_definition(name, a, b):
     found = describe_metrics()[name](a, b)
     assert found == pytest.approx(slow.DEFINITIONS[name](a, b), rel=1e-6, abs=1e-9, nan_ok=True)

@@ -34,11 +34,20 @@ def test_a_clip_of_twice_the_size_moves_by_twice_the_px(images, times):
 
 
 def test_motion_is_the_median_and_what_the_fastest_hundredth_exceeds():
-    ground, fast = pan(2, width=300, step=1, blur=6), pan(2, width=40, step=6, blur=6, seed=8)
-    ground[:, 30:60, 100:140] = fast[:, 30:60]  # one of 24 pixels
+    ground, fast = pan(2, width=300, step=1), pan(2, width=24, step=6, blur=6, seed=8)
+    ground[:, 40:56, 100:124] = fast[:, 40:56]  # one of 75 pixels
     found = check_source(video_of(ground), progress=False).report.measurements
     assert found["motion_px"] == pytest.approx(1.0, abs=0.2)
     assert found["fast_px"] == pytest.approx(6.0, abs=1.0)
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3])
+def test_motion_counts_where_it_is(scale):
+    still, fast = pan(2, width=320, step=0, blur=6), pan(2, width=80, step=3, blur=6, seed=8)
+    still[:, 40:, 230:310] = fast[:, 40:]  # at the lower right
+    film = still.repeat(scale, axis=1).repeat(scale, axis=2)
+    found = check_source(video_of(film), progress=False).report.measurements
+    assert found["motion_px"] == pytest.approx(3.0 * scale, rel=0.2)
 
 
 def test_motion_does_not_depend_on_linear_light(images):

@@ -58,3 +58,15 @@ def test_facts_that_only_reading_tells_are_in_every_file(tmp_path, stated):
     assert texvent.load(files.events).metadata["source"] == source
     page = files.paths[1].read_text(encoding="utf-8")
     assert all(name in page for name in source)
+
+
+def test_scene_changes_are_told_while_files_are_written(tmp_path):
+    image = np.random.default_rng(1).uniform(30, 110, (40, 48))
+    levels = image * np.array([1, 1, 2.2, 2.2])[:, None, None]
+    video = Video(levels.astype(np.uint8), [0, 10_000, 20_000, 30_000])
+    run, told = video_to_events(video, resolve("simulate", {"interpolate": "blend"})), []
+    write_run(
+        run, RunFiles(tmp_path / "a.h5"), on_step=lambda *step: None,
+        on_scene_change=lambda change, t_us: told.append((change.name, t_us)),
+    )  # fmt: skip
+    assert told == [("FLASH", 20_000)]

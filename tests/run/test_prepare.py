@@ -108,8 +108,14 @@ def test_a_stored_video_keeps_its_rate_unless_a_rate_is_given(tmp_path, prompt):
     path = tmp_path / "v.avi"
     levels = np.random.default_rng(1).random((4, 12, 16, 3), dtype=np.float32)
     write_video(levels, path, Fraction(25), {"prompt": PROMPT}, overwrite=False)
-    for options, step_us in (({}, 40_000), ({"fps": 10}, 100_000), ({"fps": "50"}, 20_000)):
-        run = prepare_source(path, resolve("simulate", options), prompt=prompt)
+    own = {"t_us": [7_000 * number for number in range(4)]}
+    for options, step_us in (
+        *(({}, 40_000), ({"fps": 10}, 100_000), ({"fps": "50"}, 20_000)),
+        (own, 7_000),
+    ):
+        settings = resolve("simulate", {} if options is own else options)
+        given = own if options is own else {}
+        run = prepare_source(path, settings, prompt=prompt, **given)
         assert [frame.t_us for frame in run.video] == [step_us * number for number in range(4)]
 
 

@@ -104,6 +104,7 @@ def test_a_camera_chooses_size_and_preset_by_any_of_its_names(sensor, size, pres
 def test_settings_written_and_read_back_are_the_same(tmp_path):
     settings = resolve("generate", {"fps": "30000/1001", "simulator": "esim", "seed": 4})
     path = tmp_path / "run.toml"
+    assert "device" not in settings.as_tables()["run"]  # it decides no event
     path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
     assert resolve("generate", {}, config=path) == settings
 

@@ -325,3 +325,20 @@ def test_a_folder_of_other_files_is_refused_before_the_source_is_looked_at(run, 
     (tmp_path / "notes.txt").touch()
     with pytest.raises(OutputError, match="the folder holds other files"):
         run("a xyzzy.mp4", truth_folder=tmp_path)
+
+
+def test_the_facts_of_a_folder_say_all_that_a_reader_needs(tmp_path):
+    folder = texvent.save_truth(board_video(), tmp_path / "a.truth", "depth,ids")
+    facts = json.loads((folder / "truth.json").read_text())
+    (number,) = facts["classes"]
+    assert facts == {
+        "format": "texvent truth 1",
+        "parts": ["depth", "ids"],
+        "frames": 6,
+        "width": 80,
+        "height": 60,
+        "time_unit": "us, on the clock of the events",
+        "classes": {number: "box"},
+        "instances": {"3": {"class_id": int(number), "class": "box"}},
+        "run": {"source": dict(board_video().metadata)},
+    }

@@ -151,6 +151,16 @@ def test_both_pictures_show_what_the_sensor_sees(source, tmp_path, query):
         source.end()
 
 
+def test_a_live_source_says_the_time_since_its_first_frame(source, tmp_path):
+    with LiveServer(LiveEvents(source, {"simulator": "esim"}), "camera", tmp_path) as page:
+        ask = open_entry(page.entry)
+        for number in (7, 9):
+            step(page._live, source, number)
+            state = json.load(ask(f"next?drawn_us={10_000 * number - 1}"))
+            assert (state["t_us"], state["source_us"]) == (10_000 * number, 10_000 * (number - 7))
+        source.end()
+
+
 def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source, tmp_path):
     whole = texvent.EventCamera("16x12", simulator="esim")
     expected = [whole.step(frame, 10_000 * number) for number, frame in enumerate(FRAMES)]

@@ -97,6 +97,16 @@ def test_the_text_of_a_scene_file_is_a_scene(page):
     assert generate(page, text.replace("ball", "bal"))[0] == "failed"
 
 
+@pytest.mark.parametrize("video", ["", "clip.mp4"])
+def test_every_field_of_the_form_reaches_its_command(video):
+    both = ["simulator", "preset", "sensor", "seed", "palette"]
+    of_prompts = ["generator", "duration", "frames", "fps"]
+    texts = {name: f"{name}-1" for name in (*both, *of_prompts)} | {"video": video, "prompt": "a"}
+    expected = both if video else both + of_prompts
+    assert sorted(flags_of(texts)) == sorted(f"--{name}={name}-1" for name in expected)
+    assert flags_of({"simulator": "", "video": video}) == []
+
+
 def test_the_flags_of_every_generator_are_its_own(capsys):
     for name, one in list_generators().items():
         length = {one["length"]: str(one["default"])}

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from tests.dataset.conftest import CARS
@@ -29,6 +30,7 @@ from texvent.dataset.generation.shard_files import (
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.dataset.stored.sample_files import events_of, npy_column
+from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.generation import kept_frames
@@ -54,6 +56,24 @@ def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> No
     one, pool, parts = (digests(tmp_path / name) for name in ("one", "pool", "parts"))
     assert one == pool == parts
     assert len(one) == 6
+
+
+def test_simulations_of_a_shaken_photo_see_the_same_film(tmp_path: Path) -> None:
+    image = np.random.default_rng(1).integers(0, 255, (24, 32), np.uint8)
+    cv2.imwrite(str(tmp_path / "a.png"), image)
+    recipe = recipe_of(
+        tmp_path,
+        sources=[{"videos": ["*.png"]}],
+        options={"camera": "shake", "duration": 0.1, "sensor": "16x12", "noise": "none"},
+        splits={"train": 1.0},
+        variants={"paper": {"seeds": 2, "preset": "paper"}},
+    )
+    make(recipe, tmp_path / "out")
+    (shard,) = StoredDataset.open(tmp_path / "out").shards()
+    first, second = (shard.files(sample).events() for sample in shard.samples)
+    assert first.metadata["seed"] != second.metadata["seed"]
+    assert len(first) > 50
+    assert first.equals(second)
 
 
 def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) -> None:
@@ -165,6 +185,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)
+    assert verify(StoredDataset.open(folder)).is_sound
 
 
 def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
