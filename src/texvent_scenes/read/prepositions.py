@@ -246,6 +246,9 @@ def go_to_place(
         for motion in draft.things[index]["motions"][-1:]:
             motion.setdefault("direction", "across")
     names = {one.value for head in heads for one in head.all("place")[:1]}
+    for thing in (draft.things[one] for one in subjects if token.text == "on"):
+        is_flyer = draft.nouns[thing["noun"]].habitat == "air" and not names & _WATERS
+        thing["motions"] = thing["motions"] or [{"kind": "stand"}] * is_flyer  # "on a runway"
     on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
     is_in = on_foot and token.text in ("through", "in", "into")
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
@@ -295,6 +298,8 @@ def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
 def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
     """Relation of what is with something to it: "a horse with a rider", "a tray with glasses"."""
     bearer, first = draft.things[index]["noun"], draft.things[targets[0]]["noun"]
+    if bearer in nouns_with("see-through"):
+        return "in"
     if all(map(draft.walks, targets)):
         is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
         return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
