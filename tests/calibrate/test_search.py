@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.search import COORDINATES, STEPS, Candidate, Distance, Search
+from texvent.calibrate.uncertainty import FARTHEST, _judge_option, cut_blocks
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -72,3 +73,27 @@ def test_of_all_thresholds_that_are_tried_the_nearest_stay(seed, threshold, rati
     last = search.measured[-1][1]
     assert last.contrast_threshold_on == pytest.approx(0.2, rel=0.01)
     assert last.contrast_threshold_off == pytest.approx(0.3, rel=0.01)
+
+
+class Coupled(Bowl):
+    """A search whose threshold goes with a power of an option, where counts are matched."""
+
+    def match_counts(self, config):
+        shift = getattr(config, self.name) / getattr(TRUTH, self.name)
+        threshold = TRUTH.contrast_threshold * shift**self.power
+        return super().match_counts(dataclasses.replace(config, contrast_threshold=threshold))
+
+    def simulate(self, config):
+        return EventStream.empty(SensorSize(2, 2))
+
+
+@given(name=st.sampled_from(list(COORDINATES)), power=st.floats(-1.0, 1.0))
+def test_how_the_threshold_goes_with_an_option_is_its_power(name, power):
+    search = Coupled({}, ())
+    search.name, search.power = name, power
+    nothing, blocks = EventStream.empty(SensorSize(2, 2)), cut_blocks(TimeSpan(0, 100_000))
+    option = _judge_option(search, nothing, blocks, TRUTH, name)
+    assert option.slopes == pytest.approx([power, 0.0], abs=1e-9)
+    assert option.is_unknown  # nothing tells it
+    reach = abs(power) * FARTHEST
+    assert option.threshold_ends()[:, 0] == pytest.approx([-reach, reach])

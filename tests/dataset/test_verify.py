@@ -45,6 +45,10 @@ def test_a_sound_set_is_sound(cars: Path) -> None:
     assert not findings.notes
     total = DatasetStatistics.of(StoredDataset.open(cars)).total
     assert (findings.shards, findings.samples, findings.events) == (4, 9, sum(total.events))
+    for shard in StoredDataset.open(cars).shards():
+        for sample in shard.samples:
+            number = ("bus", "car").index(sample.label or "")
+            assert shard.files(sample).read(("cls",)) == {"cls": str(number).encode()}
 
 
 def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path: Path) -> None:

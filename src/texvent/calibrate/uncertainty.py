@@ -127,6 +127,8 @@ def _judge_option(
         distances[row] = _block_distances(search.simulate(config), truth, blocks)
         thresholds.append(np.log([config.contrast_threshold, config.on_off_ratio]))
     slopes = (thresholds[2] - thresholds[0]) / (2 * math.log(FACTOR))
+    if (distances == distances[1]).all():  # it has no effect here
+        return OptionInterval(-math.inf, math.inf, slopes)
     shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))
     low, high = shifts[:, 0].tolist()
     return OptionInterval(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 
 import numpy as np
@@ -9,8 +10,10 @@ import pytest
 
 from texvent.dataset.generation.make_sample import (
     SampleRun,
+    SimulatedClip,
     npy_bytes,
     preview_png,
+    sample_members,
     simulate_sample,
 )
 from texvent.dataset.specification.specification import Filters
@@ -65,3 +68,19 @@ def test_the_picture_of_a_clip_has_its_busiest_50_ms_and_the_boxes_at_their_end(
     picture = preview_png(events, truth_of(times_us, *times_us))
     assert picture == preview_png(events, truth_of(times_us, end_us))
     assert picture != preview_png(events, truth_of(times_us, end_us - 3 * STEP_US))
+
+
+@pytest.mark.parametrize("began_us", [0, -5, 2**32])
+def test_members_of_a_sample_have_the_names_and_types_that_loaders_know(began_us):
+    t = began_us + np.arange(9)
+    events = EventStream(t % 4, t % 3, t, t % 2, SensorSize(4, 3))
+    clip, facts = SimulatedClip(events, began_us, 9, 9), {"prompt": "a red bus", "seed": 3}
+    members = sample_members(clip, facts, class_number=7, preview=False)
+    columns = {name: np.load(io.BytesIO(members[f"{name}.npy"])) for name in "xytp"}
+    assert list(members) == ["x.npy", "y.npy", "t.npy", "p.npy", "json", "txt", "cls"]
+    times = np.uint32 if began_us == 0 else np.int64
+    assert [one.dtype for one in columns.values()] == [np.uint16, np.uint16, times, np.uint8]
+    assert all(np.array_equal(one, getattr(events, name)) for name, one in columns.items())
+    assert (members["txt"], members["cls"]) == (b"a red bus", b"7")
+    assert json.loads(members["json"]) == facts
+    assert "cls" not in sample_members(clip, facts, class_number=None, preview=False)
