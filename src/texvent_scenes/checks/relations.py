@@ -82,7 +82,7 @@ def find_violations(
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
     queues = {one.subject for one in description.claims
               if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
-    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
+    down = _list_knocked(description)
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -96,7 +96,6 @@ def find_violations(
             continue
         goes_on = len(description.objects[one.subject].motions) > 1
         if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
-            down.append(one.subject)
             own, others = ([body.cut(slice(1)) for body in each] for each in (own, others))
         held = [holds(kind, body, others, at_end=goes_on) for body in own]
         if kind == "sent" and not all(
@@ -124,6 +123,15 @@ def find_violations(
         if own and motion and not any(goes_so(one, motion) for one in own):
             line = f"{names[index]} going {motion.direction}"
             yield Violation("direction", str(motion.direction), line)
+
+
+def _list_knocked(description: SceneDescription) -> list[int]:
+    """Objects that are knocked over, and those that stand on them."""
+    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
+    for index in down:
+        down += [one.subject for one in description.relations if one.kind == "on"
+                 and index in one.targets and one.subject not in down]  # fmt: skip
+    return down
 
 
 def goes_so(body: BodyBoxes, motion: Motion) -> bool:

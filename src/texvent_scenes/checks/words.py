@@ -30,6 +30,7 @@ from texvent_scenes.checks.acts import (
     is_laid,
     keeps_to_ground,
     lands,
+    moves,
     repeats,
     returns,
     rises_from,
@@ -69,6 +70,7 @@ _DONE = (
     "stop",
     "land",
     "descend",
+    "move",
     "tip",
     "turn",
 )
@@ -253,6 +255,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns, "sit at": _sits_at,
+    "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips, "turn": turns,
+    "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""
