@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent_scenes.checks.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED, TRAVELLING
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.environment import is_afloat
@@ -260,6 +260,16 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
     """Whether it is no higher than long at the end: a glass that lies."""
     sizes = [one.size[-1] for one in staged.own_boxes(claim)]
     return all(each[2] < max(each[:2]) for each in sizes)
+
+
+def moves(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it leaves its place, or is on foot where it is: on a treadmill."""
+    for one in staged.own(claim):
+        places = np.array([one.middle(at) for at in staged.times])
+        does = {one.track.at(at).activity.split()[0] for at in staged.times}
+        if np.ptp(places, axis=0).max() < _GROUNDED * one.size_m and not does & TRAVELLING:
+            return False
+    return True
 
 
 def turns(staged: StagedClip, claim: Claim) -> bool:

@@ -54,7 +54,7 @@ def find_tiny(
     for index, said in enumerate(description.objects):
         kinds = {one.kind for one in said.motions}
         own = [one for one in actors if one.object_index == index]
-        able = own[0].noun.acts if own else frozenset()
+        able = own[0].noun.acts if own and own[0].noun.speed_m_s > 0.0 else frozenset()
         able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
         if not (own and kinds and kinds <= able - _POSTURES - _OF_LIGHTS):
             continue

@@ -84,8 +84,7 @@ def find_violations(
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
     queues = {one.subject for one in description.claims
               if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
-    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
-    handled = _list_handled(description)
+    down, handled = _list_knocked(description), _list_handled(description)
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -102,7 +101,6 @@ def find_violations(
         kind = "down into" if who in handled and is_into else kind
         ends = [slice(1), slice(-1, None)] if who in handled and not is_into else [slice(None)]
         if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
-            down.append(one.subject)
             ends = [slice(1)]
         held = [any(holds(kind, body.cut(when), [each.cut(when) for each in others], at_end=goes_on)
                     for when in ends) for body in own]  # fmt: skip
@@ -131,6 +129,15 @@ def find_violations(
         if own and motion and not any(goes_so(one, motion) for one in own):
             line = f"{names[index]} going {motion.direction}"
             yield Violation("direction", str(motion.direction), line)
+
+
+def _list_knocked(description: SceneDescription) -> list[int]:
+    """Objects that are knocked over, and those that stand on them."""
+    down = [one.targets[0] for one in description.relations if one.kind == "knock over"]
+    for index in down:
+        down += [one.subject for one in description.relations if one.kind == "on"
+                 and index in one.targets and one.subject not in down]  # fmt: skip
+    return down
 
 
 def goes_so(body: BodyBoxes, motion: Motion) -> bool:

@@ -30,6 +30,7 @@ from texvent_scenes.checks.acts import (
     is_laid,
     keeps_to_ground,
     lands,
+    moves,
     repeats,
     returns,
     rises_from,
@@ -71,6 +72,7 @@ _DONE = (
     "stop",
     "land",
     "descend",
+    "move",
     "tip",
     "turn",
 )
@@ -255,7 +257,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "camera out": comes_out,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
-    "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "tip": tips, "turn": turns,
+    "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
+    "turn": turns,
     "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""
