@@ -220,3 +220,14 @@ def test_each_door_says_what_the_function_warns_of(door, place, capsys):
     said = [str(one.message) for one in told] + capsys.readouterr().err.splitlines()
     for one in warned:
         assert any(str(one.message)[:60] in line for line in said), said
+
+
+@pytest.mark.parametrize("assets", [None, "wugs"])
+def test_a_written_scene_has_the_models_of_the_user(assets, place, capsys):
+    given = [] if assets is None else ["--assets", assets]
+    words = ("generate", "a wug and a red bus drive left", "--write-scene", "a.toml", *given)
+    assert run(*words) == 0
+    scene = Path("a.toml").read_text()
+    is_known = assets is not None
+    assert ('noun = "wug"' in scene) is is_known
+    assert ("not understood: wug" in capsys.readouterr().err) is not is_known
