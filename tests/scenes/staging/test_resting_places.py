@@ -38,6 +38,27 @@ def test_what_hangs_on_a_wall_is_on_its_face_and_not_on_its_top(text):
     assert lost_relations(said, scene, moved(scene, hung[-1], (0, 0, tall))) == ["on"]
 
 
+@pytest.mark.parametrize(
+    ("text", "place", "tall_m", "does"),
+    [
+        ("a man stands in front of a wall in an office", "office", (2.5, 2.9), "stand"),
+        ("a man stands in front of a brick wall in an office", "office", (1.0, 1.8), "stand"),
+        ("a baby in a chair", "indoor", None, "sit"),
+        ("an old man feeding pigeons on a bench", "grass", None, "feed"),
+        ("a paper boat floats on a puddle", "grass", None, "sway"),
+        ("a rainbow over green hills", "grass", None, None),
+        ("a plane on a runway", "runway", None, "stand"),
+        ("an office chair rolls across the floor", "indoor", None, "slide"),
+    ],
+)
+def test_things_are_where_and_as_they_usually_are(text, place, tall_m, does):
+    said, scene = staged(text)
+    assert said.place.name == place
+    assert does in (None, said.objects[0].motions[0].kind)
+    if tall_m is not None:
+        assert tall_m[0] < scene.actors[-1].model.height < tall_m[1]
+
+
 @pytest.mark.parametrize("text", ["a cat on a brick wall", "a bird sits on a wall"])
 def test_animals_are_on_top_of_a_wall(text):
     one, wall = staged(text)[1].actors
