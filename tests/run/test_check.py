@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from fractions import Fraction
 from itertools import islice
 
+import cv2
 import pytest
 from tests.video_check.made_clips import frames, pan
 
@@ -85,3 +87,14 @@ def test_two_frames_are_enough_and_one_is_refused(images):
     assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
     with pytest.raises(texvent.InputError, match="only one frame"):
         check_source([images[0]], fps=25, progress=False)
+
+
+@pytest.mark.parametrize("lacking", [(), (3,), (2, 4)])
+def test_images_that_are_missing_are_found(images, tmp_path, lacking):
+    for number in {*range(8)} - {*lacking}:
+        cv2.imwrite(str(tmp_path / f"{number}.png"), images[number])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        report = check_source(tmp_path, fps=25, progress=False).report
+    assert report.measurements["missing"] == bool(lacking)
+    assert any("missing" in name for name in (*report.problems, *report.remarks)) is bool(lacking)
