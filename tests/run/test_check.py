@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import islice
 
 import cv2
+import numpy as np
 import pytest
 from tests.video_check.made_clips import frames, pan
 
@@ -98,3 +99,10 @@ def test_images_that_are_missing_are_found(images, tmp_path, lacking):
         report = check_source(tmp_path, fps=25, progress=False).report
     assert report.measurements["missing"] == bool(lacking)
     assert any("missing" in name for name in (*report.problems, *report.remarks)) is bool(lacking)
+
+
+def test_a_cut_is_no_motion(images):
+    both = np.stack([images[0], images[40][::-1, ::-1]])
+    found = check_source(video_of(both), progress=False)
+    assert found.cut_times_us == (40_000,)
+    assert found.report.measurements["motion_px"] == found.report.measurements["fast_px"] == 0
