@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from fractions import Fraction
 from itertools import islice
 
+import cv2
+import numpy as np
 import pytest
 from tests.video_check.made_clips import frames, pan
 
@@ -85,3 +88,21 @@ def test_two_frames_are_enough_and_one_is_refused(images):
     assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
     with pytest.raises(texvent.InputError, match="only one frame"):
         check_source([images[0]], fps=25, progress=False)
+
+
+@pytest.mark.parametrize("lacking", [(), (3,), (2, 4)])
+def test_images_that_are_missing_are_found(images, tmp_path, lacking):
+    for number in {*range(8)} - {*lacking}:
+        cv2.imwrite(str(tmp_path / f"{number}.png"), images[number])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        report = check_source(tmp_path, fps=25, progress=False).report
+    assert report.measurements["missing"] == bool(lacking)
+    assert any("missing" in name for name in (*report.problems, *report.remarks)) is bool(lacking)
+
+
+def test_a_cut_is_no_motion(images):
+    both = np.stack([images[0], images[40][::-1, ::-1]])
+    found = check_source(video_of(both), progress=False)
+    assert found.cut_times_us == (40_000,)
+    assert found.report.measurements["motion_px"] == found.report.measurements["fast_px"] == 0

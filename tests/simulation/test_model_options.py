@@ -101,3 +101,12 @@ def test_mismatch_of_on_and_off_is_independent():
     assert pair.mean(axis=1) == pytest.approx([0.2, 0.3], abs=5 * 0.03 / math.sqrt(4800))
     assert pair.std(axis=1) == pytest.approx([0.03, 0.03], rel=5 / math.sqrt(9600))
     assert abs(np.corrcoef(pair)[0, 1]) < 5 / math.sqrt(4800)
+
+
+@pytest.mark.parametrize("recipe", ["stoffregen", "v2v"])
+def test_what_is_drawn_for_a_clip_is_drawn_apart(recipe):
+    drawn = [draw_training_config(PhysicalConfig(), recipe, seed=seed) for seed in range(300)]
+    names = ("contrast_threshold", "on_off_ratio", *(n for n in NOISE if hasattr(drawn[0], n)))
+    ranks = [np.argsort(np.argsort([getattr(one, name) for one in drawn])) for name in names]
+    apart = np.corrcoef(ranks) - np.eye(len(names))
+    assert np.abs(apart).max() < 0.25
