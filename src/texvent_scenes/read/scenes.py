@@ -246,6 +246,7 @@ class _SentenceReader(ThingReader):
                     row |= {"kind": "behind" if is_swing else "push", "to": to}
                     if is_swing and self._verb is not None:
                         draft.mark(self._verb, "lost")
+                        draft.claims.pop(self._verb.at, None)
 
     def _space(self, preposition: Token, subjects: Sequence[int]) -> None:
         """Apply the distance before a preposition: "2 m behind a car"."""
