@@ -1,3 +1,4 @@
+from contextlib import nullcontext
 from fractions import Fraction
 
 import numpy as np
@@ -84,3 +85,15 @@ def test_wrong_times_are_refused(t_us, message):
 def test_one_colour_image_that_reads_as_slender_frames_is_said():
     with pytest.warns(TexventWarning, match=r"as 40 frames of 3x32; if the last axis is colour"):
         open_frames(np.full((40, 32, 3), 90, np.uint8), AT_100)
+
+
+@pytest.mark.parametrize("kind", ["array", "list", "generator", "file"])
+@pytest.mark.parametrize("more", [-1, 0, 1])
+def test_there_is_a_time_for_every_frame_and_no_other(tmp_path, kind, more):
+    frames = np.random.default_rng(1).integers(0, 255, (4, 6, 8)).astype(np.uint8)
+    np.save(tmp_path / "a.npy", frames)
+    forms = {"array": frames, "list": list(frames), "generator": iter(list(frames))}
+    t_us = [10_000 * number for number in range(4 + more)]
+    with pytest.raises(InputError, match="time per frame") if more else nullcontext():
+        stream = open_frames(forms.get(kind, tmp_path / "a.npy"), CaptureConfig(), t_us=t_us)
+        assert [frame.t_us for frame in stream] == t_us

@@ -33,6 +33,7 @@ def _without_weights(tmp_path, monkeypatch):
 @example(a=EventStream.empty(SMALL), b=random_events(1, 9))
 @example(a=random_events(1, 9), b=EventStream.empty(SMALL))
 @example(a=EventStream.empty(SMALL), b=EventStream.empty(SMALL))
+@example(a=EventStream([0], [0], [100_000], [1], SMALL), b=EventStream([1], [0], [0], [1], SMALL))
 def test_every_metric_equals_its_definition(name, a, b):
     found = describe_metrics()[name](a, b)
     assert found == pytest.approx(slow.DEFINITIONS[name](a, b), rel=1e-6, abs=1e-9, nan_ok=True)
