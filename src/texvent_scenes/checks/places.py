@@ -24,6 +24,8 @@ _LEAST_SKY = 0.02
 _LEVEL_M, _WAVES_M, _ROUNDING, _LEAST_SHARE, _LEAST_SHORE = 0.05, 0.4, 1e-3, 0.005, 0.03
 """Height up to which a point is of the ground, and of ground with waves, m, and more per metre of
 distance; least shares of an image that the ground takes, and the land or water of a shore."""
+_REACH_M, _SIDES = 5.0, ((0, 0, 0), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0))
+"""Reach of a crossing or a roundabout, m, of which most must be seen, and the sides of it."""
 _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
@@ -48,8 +50,8 @@ def find_unseen_place(
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
     crossings = scene.animated_environment.base.road_crossings
-    points = np.array([(x, y, 0.0) for x, y, *_ in crossings]).reshape(-1, 3)
-    if said.road and not any(is_any_inside(points, one, _SIZE) for one in cameras):
+    areas = [np.array([x, y, 0.0]) + _REACH_M * np.array(_SIDES) for x, y, *_ in crossings]
+    if said.road and not any(_is_mostly_inside(each, one) for each in areas for one in cameras):
         yield Violation("road", "", f"the {said.road}: it is out of view")
     wide_m = scene.camera_path.corridor_m
     if wide_m is not None and wide_m > _WIDE * scene.place.corridor_m:
@@ -65,6 +67,11 @@ def find_unseen_place(
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+
+
+def _is_mostly_inside(points: Float64Array, camera: PosedCamera) -> bool:
+    """Whether most of some points, [n, 3] m, are in the image."""
+    return sum(is_any_inside(one[None], camera, _SIZE) for one in points) > 0.5 * len(points)
 
 
 def find_near(

@@ -14,7 +14,7 @@ from texvent_scenes.models.tables import nouns_with, read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
 from texvent_scenes.read.lexicon import deeds, word_set
 from texvent_scenes.read.tokens import NO_TOKEN
-from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
 
@@ -52,6 +52,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _choose_gender(draft)
     _do_deeds(draft)
     _hang_up(draft)
+    _lead_round(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
@@ -123,6 +124,16 @@ def _do_deeds(draft: SceneDraft) -> None:
             if deeds().get(token.text) == deed:
                 draft.fates[token.at] = "shown"
                 draft.claim(token, "activity", deed, [index])
+
+
+def _lead_round(draft: SceneDraft) -> None:
+    """Have what goes in circles do so on the ring there is: "a roundabout with cars circling"."""
+    rings = [n for n, one in enumerate(draft.things) if one["noun"] in trait_values("circled on")]
+    for index, one in enumerate(draft.things if rings else ()):
+        kinds = [each["kind"] for each in one["motions"]]
+        told = {each["kind"] for each in one["relations"]} & (PLACING | {"around"})
+        if kinds == ["orbit"] and not told:
+            draft.relate(index, "around", rings[:1])
 
 
 def _limit_counts(draft: SceneDraft) -> None:

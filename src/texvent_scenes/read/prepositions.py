@@ -45,6 +45,8 @@ SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
 """Motions of who is on a seat or on the ground."""
 _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
+_ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
+"""Relations to a ring that those who go have along it."""
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -314,6 +316,13 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
+    if kind == "with" and thing["noun"] in trait_values("circled on"):
+        return all(
+            [
+                draft.relate(one, _choose_relation(draft, "on", one, index), [index])
+                for one in targets
+            ]
+        )
     if kind == "with":
         if borne := _bear(draft, index, targets):
             return all([draft.relate(one, borne, [index]) for one in targets])
@@ -497,7 +506,7 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return kind if draft.can_go(index) else "on"
     if noun in word_set("things", "worn") and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
-    if noun in trait_values("circled on") and kind in ("on", "past") and draft.can_go(index):
+    if noun in trait_values("circled on") and kind in _ROUND and draft.can_go(index):
         thing["motions"] = thing["motions"] or [{"kind": "orbit"}]
         return "around"
     acts = {one["kind"] for one in thing["relations"]}
