@@ -152,7 +152,7 @@ def _owned() -> tuple[tuple[re.Pattern[str], str], ...]:
     owners = "|".join(sorted({noun for one in owned_parts().values() for noun in one}))
     rows = (
         (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
-        (rf"\b({owners}) ({bare})\b", r"\1, its \2"),
+        (rf"\b({owners}) ({bare})\b(?! and\b)", r"\1, its \2"),
         (rf"\b(?:the )?((?:\w+ )?(?:{parts})) of ((?:an?|the|his|her) )?({owners})\b",
          r"\2\3, its \1"),
         (rf"\b({numbers}|\d+)[- ]({many}) ({owners})\b", r"\3 with \1 \2s"),

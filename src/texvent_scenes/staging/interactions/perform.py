@@ -46,6 +46,8 @@ _ASIDE_DEG = (-20.0, 200.0)
 """Headings of who points at something: to the right or left, and a little to the camera."""
 _SAME_WAY = ("follow", "overtake", "with")
 """Relations of two that go the same way, which one of them may say."""
+_BEFORE = 0.6
+"""Share of the clip in which who turns afterwards runs against something."""
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
 """Motions of people that leave it open whether they ride."""
 
@@ -186,7 +188,9 @@ def _at_its_pace(said: SceneObject) -> SceneObject:
     """Body that collides, of whose motion the speed is left: how it moves, the act decides."""
     motion = said.motion or STANDING
     kept = replace(STANDING, pace=motion.pace, speed_m_s=motion.speed_m_s)
-    return replace(said, motions=() if kept == STANDING else (kept,))
+    later = tuple(one for one in said.motions if one.kind == "turn")[:1]
+    first = () if kept == STANDING and not later else (kept,)
+    return replace(said, motions=(*first, *later))
 
 
 def _mounted(
@@ -265,19 +269,18 @@ def perform_acts(
     _turn_to_goals(cast, description.relations)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
-        _perform(cast, relation, description, duration_s)
+        said = description.objects[relation.subject].motions
+        turns = relation.kind == "collide" and any(one.kind == "turn" for one in said)
+        _perform(cast, relation, description, (_BEFORE if turns else 1.0) * duration_s)
+    met = {one.subject for one in acts if one.kind == "collide"}
+    for number in [number for number, one in cast.items() if one.object_index in met]:
+        said = description.objects[cast[number].object_index].motions
+        cast[number] = striking.turn_away(cast[number], said)
     sent = {one.subject: one for one in acts if one.kind in SENT}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
-    for each in description.relations:
-        seats = [n for n, one in cast.items() if one.object_index in each.targets]
-        riders = [n for n, one in cast.items() if one.object_index == each.subject]
-        places = itertools.cycle(seats)  # as `relations._line_up` shares them out
-        for rider, below in zip(riders, places, strict=False) if each.kind == "on" else ():
-            is_swing = cast[below].noun.name in nouns_with("swings")
-            if is_swing and cast[rider].noun.name in PERSON_NOUNS:
-                _swing_along(cast, rider, below)
+    _swing_riders(cast, description.relations)
     for person in list(cast.values()):
         nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
@@ -320,6 +323,18 @@ def _send_to(
             cast[thing], cast[goals[0]] = striking.deliver(
                 cast[thing], wall, duration_s, is_thrown=act.kind == "throw"
             )
+
+
+def _swing_riders(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
+    """Let people go with the seats that they swing on."""
+    for each in relations:
+        seats = [n for n, one in cast.items() if one.object_index in each.targets]
+        riders = [n for n, one in cast.items() if one.object_index == each.subject]
+        places = itertools.cycle(seats)  # as `relations._line_up` shares them out
+        for rider, below in zip(riders, places, strict=False) if each.kind == "on" else ():
+            is_swing = cast[below].noun.name in nouns_with("swings")
+            if is_swing and cast[rider].noun.name in PERSON_NOUNS:
+                _swing_along(cast, rider, below)
 
 
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:

@@ -7,7 +7,7 @@ that touches the thing then, and lets the thing fly from there; or two bodies ru
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
@@ -18,6 +18,7 @@ import numpy as np
 from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.shapes import bounds, moved, point, shift
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.holding import (
     held_at,
@@ -299,6 +300,10 @@ def deliver(
 
 _STEP_S, _KEPT = 1e-3, 0.6
 """Half of the time over which a speed is measured; share of a speed after a wall."""
+_TURNED = {"left": 0.5 * math.pi, "right": -0.5 * math.pi, "around": math.pi}
+"""Direction of a turn after a contact → its angle, rad."""
+_TURN_S, _PAUSE_S, _START_S = 0.6, 0.15, 0.3
+"""Times of that turn, before it, and until it goes again, s."""
 _RAISED_M, _LEAST_ROOM_M = 0.02, 0.02
 """Height from which on a body stands on another one; the least way to a contact there, m."""
 
@@ -318,6 +323,22 @@ def _run_together(subject: Actor, other: Actor, contact_s: float) -> tuple[Actor
         touching = ahead((x, y, home[2]), yaw, -0.5 * actor.model.length, home[2])
         met.append(moving(actor, _run_up(actor, touching, yaw, contact_s)))
     return met[0], met[1]
+
+
+def turn_away(actor: Actor, said: Sequence[Motion]) -> Actor:
+    """Who has run against something and then turns, and goes on: round, or to a side."""
+    turn = next((one for one in said if one.kind == "turn"), None)
+    if turn is None:
+        return actor
+    angle = _TURNED.get(turn.direction or "left", math.pi)
+    *keys, _ = actor.track.keys
+    speed = max(abs(key.speed_m_s) for key in keys)
+    keys = [replace(key, duration_s=min(key.duration_s, _PAUSE_S)) if not key.speed_m_s else key
+            for key in keys]  # fmt: skip
+    turning = Key(_TURN_S, 0.0, turn_rad_s=angle / _TURN_S, ramp_s=0.0)
+    ahead_again = Key(_PAUSE_S, ramp_s=0.0), Key(_START_S, speed, ramp_s=_START_S)
+    track = replace(actor.track, keys=(*keys, turning, *ahead_again))
+    return replace(actor, track=track)
 
 
 def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
