@@ -54,6 +54,8 @@ class ThingReader:
         self._nouns = nouns
         self._nearest: list[int] = []
         """Objects of the last noun group."""
+        self._is_then = False
+        """Whether it happens after what was said before: "then"."""
         self._goes_on = False
         """Whether it happens while all that was said of its subjects before."""
 
@@ -158,6 +160,10 @@ class ThingReader:
                 draft.mark(head, noun.noun)
         else:
             who, activity = head.all("pose")[0].value
+            same = [n for n, one in enumerate(draft.things) if self._is_then and one["noun"] == who]
+            if same:  # "thumbs up, then thumbs down"
+                add_motion(draft.things[same[-1]], VerbSense(who, activity))
+                return same[-1:]
             thing = {"noun": who, "motions": [{"kind": activity}]}
         many = trait_value("bodies of a plural", thing["noun"]) or PLURAL_COUNT
         count = many if group.is_plural else 1
