@@ -92,7 +92,7 @@ class ThingReader:
         if head is not None and names_place(head, relation) and not is_trajectory(group):
             self._draft.set_place(group, head, relation)
         elif head is not None and head.has("noun", "pose"):
-            found = self._name_thing(group, head)
+            found = self._pose_again(head) or self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
             for token in group.unknown if relation not in ("", "with") else ():
                 if names_place(token, relation):  # "in a city centre"
@@ -160,10 +160,6 @@ class ThingReader:
                 draft.mark(head, noun.noun)
         else:
             who, activity = head.all("pose")[0].value
-            same = [n for n, one in enumerate(draft.things) if self._is_then and one["noun"] == who]
-            if same:  # "thumbs up, then thumbs down"
-                add_motion(draft.things[same[-1]], VerbSense(who, activity))
-                return same[-1:]
             thing = {"noun": who, "motions": [{"kind": activity}]}
         many = trait_value("bodies of a plural", thing["noun"]) or PLURAL_COUNT
         count = many if group.is_plural else 1
@@ -182,6 +178,17 @@ class ThingReader:
             draft.stack(index)
         self._nearest = [index]
         return [index]
+
+    def _pose_again(self, head: Token) -> list[int]:
+        """Let who is there do what follows: "thumbs up, then thumbs down"."""
+        if not self._is_then or head.has("noun"):
+            return []
+        who, activity = head.all("pose")[0].value
+        same = [n for n, one in enumerate(self._draft.things) if one["noun"] == who][-1:]
+        for index in same:
+            self._draft.show(head)
+            add_motion(self._draft.things[index], VerbSense(who, activity))
+        return same
 
     def _name_members(
         self, group: Group, head: Token, members: Sequence[tuple[str, int]]
