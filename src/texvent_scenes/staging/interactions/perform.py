@@ -20,7 +20,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.interactions import handling, holding, machines, striking
+from texvent_scenes.staging.interactions import handling, holding, machines, rally, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.interactions.sending import send_into
 from texvent_scenes.staging.placement.zones import are_driven
@@ -34,6 +34,7 @@ ACTS: Mapping[str, _Act] = {
     "ride": lambda who, what, *_: holding.board(who, what),
     **{kind: partial(striking.strike, kind) for kind in striking.IMPACTS},
     "move over": partial(striking.strike, "lift"),
+    "rally": lambda who, what, *_: (who, what),
     "act on": lambda who, what, _, number: handling.handle(who, what, number),
     "hold": lambda who, what, *_: holding.hold(who, what),
     "wear": lambda who, what, *_: holding.wear(who, what),
@@ -357,6 +358,9 @@ def _perform(
     duration_s: float,
 ) -> None:  # fmt: skip
     """An act of each subject on a target of its own."""
+    if relation.kind == "rally":
+        said = description.objects[relation.subject].motions
+        return rally.play(cast, relation, said[0].kind if said else "net rally")
     if machines.grips(description.objects[relation.subject].noun, relation.kind):
         return machines.perform_grip(cast, relation, description, duration_s)
     subjects, targets = (
