@@ -12,7 +12,7 @@ TEXTS = [
     "a table tennis rally",
     "two women play badminton",
     "a tennis match",
-    "two boys play ping pong",
+    "two men play ping pong",
 ]
 
 
