@@ -88,8 +88,11 @@ def _find_opponents(draft: SceneDraft) -> None:
         kind = next((one["kind"] for one in thing["motions"] if one["kind"] in table), "")
         if not kind or any(one["kind"] == "rally" for one in thing["relations"]):
             continue
-        thing["count"] = max(int(thing["count"]), 2)
-        targets = []
+        players, targets = [index], []
+        if thing["count"] == 1:
+            same = [{"kind": kind}]
+            draft.things.append({"noun": "person", "motions": same, "count": 1, "relations": []})
+            players.append(len(draft.things) - 1)
         ball, _ = table[kind]
         for noun in table[kind]:
             known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
@@ -98,7 +101,8 @@ def _find_opponents(draft: SceneDraft) -> None:
             targets.append(known[0] if known else len(draft.things) - 1)
             if noun == ball:  # else it is a speck between two people
                 draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
-        draft.relate(index, "rally", targets)
+        for one in players:
+            draft.relate(one, "rally", targets)
 
 
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:

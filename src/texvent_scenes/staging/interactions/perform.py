@@ -359,8 +359,7 @@ def _perform(
 ) -> None:  # fmt: skip
     """An act of each subject on a target of its own."""
     if relation.kind == "rally":
-        said = description.objects[relation.subject].motions
-        return rally.play(cast, relation, said[0].kind if said else "net rally")
+        return rally.play(cast, relation, description)
     if machines.grips(description.objects[relation.subject].noun, relation.kind):
         return machines.perform_grip(cast, relation, description, duration_s)
     subjects, targets = (

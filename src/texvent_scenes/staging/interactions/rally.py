@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.description import IndexedRelation
-from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.description import IndexedRelation, SceneDescription
+from texvent_scenes.models.activities import ACTIVITIES, Activity
 from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.shapes import point
 from texvent_scenes.models.tables import trait_value
@@ -23,6 +23,7 @@ PERIOD_S = 1.7
 """From one stroke of a player to the next: that of their activity."""
 _LEAD_M = 0.5 * PERIOD_S / 0.37
 """Head start of the second player, m, by which half a period has gone (`Actor.pose`)."""
+_NONE = Activity()
 _MOST_KEPT = 0.88
 """Share of its upward speed that a bounce keeps, at most."""
 _FLIGHTS, _LEAST_M = 40, 0.1
@@ -30,9 +31,13 @@ _FLIGHTS, _LEAST_M = 40, 0.1
 """
 
 
-def play(cast: dict[int, Actor], act: IndexedRelation, activity: str) -> None:
+def play(cast: dict[int, Actor], act: IndexedRelation, description: SceneDescription) -> None:
     """Put players, ball and net where they play; a net or a table stays where it is."""
-    players = [n for n, one in cast.items() if one.object_index == act.subject]
+    said = [one.kind for one in description.objects[act.subject].motions]
+    activity = next((one for one in said if ACTIVITIES.get(one, _NONE).reach_m), "net rally")
+    who = {one.subject for one in description.relations
+           if (one.kind, one.targets) == (act.kind, act.targets)}  # fmt: skip
+    players = [n for n, one in cast.items() if one.object_index in who]
     others = {one.noun.name: n for n, one in cast.items() if one.object_index in act.targets}
     court = next((n for name, n in others.items() if trait_value("rally", name)), None)
     ball = next((n for name, n in others.items() if n != court), None)
