@@ -466,3 +466,27 @@ def test_a_tool_does_nothing_else_by_itself():
     actors = [one for text in ("a pen rolls off a table", "a hammer falls", "a broom on a table")
               for one in staged(text)[0].actors]  # fmt: skip
     assert {one.noun.name for one in actors} == {"pen", "table", "hammer", "broom"}
+
+
+@pytest.mark.parametrize(
+    ("text", "activities"),
+    [("fingers snapping, close up", ["snap"]), ("a hand counts from one to five", ["count"]),
+     ("rock, paper, scissors hand gestures", ["rock paper scissors"]),
+     ("thumbs up, then a peace sign", ["thumbs up", "victory"]),
+     ("a hand waving left to right", ["wave"])],
+)  # fmt: skip
+def test_one_hand_makes_all_gestures(text, activities):
+    (hand,) = staged(text)[0].actors
+    shown = [hand.track.at(at).activity for at in (0.3, 1.9)]
+    assert list(dict.fromkeys(shown)) == activities
+    assert len({tuple(np.round(parts(hand, at).ravel(), 4)) for at in np.arange(0, 2, 0.25)}) > 1
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["laundry flapping on a line", "laundry flaps on a clothesline in strong wind"]
+)
+def test_laundry_is_on_its_line_and_flaps(text):
+    (line,) = staged(text)[0].actors
+    assert np.abs(parts(line, 0.5) - parts(line, 0.0)).max() > 0.05
+    assert is_right(text)

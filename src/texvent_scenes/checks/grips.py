@@ -7,8 +7,10 @@ import numpy as np
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.actors import Actor, size_of
 
+_LEAST_SIZE = 0.15
+"""Least size at which a thing still is one, and no toy of it."""
 _AT_HAND, _MOVED, _APART = 0.3, 0.9, 0.02
 """Distance of a hand from the box of what it has, in sizes of that; least way of what is moved, and
 from where the hand has it to where it has left it, in its sizes."""
@@ -29,6 +31,8 @@ def handles_by_hand(staged: StagedClip, claim: Claim) -> bool:
 
 def _is_handled(staged: StagedClip, machine: Actor, thing: Actor, kind: str) -> bool:
     times, size = staged.fine_times, thing.model
+    if size_of(size) < _LEAST_SIZE:
+        return False
     middle = np.array([thing.middle(at) for at in times])
     hand = np.array([machine.anchor("hands", at)[:, 3] for at in times])
     least = min(size.length, size.width, size.height)

@@ -51,6 +51,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
     _do_deeds(draft)
+    _find_opponents(draft)
     _hang_up(draft)
     _lead_round(draft)
     _limit_counts(draft)
@@ -76,6 +77,34 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
         claims=tuple(_list_claims(draft)),
     )
+
+
+_SEEN_SIZE = 3.0
+"""Size of a small ball that is seen from where both players are, as a multiple of the usual one."""
+
+
+def _find_opponents(draft: SceneDraft) -> None:
+    """Give who plays a rally an opponent, a ball and what they play over."""
+    table = read_table("words", "read")["rallies"]
+    for index, thing in enumerate(tuple(draft.things)):
+        kind = next((one["kind"] for one in thing["motions"] if one["kind"] in table), "")
+        if not kind or any(one["kind"] == "rally" for one in thing["relations"]):
+            continue
+        players, targets = [index], []
+        if thing["count"] == 1:
+            same = [{"kind": kind}]
+            draft.things.append({"noun": "person", "motions": same, "count": 1, "relations": []})
+            players.append(len(draft.things) - 1)
+        ball, _ = table[kind]
+        for noun in table[kind]:
+            known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
+            if not known:
+                draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+            targets.append(known[0] if known else len(draft.things) - 1)
+            if noun == ball:  # else it is a speck between two people
+                draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
+        for one in players:
+            draft.relate(one, "rally", targets)
 
 
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:

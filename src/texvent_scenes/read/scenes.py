@@ -78,6 +78,7 @@ class _SentenceReader(ThingReader):
         if is_bare and (is_told or clause.subjects):
             clause = replace(clause, verb=self._verb)
         self._verb = clause.verb or self._verb
+        self._is_then = clause.about == "then"
         self._goes_on = clause.about in ("meanwhile", "company") or bool(clause.subjects)
         self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         is_later = bool(self._draft.things or self._draft.effects or self._draft.moves)

@@ -67,9 +67,10 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
 
 
 def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Token:
-    """The token as a word that adds nothing, if it is what opens of a thing: "a fridge door"."""
+    """The token as a word that adds nothing, if it is a part: "a fridge door", "a chair leg"."""
     owners = [nouns[one.value.noun] for one in before.all("noun")]
     is_part = token.text in word_set("things", "leaves") and any(one.acts & TIMED for one in owners)
+    is_part |= bool(owners) and token.text in word_set("things", "inert")
     return replace(token, senses=(Sense("hollow", "hollow"),)) if is_part else token
 
 

@@ -54,6 +54,8 @@ class ThingReader:
         self._nouns = nouns
         self._nearest: list[int] = []
         """Objects of the last noun group."""
+        self._is_then = False
+        """Whether it happens after what was said before: "then"."""
         self._goes_on = False
         """Whether it happens while all that was said of its subjects before."""
 
@@ -94,7 +96,7 @@ class ThingReader:
             found = self._name(whole, relation, owners)
             return found if relation else []  # what a part does, the whole does not
         elif head is not None and head.has("noun", "pose"):
-            found = self._name_thing(group, head)
+            found = self._pose_again(head) or self._name_thing(group, head)
         else:
             self._name_others(group, relation, owners)
         phrase = group.of or Phrase(head or NO_TOKEN, ())
@@ -205,6 +207,17 @@ class ThingReader:
             draft.stack(index)
         self._nearest = [index]
         return [index]
+
+    def _pose_again(self, head: Token) -> list[int]:
+        """Let who is there do what follows: "thumbs up, then thumbs down"."""
+        if not self._is_then or head.has("noun"):
+            return []
+        who, activity = head.all("pose")[0].value
+        same = [n for n, one in enumerate(self._draft.things) if one["noun"] == who][-1:]
+        for index in same:
+            self._draft.show(head)
+            add_motion(self._draft.things[index], VerbSense(who, activity))
+        return same
 
     def _name_members(
         self, group: Group, head: Token, members: Sequence[tuple[str, int]]

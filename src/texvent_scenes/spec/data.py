@@ -46,6 +46,7 @@ ACTED = frozenset(
         "hit",
         "pull",
         "move over",
+        "rally",
     }
 )
 """Relations in which the subject moves its target."""

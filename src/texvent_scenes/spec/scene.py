@@ -44,7 +44,7 @@ RelationKind: TypeAlias = Literal[
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
     "to", "into", "out of", "off", "up", "down",
     "hold", "wear", "ride", "push", "kick", "throw", "roll", "lift", "set down", "drop",
-    "collide", "knock over", "catch", "hit", "pull", "act on", "move over",
+    "collide", "knock over", "catch", "hit", "pull", "act on", "move over", "rally",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",

@@ -40,14 +40,12 @@ from texvent_scenes.staging.tracks.track import (
 
 ACTIVITIES = {
     "lift": "machine lifts", "set down": "machine sets down", "move over": "machine moves",
-    "drop": "machine moves", "hold": "machine lifts",
+    "drop": "machine moves", "hold": "machine holds",
 }  # fmt: skip
 """Relation → activity of a machine."""
 _CARRIED_S, _OVER_RIM_M, _LATEST_S = 1.2, 0.12, 0.8
 """From where a thing is taken to where it is left, s; height above a rim at which it is let go, m;
 the last instant at which what is moved is taken."""
-_HELD_S = 60.0
-"""Time for which something has been held that is held all along, s."""
 _TO_CAMERA = -0.5 * math.pi
 _WIDE_M = 0.8
 """Size from which on a goal is put a quarter turn away from where a thing is taken."""
@@ -269,10 +267,7 @@ def _moved_on(
 
 def _carry(machine: Actor, row: Gripper, thing: Actor) -> tuple[Actor, list[Actor]]:
     """Both, the thing in the hand all along."""
-    settings = (0.0, 0.0, 0.0 if row.is_below else row.turn)
-    track = replace(machine.track, grips=(("shift", settings),))
-    if not row.is_below:
-        track = replace(track, activity=ACTIVITIES["hold"], contact_s=-_HELD_S)
+    track = machine.track if row.is_below else replace(machine.track, activity=ACTIVITIES["hold"])
     machine = replace(machine, track=track)
     up = thing.foot_m - _hand_height(row, thing, 0.0)
     offset = shift(_behind(row, thing, machine), 0.0, up)

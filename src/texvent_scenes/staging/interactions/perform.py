@@ -21,7 +21,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import PLACING, SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.interactions import handling, holding, machines, striking
+from texvent_scenes.staging.interactions import handling, holding, machines, rally, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.interactions.sending import send_into
 from texvent_scenes.staging.placement.zones import are_driven
@@ -35,6 +35,7 @@ ACTS: Mapping[str, _Act] = {
     "ride": lambda who, what, *_: holding.board(who, what),
     **{kind: partial(striking.strike, kind) for kind in striking.IMPACTS},
     "move over": partial(striking.strike, "lift"),
+    "rally": lambda who, what, *_: (who, what),
     "act on": lambda who, what, _, number: handling.handle(who, what, number),
     "hold": lambda who, what, *_: holding.hold(who, what),
     "wear": lambda who, what, *_: holding.wear(who, what),
@@ -276,14 +277,7 @@ def perform_acts(
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
     _bear_down(cast, description.relations)
-    for each in description.relations:
-        seats = [n for n, one in cast.items() if one.object_index in each.targets]
-        riders = [n for n, one in cast.items() if one.object_index == each.subject]
-        places = itertools.cycle(seats)  # as `relations._line_up` shares them out
-        for rider, below in zip(riders, places, strict=False) if each.kind == "on" else ():
-            is_swing = cast[below].noun.name in nouns_with("swings")
-            if is_swing and cast[rider].noun.name in PERSON_NOUNS:
-                _swing_along(cast, rider, below)
+    _swing_riders(cast, description.relations)
     for person in list(cast.values()):
         nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
@@ -357,6 +351,18 @@ def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> 
         down += [one for one in on if one not in down]
 
 
+def _swing_riders(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
+    """Let people go with the seats that they swing on."""
+    for each in relations:
+        seats = [n for n, one in cast.items() if one.object_index in each.targets]
+        riders = [n for n, one in cast.items() if one.object_index == each.subject]
+        places = itertools.cycle(seats)  # as `relations._line_up` shares them out
+        for rider, below in zip(riders, places, strict=False) if each.kind == "on" else ():
+            is_swing = cast[below].noun.name in nouns_with("swings")
+            if is_swing and cast[rider].noun.name in PERSON_NOUNS:
+                _swing_along(cast, rider, below)
+
+
 def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
     """Rider of a swing, who goes with its seat, the last of its parts."""
     one, swing = cast[rider], cast[below]
@@ -377,6 +383,8 @@ def _perform(
     duration_s: float,
 ) -> None:  # fmt: skip
     """An act of each subject on a target of its own."""
+    if relation.kind == "rally":
+        return rally.play(cast, relation, description)
     if machines.grips(description.objects[relation.subject].noun, relation.kind):
         return machines.perform_grip(cast, relation, description, duration_s)
     subjects, targets = (

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, middle, stage, thing
+from tests.scenes.test_short_prompts import report, staged
 
 from texvent_scenes.models.anchors import top_heights
 from texvent_scenes.models.protocol import Pose
@@ -175,3 +176,16 @@ def test_what_collides_on_a_table_stays_on_it():
             at = one.corners(time_s).mean(axis=0)
             assert np.all((low[:2] <= at[:2]) & (at[:2] <= high[:2]))
             assert at[2] > high[2]
+
+
+@pytest.mark.parametrize(
+    ("text", "turned"),
+    [("a robot vacuum bumps into a chair leg and turns around", math.pi),
+     ("a wheeled robot bumps into a wall and turns left", 0.5 * math.pi),
+     ("a toy car crashes into a pot and turns right", -0.5 * math.pi)],
+)  # fmt: skip
+def test_who_runs_against_something_and_turns_goes_another_way(text, turned):
+    actor = staged(text)[0].actors[0]
+    first, last = (actor.track.at(at).yaw for at in (0.0, 2.9))
+    assert math.remainder(last - first - turned, math.tau) == pytest.approx(0.0, abs=1e-6)
+    assert "turns" in " ".join(report(text).shown)
