@@ -188,7 +188,7 @@ def _owned() -> tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
     rows = (
         (rf"\b(?:the )?({opened}) {of}({openers})\b", r"\2\3 \1"),
         (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
-        (rf"\b({bare})\b", lambda found: ", its ".join(found[0].rsplit(" ", 1))),
+        (rf"\b({bare})\b(?! and\b)", lambda found: ", its ".join(found[0].rsplit(" ", 1))),
         (rf"\b(?:the )?((?:\w+ )?(?:{parts})) {of}({owners})\b", r"\2\3, its \1"),
         (rf"\b({numbers}|\d+)[- ]({many})(?:d|ed)? ({owners})\b", r"\3 with \1 \2s"),
     )  # fmt: skip
