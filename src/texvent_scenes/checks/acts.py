@@ -265,7 +265,7 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 def moves(staged: StagedClip, claim: Claim) -> bool:
     """Whether it leaves its place, or is on foot where it is: on a treadmill."""
     for one in staged.own(claim):
-        places = np.array([one.middle(at) for at in staged.times])
+        places = np.array([one.middle(at) for at in staged.fine_times])
         does = {one.track.at(at).activity.split()[0] for at in staged.times}
         if np.ptp(places, axis=0).max() < _GROUNDED * one.size_m and not does & TRAVELLING:
             return False

@@ -20,6 +20,7 @@ _LEAST_DISPLACEMENT, _DIRECT, _AT_START = 0.1, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; least share of the way by which what goes
 "towards" something comes nearer; gap in sizes at which what goes "from" something begins."""
 _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+_ROUNDING = 1e-6
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
 many; height of a seat over that of who sits there."""
@@ -214,6 +215,8 @@ def _is_passing(one: BodyBoxes, other: BodyBoxes, share: float = 0.0) -> _Flags:
     """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
     off = (one.middle - other.middle)[:, :2]
     displacement = off[-1] - off[0]
+    if np.linalg.norm(displacement) < _ROUNDING * one.size.max():  # it is where it was
+        return np.array([False])
     room = share * (one.size.max() + other.size.max()) * np.linalg.norm(displacement)
     return np.array([off[0] @ displacement < room and off[-1] @ displacement > -room])
 
