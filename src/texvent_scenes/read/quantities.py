@@ -33,18 +33,18 @@ def _lengths() -> Mapping[str, float]:
 
 def list_figures(words: Sequence[str], lexicon: Units) -> list[str]:
     """The words, with figures for the numbers before units: "2 metres", "50 hertz"."""
-    lengths = {one for each in read_table("words", "read")["said_after"].values()
-               for one in each["units"]}  # fmt: skip
-    low = [one.casefold() for one in words]
-    found = list(words)
+    table = read_table("words", "read")
+    lengths = {one for each in table["said_after"].values() for one in each["units"]}
+    low, found = [one.casefold() for one in words], list(words)
     for at, word in enumerate(low[:-1]):
-        units = [(low[at + 1],), tuple(low[at + 1 : at + 3]), tuple(low[at + 1 : at + 4])]
+        units = [tuple(low[at + 1 : at + 1 + length]) for length in (1, 2, 3)]
         is_unit = low[at + 1] in lengths or any(
             sense.kind == "unit" for one in units for sense in lexicon.get(one, ())
         )
-        counts = [one.value[1] for one in lexicon.get((word,), ()) if one.kind == "field"
-                  and one.value[0] == "count"] if is_unit else []  # fmt: skip
-        found[at] = f"{counts[0]:g}" if counts else words[at]
+        fields = [one.value for one in lexicon.get((word,), ()) if one.kind == "field"]
+        counts = [table["tens"].get(word), *(one[1] for one in fields if one[0] == "count")]
+        figure = next(filter(None, counts), None) if is_unit else None
+        found[at] = words[at] if figure is None else f"{figure:g}"
     return found
 
 

@@ -75,6 +75,7 @@ def test_a_pronoun_decides_who_is_drawn(text, noun):
         ("a cube bounces from two metres", 2.0),
         ("a drone hovers at a height of 3 m", 3.0),
         ("a drone flies at five metres altitude", 5.0),
+        ("a drone hovers thirty metres above the sea", 30.0),
         ("a drone hovers two metres above the ground", 2.0),
         ("a drone stops at 5 m from a wall", None),
         ("a ball moves left seen from 3 m", None),
