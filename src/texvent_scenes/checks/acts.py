@@ -30,6 +30,8 @@ _BESIDE = 0.2
 """Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
+_CHANGED, _INSTANT_S = 0.2, 1e-3
+"""Least change of a rate of turning, as a share of it; time over which one is taken, s."""
 _TURNED = 0.7
 """Least angle of a turn, and most angle from where what turns heads then, rad."""
 _UPRIGHT, _MET = 0.7, 0.6
@@ -270,6 +272,23 @@ def moves(staged: StagedClip, claim: Claim) -> bool:
         if np.ptp(places, axis=0).max() < _GROUNDED * one.size_m and not does & TRAVELLING:
             return False
     return True
+
+
+def changes_pace(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it turns faster or slower at the end than at first, as a body."""
+    for one in staged.own(claim):
+        first, last = (_turning_rate(one, staged.times[0] + 0.05), _turning_rate(
+            one, staged.times[-1] - 0.05))  # fmt: skip
+        if abs(last - first) <= _CHANGED * max(first, last):
+            return False
+    return True
+
+
+def _turning_rate(one: Actor, time_s: float) -> float:
+    """Rate at which a body turns, rad/s."""
+    first, second = (one.track.at(time_s + late).to_world()[:, :3] for late in (0.0, _INSTANT_S))
+    cosine = 0.5 * (float(np.trace(first.T @ second)) - 1.0)
+    return math.acos(min(max(cosine, -1.0), 1.0)) / _INSTANT_S
 
 
 def turns(staged: StagedClip, claim: Claim) -> bool:

@@ -16,6 +16,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.acts import (
     bounces,
     breaks,
+    changes_pace,
     comes_out,
     descends,
     falls,
@@ -258,7 +259,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "turn": turns,
+    "turn": turns, "pace": changes_pace,
     "sit at": _sits_at,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -97,7 +97,10 @@ def _find_opponents(draft: SceneDraft) -> None:
             players.append(len(draft.things) - 1)
         ball, _ = table[kind]
         for noun in table[kind]:
-            known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
+            known = [n for n, one in enumerate(draft.things)
+                     if one["noun"] == noun or noun.endswith(one["noun"])]  # fmt: skip
+            for one in known[:1]:
+                draft.things[one] |= {"noun": noun, "motions": []}
             if not known:
                 draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
             targets.append(known[0] if known else len(draft.things) - 1)

@@ -232,7 +232,8 @@ class SceneDraft(Abilities):
         if self.phases and any(part in ("light", "place") for part, _, _ in said):
             return False  # "then it rains"
         for part, name, value in said:
-            self.parts[part][name] = value
+            if value != "day" or name not in self.parts[part]:  # "overcast daylight"
+                self.parts[part][name] = value
         is_said = token.has("shot", "scene")
         self.show(*([token] if is_said else []))
         return is_said

@@ -209,6 +209,9 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             named = (*activity.named, *_list_passives(activity))
+            if who == "hand":
+                named += tuple(f"{one} {word}" for one in activity.named
+                               for word in ("gesture", "sign"))  # fmt: skip
             yield from ((phrase, Sense("pose", (who, name))) for phrase in named)
     yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
 

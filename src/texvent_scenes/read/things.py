@@ -470,6 +470,8 @@ class ThingReader:
             draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
         elif verb.text in word_set("things", "landing"):
             draft.claim(verb, "land", "", [index])
+        elif act.kind == "spin" and act.end_pace is not None:
+            draft.claim(verb, "pace", "", [index])
         elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
             draft.claim(verb, "stop", "", [index])
         if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
