@@ -21,6 +21,8 @@ _GAP_M = 1.5
 _OUT_SHARE, _BEHIND_M = 0.45, 3.0
 """Share of the route after which the camera comes out of a passage; how far that goes on behind
 it at first, m."""
+_OPEN, _BY_THE_WALL_M = 0.17, 1.3
+"""Half of what is open of the width of a passage; least room between its wall and the camera, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -62,7 +64,8 @@ class RoutePlacer:
             return self._place_beside(group, height)
         along, aside = 0.6 * travel.length_m, 0.0
         if is_passage and group.noun.name in nouns_with("fits who goes through"):  # over the road
-            aside = float(travel.road.offset[0])
+            room_m = max(_OPEN * group.models[0].width - _BY_THE_WALL_M, 0.0)
+            aside = min(max(float(travel.road.offset[0]), -room_m), room_m)
         if is_passage and group.scene_object.placement == "near":  # the camera comes out of it
             out_m = _OUT_SHARE * travel.length_m
             group.models = [Lengthened(one, out_m + _BEHIND_M) for one in group.models]
