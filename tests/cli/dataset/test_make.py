@@ -133,17 +133,17 @@ def test_a_class_that_is_not_shown_is_planned_as_refused_and_made_if_allowed(fol
     assert run("plan", "wugs.toml", "--trial", 0) == 0
     assert "make refuses" not in capsys.readouterr().out  # one of its prompts goes without the word
     head, _, _ = WUGS.partition("prompts =")
-    text = f'{head}template = "a {{class}} runs"\nclasses = ["dog", "wug dog"]\n'
+    text = f'{head}template = "a {{class}} runs"\nclasses = ["dog", "wuggy dog"]\n'
     (folder / "wugs.toml").write_text(text)
     assert run("plan", "wugs.toml", "--trial", 0) == 0
-    assert "make refuses class 'wug dog': not understood: wug" in capsys.readouterr().out
+    assert "make refuses class 'wuggy dog': not understood: wuggy" in capsys.readouterr().out
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
     assert "1 of 2 classes would not be shown" in capsys.readouterr().err
     assert not (folder / "wugs").exists()
     (folder / "wugs.toml").write_text('allow_classes = ["wug dig"]\n' + text)
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
-    assert "did you mean 'wug dog'" in capsys.readouterr().err
-    (folder / "wugs.toml").write_text('allow_classes = ["wug dog"]\n' + text)
+    assert "did you mean 'wuggy dog'" in capsys.readouterr().err
+    (folder / "wugs.toml").write_text('allow_classes = ["wuggy dog"]\n' + text)
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 0
     (folder / "wugs.toml").write_text(text)  # what was begun goes on
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 0

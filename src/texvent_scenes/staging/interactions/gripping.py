@@ -172,7 +172,7 @@ def _at_hand(plan: _Plan, thing: Actor, hand: Affine, low_m: float) -> Track:
 
 
 def _behind(row: Gripper, thing: Actor, machine: Actor) -> float:
-    """How far its middle is ahead of the middle of forks that it stands at the back of, m."""
+    """Distance, m, of its middle ahead of that of the forks at whose back it stands."""
     return max(0.5 * (thing.model.length - size_of(machine.model)), 0.0) if row.is_below else 0.0
 
 
@@ -234,7 +234,7 @@ def _follow_hand(
 
 
 def _bound(carrier: Track, axes: partial[Float64Array], place: Affine, time_s: float) -> Attachment:
-    """What keeps a place [3, 4] in the world at an instant in axes that move."""
+    """Offset that keeps a place [3, 4] of the world, at an instant, in axes that move."""
     square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in (axes(time_s), place))
     return Attachment(carrier, axes, np.linalg.solve(*square)[:3])
 
