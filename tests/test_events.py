@@ -49,6 +49,13 @@ def test_convention_arrays_are_read_only_and_the_callers_stay_writable():
     assert t.flags.writeable
 
 
+def test_sorted_events_of_one_time_keep_their_order():
+    t, x = np.random.default_rng(0).integers(0, 9, 1000), np.arange(1000)
+    size = SensorSize(1000, 1)
+    events = EventStream.from_columns(x=x, y=0 * x, t=t, p=x % 2, size=size, sort=True)
+    assert [*zip(events.t, events.x, strict=True)] == sorted(zip(t, x, strict=True))
+
+
 def test_convention_no_events_is_an_empty_stream():
     nothing = EventStream.empty(SIZE)
     assert len(nothing) == 0

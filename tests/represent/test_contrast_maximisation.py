@@ -139,6 +139,15 @@ def test_halves_that_move_apart_have_their_own_flow():
     assert flow_warp_loss(both, flow) > flow_warp_loss(both, find_velocity(both)) > 1
 
 
+def test_every_patch_has_the_flow_of_its_own_events_in_rows_and_columns():
+    ways = {(5, 4): (-100, 0), (65, 4): (150, 0), (5, 34): (0, 200), (65, 34): (100, -100)}
+    events = together(*(moving_points(way, left=left, top=top, width=20, seed=left + top)
+                        for (left, top), way in ways.items()))  # fmt: skip
+    flow = find_flow(events, patch_px=30)
+    for (left, top), way in ways.items():
+        assert flow[top + 11, left + 10] == pytest.approx(way, abs=2 * PIXEL)
+
+
 def test_patches_with_few_events_have_no_flow_and_those_left_over_belong_to_the_last():
     events = together(moving_points((100, 0), left=2), moving_points((0, 0), left=115, count=60))
     flow = find_flow(events, patch_px=50)  # two patches: x from 0 and from 50 to the end

@@ -36,6 +36,12 @@ NOISY: dict[str, dict[str, Any]] = {
     "senpi": {"noise_rate_hz": RATE_HZ},
 }
 """Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise."""
+DENSE: dict[str, dict[str, Any]] = {
+    "physical": {"noise_curve": "0:20 255:20"},
+    "senpi": {"noise_rate_hz": 20.0, "contrast_threshold": 0.2},
+}
+"""Options with which pixels are noisy at any level, of models whose noise begins a refractory
+period; in v2e it is added to what is done."""
 CLEAN: dict[str, dict[str, Any]] = {
     "texvent": {"noise": "none"},
     "physical": {"preset": "clean"},
@@ -127,11 +133,31 @@ def test_leak_fires_on_events_at_its_rate_for_any_frame_rate(model, fps):
     assert (events.label == NOISE).all()
 
 
-def has_share(model):
-    return hasattr(SIMULATORS.load(model).config_type(), "noise_on_fraction")
+def has(model, option):
+    return hasattr(SIMULATORS.load(model).config_type(), option)
 
 
-@pytest.mark.parametrize("model", [one for one in NOISY if has_share(one)])
+@pytest.mark.parametrize("model", [one for one in LEAKING if has(one, "threshold_sigma")])
+def test_pixels_of_any_threshold_leak_at_the_same_rate(model):
+    frames = np.full((12, 6, 8), 90.0, np.float32)
+    options = {"simulator": model, "interpolate": "none", **LEAKING[model], "threshold_sigma": 0.05}
+    events = texvent.simulate(frames, fps=24, seed=3, **options)
+    assert events.t == pytest.approx(np.repeat([100_000, 200_000, 300_000, 400_000], 48), abs=6)
+
+
+@pytest.mark.parametrize("model", DENSE)
+def test_no_signal_follows_any_event_of_its_pixel_within_the_refractory_period(model):
+    events = texture(simulator=model, refractory_period_us=30_000, **NOISY[model] | DENSE[model])
+    pixel = np.asarray(events.y, np.int64) * 40 + events.x
+    order = np.lexsort((np.arange(len(pixel)), pixel))
+    same, gaps = np.diff(pixel[order]) == 0, np.diff(events.t[order])
+    signal = events.label[order][1:] == SIGNAL
+    assert (same & signal).sum() > 50
+    assert (same & (events.label[order][:-1] == NOISE)).sum() > 50
+    assert gaps[same & signal].min() >= 30_000
+
+
+@pytest.mark.parametrize("model", [one for one in NOISY if has(one, "noise_on_fraction")])
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 def test_noise_has_the_share_of_on_that_is_asked_for(model, share):
     frames = np.full((13, 60, 80), DARK, np.float32)
