@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import texvent
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.frames import Frame
@@ -98,6 +99,18 @@ GLOBAL_STEP = (3.636, 7.273, 10.909, 14.545, 18.182)
 def test_cache_decides_how_slow_a_ramp_still_fires(options, times):
     events = simulate(ramp_b(), timestamp_rule="linear", **({"reset": "step"} | options))
     assert seconds(events) == pytest.approx(times, abs=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore:no events")
+def test_references_decay_by_the_same_share_at_any_frame_rate():
+    """.9 of a threshold, a second later .2 of one: too little if the first is nearly forgotten."""
+    levels = np.exp(np.log(120.0) + 0.2 * np.array([0.0, 0.9, 1.1])) - 20.0
+    for fps in (10, 3000):
+        frames = np.repeat(levels, [1, fps, 1]).astype(np.float32).reshape(-1, 1, 1)
+        options = {"contrast_threshold": 0.2, "noise": "none", "interpolate": "none", "fps": fps}
+        fired = [len(texvent.simulate(frames, cache="global", residual_decay_hz=rate, **options))
+                 for rate in (0.0, 3.0)]  # fmt: skip
+        assert fired == [1, 0]
 
 
 def test_eq1_fires_exactly_from_the_threshold_on():
