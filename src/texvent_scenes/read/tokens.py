@@ -295,7 +295,8 @@ def _without_chance(
         or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
         or _is_act(words, end, before)
     )
-    is_single = any(one.text in ("a", "an") for one in before[-2:])
+    is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
+    is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
