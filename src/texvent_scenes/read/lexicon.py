@@ -211,7 +211,7 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
             named = (*activity.named, *_list_passives(activity))
             if who == "hand":
                 named += tuple(f"{one} {word}" for one in activity.named
-                               for word in word_set("things", "signing"))  # fmt: skip
+                               for word in sorted(word_set("things", "signing")))  # fmt: skip
             yield from ((phrase, Sense("pose", (who, name))) for phrase in named)
     yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
 
