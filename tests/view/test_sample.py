@@ -3,7 +3,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
@@ -16,6 +16,7 @@ from texvent.view.sample import (
     FrameStrip,
     RateCurve,
     UniformSample,
+    rate_counts,
 )
 
 SIZE = SensorSize(100, 100)
@@ -25,6 +26,20 @@ def ramp(count: int, step_us: int = 1) -> EventStream:
     """Events whose position in the stream can be read off x and y."""
     index = np.arange(count)
     return EventStream(index % 100, index // 100 % 100, index * step_us, index % 2, SIZE)
+
+
+@given(st.lists(st.integers(-5, 60), max_size=30), st.integers(0, 20), st.integers(1, 40),
+       st.integers(1, 9))  # fmt: skip
+@example([3, 6, 9], 0, 10, 3)
+def test_an_event_is_in_the_bin_whose_share_of_the_time_it_is_in(times, start, span, bins):
+    t = sorted(times)
+    p = [n % 2 for n in range(len(t))]
+    counts = np.zeros((2, bins), int)
+    for time, on in zip(t, p, strict=True):
+        if start <= time < start + span:
+            counts[on, (time - start) * bins // span] += 1
+    events = EventStream.from_columns([0] * len(t), [0] * len(t), t, p, size=SIZE)
+    np.testing.assert_array_equal(rate_counts(events, (start, start + span), bins), counts)
 
 
 @pytest.mark.parametrize("packet_events", [1, 7, 333, 5000])
