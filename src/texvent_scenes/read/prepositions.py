@@ -8,14 +8,14 @@ from typing import Any
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.anchors import has_rim, takes_in
-from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.abilities import MEANS
-from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
+from texvent_scenes.read.draft import SceneDraft
 from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import owned_parts, word_set
+from texvent_scenes.read.lexicon import word_set
+from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import Token
 from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
 
@@ -65,113 +65,6 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     return sent_to if token.text == "against" and is_sent else kind
 
 
-def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Whether it names what a thing has, "a fan with four blades", or the tool of its act.
-
-    No other number is shown.
-    """
-    words = [word for group in phrase.groups for word in _list_words(group)]
-    if phrase.preposition.text == "with" and draft.names_tool(subjects, words):
-        draft.show(phrase.preposition, *words)
-        return True
-    if phrase.preposition.text in ("with", "on") and _take_mark(draft, phrase, subjects):
-        return True
-    if phrase.preposition.text == "with" and subjects and _are_built_in(draft, phrase, subjects):
-        return True
-    is_so = phrase.preposition.text == "with" and say_parts(draft, phrase.groups, subjects)
-    if is_so and all(draft.shows(one) for one in words if one.text != "and"):
-        draft.show(phrase.preposition)
-    return is_so
-
-
-def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
-    marks = read_table("words", "read")["marks"]
-    words = [word for group in phrase.groups[:1] for word in _list_words(group)]
-    nouns = {draft.things[one]["noun"] for one in subjects}
-    if phrase.preposition.text == "on":
-        bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
-        is_there = bool(nouns) and any(nouns <= {*one} for one in bears)
-        draft.show(*((phrase.preposition, *words) if is_there else ()))
-        return is_there
-    fields = [one.value for word in words for one in word.all("field")]
-    said = [f"{value:g}" if field == "count" else str(value) for field, value in fields]
-    names = [f"{each} {word.text}" for word in words for each in said]
-    names += [word.text for word in words]
-    found = {marks[noun][name] for noun in nouns if noun in marks for name in names
-             if name in marks[noun]}  # fmt: skip
-    if len(nouns) != 1 or len(found) != 1 or len(phrase.groups) != 1:
-        return False
-    for thing in (draft.things[index] for index in subjects):
-        if draft.nouns[thing["noun"]].is_working and not draft.nouns[next(iter(found))].is_working:
-            thing["motions"] = thing["motions"] or [{"kind": "spin"}]
-        thing["noun"] = next(iter(found))
-    draft.show(phrase.preposition, *words)
-    is_any = not any(" " in name for noun in nouns for name in names if name in marks[noun])
-    for word in words if is_any else ():
-        for field, value in (one.value for one in word.all("field")):
-            draft.claim(word, "colour", value, subjects if field == "colour" else [])
-    return True
-
-
-def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
-    """Whether it names parts and patterns that are not drawn: "a bus with two doors"."""
-    nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
-    is_own = any(word.text in owned_parts() for one in phrase.groups for word in _list_words(one))
-    flat, is_body = nouns_with("flat pattern"), not any(map(draft.walks, subjects))
-    is_flat = any(draft.things[one]["noun"] in flat for one in subjects)
-    inner = word_set("things", "built_in") | (frozenset() if is_flat else flat)  # "with stripes"
-    return bool(nouns) and {*nouns} <= inner and is_body and not is_own
-
-
-def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
-    """Account for parts that things have, if all groups name some: "its second hand moving"."""
-    owned, words = owned_parts(), [*map(_list_words, groups)]
-    parts = [next((word.text for word in each if word.text in owned), "") for each in words]
-    if not subjects or not parts or not all(parts):
-        return False
-    for part, each in zip(parts, words, strict=True):
-        counts = {one.value[1] for word in each for one in word.all("field")
-                  if one.value[0] == "count"}  # fmt: skip
-        for thing in (draft.things[one] for one in subjects):
-            if thing["noun"] not in owned[part] or not counts <= {owned[part][thing["noun"]]}:
-                like = (noun for noun, count in owned[part].items()
-                        if noun.endswith(f" {thing['noun']}") and counts <= {count})  # fmt: skip
-                thing["noun"] = next(like, thing["noun"])  # "a fan with three blades"
-        has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
-        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
-        for word in each if has and counts <= drawn else ():
-            _say_of_part(draft, word, part, has)
-    return True
-
-
-def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int]) -> None:
-    """Account for a word about a part; whether it moves, shines or has a colour is to be seen."""
-    is_lamp = part in word_set("things", "lamps")
-    fields = dict(one.value for one in word.all("field"))
-    if word.has("verb") and not word.has("noun", "field"):
-        if part in word_set("things", "stiff_parts"):
-            return
-        draft.claim(word, "blink" if is_lamp else "parts", "", owners)
-        for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):
-            is_flyer = draft.nouns[one["noun"]].motion == "fly"
-            one["motions"] = one["motions"] or [{"kind": "hover"}] * is_flyer  # "its rotor turning"
-        for one in (draft.things[n] for n in owners if is_lamp):
-            if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
-                one |= {"is_lit": True, "blink_hz": BLINK_HZ}
-                one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
-    elif "colour" in fields:
-        draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
-    elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
-        return  # "with shiny blades"
-    draft.show(word)
-
-
-def _list_words(group: Group) -> list[Token]:
-    """Words of a group."""
-    return [*([group.head] if group.head else []), *group.unknown, *group.modifiers]
-
-
 def lose_ways(
     draft: SceneDraft, after: Sequence[Phrase | Token], *, has_subject: bool = True
 ) -> None:
@@ -212,7 +105,7 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     if phrase.preposition.text != "in" or not is_form or is_drawn:
         return False
-    words = (one for each in phrase.groups for one in _list_words(each))
+    words = (one for each in phrase.groups for one in list_words(each))
     for token in (phrase.preposition, *words):
         draft.mark(token, "lost")
     return True

@@ -18,8 +18,8 @@ from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import lexicon_of, word_set
+from texvent_scenes.read.parts import are_own_parts, say_parts
 from texvent_scenes.read.prepositions import (
-    are_own_parts,
     claim_mutual,
     claim_relation,
     dress,
@@ -32,7 +32,6 @@ from texvent_scenes.read.prepositions import (
     lose_ways,
     names_formation,
     relate_one,
-    say_parts,
 )
 from texvent_scenes.read.senses import choose_senses
 from texvent_scenes.read.things import ThingReader
