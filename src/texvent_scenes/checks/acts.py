@@ -30,8 +30,9 @@ _BESIDE = 0.2
 """Least length of what something goes along, as a share of its way."""
 _ASIDE = 0.5
 """Most share of a way, along the heading, of what goes sideways."""
-_CHANGED, _INSTANT_S = 0.2, 1e-3
-"""Least change of a rate of turning, as a share of it; time over which one is taken, s."""
+_CHANGED, _INSTANT_S, _EDGE_S = 0.2, 1e-3, 0.05
+"""Least change of a rate of turning, as a share of it; time over which one is taken, and from the
+ends of the clip, s."""
 _TURNED = 0.7
 """Least angle of a turn, and most angle from where what turns heads then, rad."""
 _UPRIGHT, _MET = 0.7, 0.6
@@ -277,8 +278,8 @@ def moves(staged: StagedClip, claim: Claim) -> bool:
 def changes_pace(staged: StagedClip, claim: Claim) -> bool:
     """Whether it turns faster or slower at the end than at first, as a body."""
     for one in staged.own(claim):
-        first, last = (_turning_rate(one, staged.times[0] + 0.05), _turning_rate(
-            one, staged.times[-1] - 0.05))  # fmt: skip
+        first = _turning_rate(one, staged.times[0] + _EDGE_S)
+        last = _turning_rate(one, staged.times[-1] - _EDGE_S)
         if abs(last - first) <= _CHANGED * max(first, last):
             return False
     return True

@@ -65,7 +65,7 @@ def find_misframed(
         yield Violation("view", str(shot.view), _SAID[str(shot.view)])
     moves = [one for one in shot.moves if one.kind != "static"]
     if shot.view == "first person" and not any(one.kind == "travel" for one in moves):
-        yield Violation("view", "first person", "first-person view: the camera is nobody's")
+        yield Violation("view", "first person", "first-person view: the camera goes nowhere")
     kinds = sorted({one.kind for one in moves})
     met = _find_met(scene, times) if set(kinds) - _TURNING else ""
     for kind in kinds:

@@ -294,6 +294,17 @@ def claim_relation(
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
 
 
+def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
+    """Apply the distance before a preposition: "2 m behind a car"."""
+    token = draft.tokens[preposition.at - 1]
+    name, value = said.value if (said := token.first("adverb")) else ("", None)
+    for index in subjects if name == "distance_m" else ():
+        for row in draft.things[index]["relations"][-1:]:
+            if row["kind"] in SPACED:
+                row["distance_m"] = value
+                draft.show(token)
+
+
 def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Give persons clothes of a colour: "a man in red"; whether it says so."""
     words = [one.unknown[0] for one in phrase.groups if one.head is None and one.unknown]

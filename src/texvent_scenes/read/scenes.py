@@ -28,6 +28,7 @@ from texvent_scenes.read.prepositions import (
     go_to_place,
     hand_over,
     is_rained_on,
+    keep_distance,
     lose_drift,
     lose_ways,
     names_formation,
@@ -226,7 +227,7 @@ class _SentenceReader(ThingReader):
                 who = self._choose_placed(one, last, subjects, told)
                 told = self._relate(one, who, moved) or moved
                 last = one.preposition
-                self._space(last, who)
+                keep_distance(self._draft, last, who)
                 self._push_with(subjects, who)
             elif not self._draft.set_scene(one, told):
                 adverb = one.first("adverb")
@@ -247,16 +248,6 @@ class _SentenceReader(ThingReader):
                     if is_swing and self._verb is not None:
                         draft.mark(self._verb, "lost")
                         draft.claims.pop(self._verb.at, None)
-
-    def _space(self, preposition: Token, subjects: Sequence[int]) -> None:
-        """Apply the distance before a preposition: "2 m behind a car"."""
-        token = self._draft.tokens[preposition.at - 1]
-        name, value = said.value if (said := token.first("adverb")) else ("", None)
-        for index in subjects if name == "distance_m" else ():
-            for row in self._draft.things[index]["relations"][-1:]:
-                if row["kind"] in SPACED:
-                    row["distance_m"] = value
-                    self._draft.show(token)
 
     def _hangs_on_unknown(self, phrase: Phrase) -> bool:
         """Whether it is part of what is not known: "a tray with glasses"."""

@@ -15,13 +15,12 @@ from texvent_scenes.models.activities import (
     HAND_NOUNS,
     PERSON_NOUNS,
     TIMED,
-    is_mutual,
 )
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory
 from texvent_scenes.read.lexicon import (
@@ -33,6 +32,7 @@ from texvent_scenes.read.lexicon import (
     states,
     word_set,
 )
+from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
 from texvent_scenes.read.prepositions import relate_one, ridden_by
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import PLACING, WAYS
@@ -365,20 +365,20 @@ class ThingReader:
         if act.brings and not objects:
             draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
             objects = [len(draft.things) - 1]
-        if act.end_pace == 0.0 and act.kind == "stand" and self._can_arrive(subjects):
+        if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(self._draft, subjects):
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
         is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
         if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
-            self._claim_act(act, verb, index, objects)
+            claim_act(self._draft, act, verb, index, objects)
         for index in objects:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             self._switch(act.object, index)
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
         if not objects:
-            self._meet(act, verb, subjects)
+            meet(self._draft, act, verb, subjects)
         for index in subjects if act.relation is not None else ():
             self._relate_act(act.relation or "", verb, index, objects)
         return list(objects if act.object and objects else subjects)
@@ -439,58 +439,6 @@ class ThingReader:
         for one, (noun, count) in zip(things, said, strict=True):
             one |= {"noun": noun, "count": count}
         return None
-
-    def _meet(self, act: VerbSense, verb: Token, subjects: Sequence[int]) -> None:
-        """Let several do it to each other: "collide", "shake hands"."""
-        who, *others = subjects
-        if act.relation == "collide":
-            self._draft.relate(who, "collide", others or [who])
-        elif is_mutual(act.kind):
-            self._draft.relate(who, "act on", others or [who])
-            self._draft.claim(verb, "act on", "", [who], others or [who])
-
-    def _claim_outcome(
-        self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]
-    ) -> None:
-        """Leave it to the staged scene whether an act has its outcome."""
-        draft, outcomes = self._draft, read_table("words", "read")["outcomes"]
-        if outcome := outcomes.get(act.who, {}).get(act.kind):
-            draft.claim(verb, outcome, "", [index])
-        is_machine = draft.things[index]["noun"] in trait_values("gripper")
-        if act.relation and is_machine:
-            draft.claim(verb, "grip", act.relation, [index], objects)
-        elif outcome := outcomes["relation"].get(act.relation):
-            draft.claim(verb, outcome, "", [index], objects)
-
-    def _claim_act(self, act: VerbSense, verb: Token, index: int, objects: Sequence[int]) -> None:
-        """Leave it to the staged scene whether an object does it."""
-        draft = self._draft
-        self._claim_outcome(act, verb, index, objects)
-        if act.kind == "swim":
-            draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
-        elif verb.text in word_set("things", "landing"):
-            draft.claim(verb, "land", "", [index])
-        elif act.kind == "spin" and act.end_pace is not None:
-            draft.claim(verb, "pace", "", [index])
-        elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
-            draft.claim(verb, "stop", "", [index])
-        if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
-            draft.claim(verb, "shine", "", [index])
-        if act.who in ("person", "hand", "animal") or act.kind == "lie":
-            is_body = act.who != "plain" or draft.walks(index)
-            draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
-        elif verb.text in word_set("things", "hung"):
-            draft.claim(verb, "ground", False, [index])
-        elif act.kind in ("walk", "run", "fly", "hover"):
-            draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
-
-    def _can_arrive(self, subjects: Sequence[int]) -> bool:
-        """Whether what stops goes by itself, and nothing is said of how it moves before."""
-        things = self._draft.things
-        said = [things[n]["motions"] for n in subjects]
-        is_open = all(not one or [{*each} for each in one] == [{"kind"}] for one in said)
-        is_open &= all(each["kind"] == "move" for one in said for each in one)  # "passes and stops"
-        return is_open and all(map(self._draft.can_go, subjects))
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
