@@ -95,6 +95,11 @@ def test_a_close_up_of_hands_at_work_holds_these_and_another_one_the_head(act, h
     assert said.is_faithful
 
 
+@pytest.mark.parametrize("place", ["motorway", "country road"])
+def test_a_camera_that_drives_goes_through_a_tunnel_and_no_wall(place):
+    assert report(f"driving through a tunnel on a {place}").is_faithful
+
+
 @pytest.mark.parametrize("place", ["forest", "city", "park"])
 @pytest.mark.parametrize("view", ["aerial", "top"])
 def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
@@ -122,6 +127,12 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         ("close-up of a drone taking off", "close up of", True),
         ("a bus on a city street, rear view", "rear view", True),
         ("a traffic light shows red", "shows red", True),
+        ("a wheel spins up", "spins up", True),
+        ("a fan spins up", "spins up", False),
+        ("first person view of a dog running", "first person view of", False),
+        ("first person view walking through a forest", "first person view", True),
+        ("six cars at a roundabout", "at", True),
+        ("a table tennis rally with a fast ball", "ball", True),
         (
             "a traffic light changes from green to yellow to red",
             "changes from green to yellow to red",
