@@ -22,7 +22,7 @@ MOTIONS = frozenset(
      "float",
      "hover", "blow", "turn", "reverse",
      "spin", "rotate", "orbit", "sway", "tilt", "bounce", "jump", "fall", "rise", "sink", "throw",
-     "topple", "climb", "break", "grow",
+     "topple", "climb", "break", "grow", "plunge",
      "shrink", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip
 """Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a

@@ -29,6 +29,9 @@ from texvent_scenes.staging.tracks.phases import (
 )
 from texvent_scenes.staging.tracks.track import Track
 
+_OF_CAMERA, _LOOMING = ("towards", "away"), 45.0
+"""Directions in depth; most way of what flies so in a clip, in its own sizes: farther off it is a
+point."""
 _DIAGONAL = 0.6
 """Metres up per metre along of what goes diagonally in the picture."""
 _TALL = 1.2
@@ -113,6 +116,9 @@ def plan_motion(
     yaw = _choose_yaw(motions, noun, model, toss)
     stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
     speed = usual_speed(noun, motion.kind) if stated is None else stated
+    if stated is None and motion.kind == "fly" and motion.direction in _OF_CAMERA:
+        size_m = max(model.length, model.width, model.height)
+        speed = min(speed, _LOOMING * size_m / duration_s)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(noun, model, motion)
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
@@ -155,6 +161,8 @@ def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
     """
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
+    if motion.kind == "throw" and motion.direction in _OF_CAMERA:
+        return replace(motion, kind="fly")
     falls_over = noun.name in nouns_with("falls over") or falls_sideways(noun)
     is_falling_over = motion.kind == "fall" and falls_over and start_m < 0.1
     return replace(motion, kind="topple") if is_falling_over else motion
