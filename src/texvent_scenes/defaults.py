@@ -36,7 +36,7 @@ _FLYING = {"fly", "rise", "sink", "hover"}
 _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
-_IN_WATER = ("swim", "surf", *_AFLOAT)
+_IN_WATER = ("swim", "surf", "plunge", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
@@ -468,7 +468,7 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
     """Usual place of objects with these motions."""
     habitats = {noun.habitat for noun in members}
     of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
-    if habitats == {"water"} or (habitats == {"ground"} and kinds & {"swim", "surf"}):
+    if habitats == {"water"} or "plunge" in kinds or (habitats == {"ground"} and kinds & {"swim", "surf"}):
         return "sea"
     if any(noun.motion in _AFLOAT for noun in members):
         return "sea" if "sea" in of_nouns else "lake"

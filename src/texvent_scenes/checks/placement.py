@@ -29,7 +29,7 @@ from texvent_scenes.staging.surroundings.environment import RoadLine, lies_ashor
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
-                   "dive", "spin", "sway", "climb", "grow", "shrink"})  # fmt: skip
+                   "dive", "spin", "sway", "climb", "grow", "shrink", "plunge"})  # fmt: skip
 """Motions that need no support."""
 _AIRBORNE = frozenset({"fly", "hover", "float", "rise", "sink", "orbit", "dive"})
 """Motions in which what has a fixed place on the ground hangs in the air."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
+from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.tables import trait_value
 from texvent_scenes.spec.scene import Effect, object_ids
 from texvent_scenes.staging.actors import Actor, seeded
@@ -22,6 +23,9 @@ from texvent_scenes.staging.tracks.track import Term, steady
 _JUST_BEFORE_S, _LARGE = 1e-6, 0.02
 """Time before the instant at which something breaks; share of its largest part from which on a part
 gives its colour to pieces."""
+_RATE_HZ, _DEEP, _MOST_SPLASH_M = 60.0, 0.3, 1.2
+"""Instants per second at which a splash is looked for; depth from which on it is one, in heights of
+the body; greatest size of one, m."""
 FALLING = ("rain", "snow")
 """Weather that is an effect."""
 
@@ -68,6 +72,9 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         if kind is not None:
             effects += _scatter(kind, actor, setting)
             kinds += [kind] * (len(effects) - len(kinds))
+    for actor in setting.actors if PLACES[setting.place].has_surface else ():
+        effects += _splash(actor, setting)
+        kinds += ["splash"] * (len(effects) - len(kinds))
     return Staged(tuple(effects), tuple(kinds))
 
 
@@ -106,6 +113,20 @@ def _scatter(kind: str, actor: Actor, setting: Setting) -> list[Emitter]:
                    start_s=begin_s, pace=actor.pieces_pace)
         for style in EFFECTS[kind].emitters
     ]  # fmt: skip
+
+
+def _splash(actor: Actor, setting: Setting) -> list[Emitter]:
+    """Drops that who comes from above into water throws up, whose surface is at height 0."""
+    times = np.linspace(0.0, setting.duration_s, max(int(_RATE_HZ * setting.duration_s), 2) + 1)
+    low = np.array([actor.lowest_m(float(at)) for at in times])
+    met = np.flatnonzero((low[:-1] > 0.0) & (low[1:] <= 0.0))
+    if not len(met) or low.min() > -_DEEP * actor.model.height:
+        return []
+    at_s = float(times[met[0] + 1])
+    x, y, _ = actor.middle(at_s)
+    source = Source(min(actor.size_m, _MOST_SPLASH_M), np.array([x, y, 0.0]))
+    rng = seeded(setting.seed, "splash", actor.instance)
+    return [Emitter.of(one, source, setting, rng, start_s=at_s) for one in EFFECTS["splash"].emitters]
 
 
 def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle:

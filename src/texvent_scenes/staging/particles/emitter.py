@@ -218,7 +218,7 @@ class Emitter:
         born_s = time_s - age_s
         is_there = born_s >= self.start_s
         if style.at_once:
-            is_there[:] = time_s >= self.start_s
+            is_there[:] = 0.0 <= time_s - self.start_s < self.lives.life_s
         turn = self.source.turn(time_s)
         offset = self._offsets(draws) @ turn.T
         velocity = aimed(directions(draws, style.spread_rad), style.aim) @ turn.T

@@ -46,7 +46,7 @@ _ROADSIDE = 1.4
 """Distance of walkers from the middle of a road without pavement, in lanes."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
-_AFLOAT = ("swim", "surf", "float")
+_AFLOAT, _UNDER_M = ("swim", "surf", "float"), 0.02
 """Motions of people and things in water, or on it."""
 _CALM_M = 3.0
 """Distance of the camera below which usual waves are lower, as it is shorter."""
@@ -191,7 +191,8 @@ def is_afloat(actor: Actor) -> bool:
     """Whether it is in water or on it, by itself; a boat that lies is ashore."""
     doing = actor.track.at(0.0).activity
     is_of_water = actor.noun.habitat == "water" and actor.track.anchor is None
-    return (is_of_water and not lies_ashore(actor.noun, doing)) or doing in _AFLOAT
+    is_in = (is_of_water and not lies_ashore(actor.noun, doing)) or doing in _AFLOAT
+    return is_in or actor.track.at(actor.track.duration_s).position[2] < -_UNDER_M
 
 
 def lies_ashore(noun: Noun, doing: str) -> bool:

@@ -49,6 +49,9 @@ BOUNCY, DULL = 0.82, 0.3
 _RAMP_S, _SKID, _SUNK = 0.3, 1.1, 0.95
 """Time to reach a speed, s; angle by which the rear of what skids comes round, rad; share of its
 height by which what floats goes down as it sinks."""
+_PLUNGED, _LEAPT, _STOOD, _GONE = 1.0, 0.15, 0.62, 1.4
+"""Height above the water of who leaps into it, in its own; rise of the leap, as a share of that; how
+deep who walks stands there, and how deep others go, in their own heights."""
 _BRAKING_M_S2 = 6.0
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
@@ -186,6 +189,8 @@ class _KeyBuilder:
             self._hop(motion, span)
         elif motion.kind in ("fall", "topple"):
             self._fall(motion.kind, span)
+        elif motion.kind == "plunge":
+            self._plunge(span)
         else:
             waves = oscillations(motion, self._model, 0.0) if motion.kind not in PATH_KINDS else ()
             self.terms += between(waves, phase.start_s, phase.end_s)
@@ -369,6 +374,24 @@ class _KeyBuilder:
         activity = "jump" if motion.kind == "jump" and not speed else "move"
         ramp = min(_RAMP_S, 0.35 * span)
         self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
+
+    def _plunge(self, span: float) -> None:
+        """Through the air into the water, whose surface is at height 0; who walks stands in it."""
+        tall = self._model.height
+        self.floor_m = -2.0 * tall
+        from_m = min(max(_PLUNGED * tall, 0.5), 2.0)
+        up_m = _LEAPT * from_m
+        flown_s = min(0.5 * (flight_s(up_m) + flight_s(up_m + from_m)), 0.6 * span)
+        speed = from_m / flown_s
+        self._start(speed)
+        if self._is_first:
+            self.initial_height = self._height = from_m
+        hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
+        self._append(Key(flown_s, speed, 0.0, -from_m / flown_s, 0.0, "stand", hop_m))
+        deep_m = tall * (_STOOD if self._noun.motion == "walk" else _GONE)
+        sunk_s = min(0.4, 0.5 * (span - flown_s))
+        self._append(Key(sunk_s, 0.3 * speed, 0.0, -deep_m / sunk_s, 0.0, "stand"))
+        self._append(Key(span - flown_s - sunk_s, ramp_s=0.01, activity="stand"))
 
     def _fall(self, kind: str, span: float) -> None:
         """Drop to the floor; what stands there falls over, unless it is low or round."""

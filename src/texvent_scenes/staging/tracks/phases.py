@@ -20,7 +20,7 @@ PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", 
 GOING = PATH_KINDS | {"reverse"}
 """Those with a direction of travel."""
 STEERED = GOING | {"turn"}
-_KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
+_KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
 YAWS = {
     "right": 0.0,
