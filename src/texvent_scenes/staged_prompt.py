@@ -19,6 +19,10 @@ from texvent_scenes.models.nouns import NOUNS, VARIANTS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 
+_ALIKE = ((None, "day", "sunny", "overcast"), ("night", "moonlight"), ("aerial", "top"),
+          ("rain", "storm"))  # fmt: skip
+"""Lights, weathers and views of which words say the same."""
+
 
 def stage(
     description: SceneDescription,
@@ -48,7 +52,8 @@ def stage(
                          if one.kind == "noun" and one.value in VARIANTS))  # fmt: skip
     fewer = (re.fullmatch(r".* \(\d+ of (\d+)\)", one) for one in unseen.out_of_view)
     faults += tuple(Violation("count", float(one[1]), "") for one in fewer if one)
-    shown = without_words([one for one in said.shown if one not in failed], faults)
+    others = {*_list_others(said.shown, description)}
+    shown = without_words([one for one in said.shown if one not in failed | others], faults)
     shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
              *filter(None, (one.line for one in unseen.violations)))  # fmt: skip
@@ -69,6 +74,23 @@ def stage(
         too_small=_as_said(unseen.too_small),
     )  # fmt: skip
     return scene, report, files
+
+
+def _list_others(words: Sequence[str], description: SceneDescription) -> Iterator[str]:
+    """Words of a light, weather, view or framing that is not that of the scene, which has one."""
+    light, place, shot = description.light, description.place, description.camera
+    one_of = {"light": light.kind, "weather": place.weather, "view": shot.view,
+              "framing": shot.framing}  # fmt: skip
+    for word in words:
+        said = [*list_meanings(word)]
+        if said and all(kind in one_of and not _are_alike(one_of[kind], value)
+                        for kind, value in said):  # fmt: skip
+            yield word
+
+
+def _are_alike(one: object, other: object) -> bool:
+    """Whether two values of a light, a weather, a view or a framing may be of the same picture."""
+    return one == other or any({one, other} <= {*group} for group in _ALIKE)
 
 
 def _as_said(lines: Sequence[str]) -> tuple[str, ...]:

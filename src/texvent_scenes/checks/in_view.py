@@ -1,7 +1,6 @@
 """Check of a staged scene: objects out of view or tiny, and words that its picture does not show.
 
 Rays through a grid of image points count the pixels of every object.
-What is said of light, sky, ground, weather and effects must change the pixels of small pictures.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.limbs import find_tiny
-from texvent_scenes.checks.looks import find_unlike
+from texvent_scenes.checks.looks import find_unlike, is_ball
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
     find_undone,
@@ -27,37 +26,32 @@ from texvent_scenes.checks.phases import (
     list_departures,
     list_hidden,
 )
+from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.checks.placement import find_misplaced
-from texvent_scenes.checks.places import find_near, find_unseen_place
+from texvent_scenes.checks.places import find_near
 from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
 from texvent_scenes.checks.water import find_wet_and_dry
-from texvent_scenes.defaults import NO_PLACE
-from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
-from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
-from texvent_scenes.raycast.render import render, world_and_shapes
-from texvent_scenes.rendered_scene import Ground, RenderedScene, Texture
+from texvent_scenes.raycast.render import world_and_shapes
+from texvent_scenes.rendered_scene import RenderedScene
 from texvent_scenes.spec.data import PLACING
-from texvent_scenes.spec.scene import Place
-from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
+from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.interactions.holding import hides_riders
-from texvent_scenes.staging.particles.choose import FALLING, Staged
-from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 
 INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS, _LEAST_AREA = 6, 0.0003
-"""Pixels, and share of the image, below which an object is too small to be told."""
+LEAST_PIXELS, _LEAST_AREA, _LEAST_BALL = 6, 0.0007, 0.0003
+"""Pixels, and share of the image, below which an object is too small to be told; of a ball, which
+its outline tells."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
 several too of which less is inside the image."""
@@ -73,35 +67,12 @@ _FILLED = (0.1, 0.4)
 even than `LEAST_SEEN`: a wall of a garage is none."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
-_SMALL, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
-"""Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
-share of those that are."""
-_LEAST_SKY = 0.02
-"""Least share of a small picture that clouds change."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
-_FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
-"""Grounds that many places have: only their scenery shows which one it is."""
-_LEAST_HUE = 0.4
-"""Difference of a channel, of the greatest, from which on two grounds are of different colours."""
-_WALLS = (Texture.PLASTER, Texture.CONCRETE)
-"""Walls that many rooms have."""
-_TURNS = ("spin", "work", "rotate")
-"""Motions that only a picture tells."""
-_CARRIED = ("stand", "orbit")
-"""Motions of a mark that turns with what it is on."""
-_RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
-          "show amber", "show green")  # fmt: skip
-"""Motions that nothing needs to show."""
-_INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), (0.13, 0.0171)
-"""Shares of the clip at which small pictures are compared; times after which rotation shows, s: of
-both, no usual rate makes whole turns."""
-_FINE = 13
-"""Instants at which it is looked for motion: of fewer, one who hops may be on the ground at all."""
+_INSTANTS = (0.17, 0.43, 0.71, 0.93)
+"""Shares of the clip at which small pictures are compared."""
 _ADJECTIVES = ("count", "size", "colour", "material", "placement")
 """Fields of an object that adjectives say."""
-_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
-"""Fields of a place that pictures must show."""
 
 
 class Unseen(NamedTuple):
@@ -219,7 +190,8 @@ def _judge(
     share = max(view.share for view in views)
     if share < LEAST_SEEN or (share < LEAST_INSIDE and most < _REMNANT * area):
         return _Judged(" (hidden)")
-    if most < max(LEAST_PIXELS, _LEAST_AREA * area):
+    least = _LEAST_BALL if is_ball(own[0]) else _LEAST_AREA
+    if most < max(LEAST_PIXELS, least * area):
         return _Judged(f" ({most} pixel{'s' if most > 1 else ''})", is_small=True)
     if _is_brief(views) and not clip.is_camera_moving:
         return _Judged(" (most of the clip)")
@@ -262,7 +234,7 @@ def _find_unrealised(
     yield from find_airborne_meals(description, scene, times)
     yield from find_unhurried(description, scene.actors, times)
     yield from find_wet_and_dry(scene, description, duration_s)
-    yield from _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
+    yield from find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 
 
 def _list_inside(description: SceneDescription, actors: Sequence[Actor]) -> set[int]:
@@ -305,120 +277,6 @@ def without_words(words: Sequence[str], faults: Sequence[Violation]) -> tuple[st
     )  # fmt: skip
 
 
-def _find_unshown(
-    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Violation]:
-    """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
-    place, said = scene.place, description.place
-    for name, value, other in _list_without(scene, description):
-        levels = _WHITE if name == "has_snow" else _LEAST_LEVELS
-        least = _LEAST_SKY if name == "clouds" else _LEAST_SHARE  # no panes that mirror them
-        if not _differs(scene, other, times, least=least, levels=levels):
-            is_kind = name in ("light", "weather", "effect")
-            line = name.split("_")[-1] if value is True else f"{name} {value}"
-            line = f"{line.replace('_', ' ')}: no pixel shows it"
-            yield Violation(name, value if is_kind else "", line)
-    for one in description.objects:
-        if one.is_lit and one.noun not in LAMPS:
-            yield Violation("is_lit", "", f"lights of the {one.noun}")
-    yield from _find_rest(scene, description, times)
-    yield from _find_unturned(scene, description, times)
-    alike = (one for one in PLACES.values() if one.ground is place.ground)
-    first = next(one for one in alike if one.surface is place.surface)
-    is_common = place.surface in _FLOORS or place.ground is Ground.CITY
-    is_common |= place is not first and not _has_own_colour(place, first)
-    is_shared = place.walls in _WALLS if place.is_room else is_common
-    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
-    other = replace(scene, still=assemble([]))
-    is_bare = is_said and not _differs(scene, other, times, 0.0, 0.02)
-    if is_bare and is_shared and place.scenery and not (said.is_empty and place.is_cleared):
-        bare = "bare walls and the floor are" if place.is_room else "the ground is"
-        line = f"{said.name}, of which only {bare} in view"
-        yield Violation("place", said.name or "", line)
-    yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
-
-
-def _find_unturned(
-    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Violation]:
-    """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
-    path = replace(scene.camera_path, moves=(), tie=None)
-    for index, one in enumerate(description.objects):
-        on = [each.subject for each in description.relations
-              if each.kind == "on" and index in each.targets]  # fmt: skip
-        marks = {n for n in on if (description.objects[n].motion or STANDING).kind in _CARRIED}
-        own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
-        kind = one.motion.kind if one.motion and not one.motions[1:] else ""
-        if kind not in _TURNS or not own:
-            continue
-        alone = replace(scene, actors=own, still=assemble([]), particles=Staged(()))
-        alone = alone if path.journey else replace(alone, camera_path=path)
-        if not any(_differs(alone, alone, times, later_s) for later_s in _LATER_S):
-            line = f"the {one.noun}'s turning: it looks the same from all sides"
-            yield Violation("motion", kind, line)
-
-
-def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:
-    """Whether the ground of a place differs in hue from that of another place."""
-    own, other = (np.array(one.colours[0]) / max(one.colours[0]) for one in (place, usual))
-    return bool(np.abs(own - other).max() >= _LEAST_HUE)
-
-
-def _find_rest(
-    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Violation]:
-    """Motions and activities of bodies that neither move nor take a posture."""
-    fine = [float(one) for one in np.linspace(times[0], times[-1], _FINE)]
-    for index, one in enumerate(description.objects):
-        own = [actor for actor in scene.actors if actor.object_index == index]
-        kind = one.motion.kind if one.motion and not one.motions[1:] else _RESTS[0]
-        if own and kind not in _RESTS and not any(_is_changed(actor, fine) for actor in own):
-            yield Violation("motion", kind, f"the {one.noun}'s {kind}: nothing of it moves")
-
-
-def _is_changed(actor: Actor, times: Sequence[float]) -> bool:
-    """Whether its parts are in other places at another instant, or than at rest, or shine so."""
-    first, *others = (actor.place(time_s) for time_s in times)
-    rest = PlacedModel(actor.own_parts(Pose(0.0, 0.0, 0.0, "stand")), first.to_world, 0)
-    drawn = [assemble([one]) for one in (first, *others, rest)]
-    states = [np.column_stack([one.to_world.reshape(-1, 12), one.emission]) for one in drawn]
-    return not all(
-        one.shape == states[0].shape and np.allclose(one, states[0], atol=1e-3)
-        for one in states[1:]
-    )
-
-
-def _list_without(
-    scene: ComposedScene, description: SceneDescription
-) -> Iterator[tuple[str, Any, ComposedScene]]:
-    """Kind and value of what is said of surroundings, and the scene without it."""
-    said, base, staged = description.place, scene.animated_environment.base, scene.particles
-    x, y = map(float, base.road_offset)
-    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
-
-    def without(**fields: Any) -> ComposedScene:
-        other = build_environment(
-            replace(description, **fields), place=scene.place, road=road,
-            room_m=scene.camera_path.room_m, corridor_m=scene.camera_path.corridor_m,
-            distance_m=scene.camera_path.framing.distance_m,
-        )  # fmt: skip
-        return replace(scene, animated_environment=other)
-
-    for name in _SURROUNDINGS:
-        value, usual = getattr(said, name), getattr(Place, name)
-        is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
-        if value != usual and value not in FALLING and not is_so:
-            yield name, value, without(place=replace(said, **{name: usual}))
-    if description.light.kind not in (None, "day"):
-        yield "light", description.light.kind, without(light=replace(description.light, kind=None))
-    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
-        pairs = zip(staged.effects, staged.kinds, strict=True)
-        rest = tuple(effect for effect, own in pairs if own != kind)
-        if len(rest) < len(staged.effects):
-            name = "weather" if kind == said.weather else "effect"
-            yield name, kind, replace(scene, particles=replace(staged, effects=rest))
-
-
 def _rank_inside(
     own: Sequence[Actor], cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
 ) -> int:
@@ -441,20 +299,6 @@ def _is_cut_off(
             if float(np.prod(inside / np.diff(box, axis=0))) >= least:
                 return False
     return True
-
-
-def _differs(
-    scene: RenderedScene, other: RenderedScene, times: Sequence[float], later_s: float = 0.0,
-    least: float = _LEAST_SHARE, levels: float = _LEAST_LEVELS,
-) -> bool:  # fmt: skip
-    """Whether enough pixels of small pictures are others at one of the instants."""
-    for time_s in times:
-        first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
-                         for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
-        change = np.abs(first - second).max(axis=-1)
-        if np.mean(change >= levels) >= least:
-            return True
-    return False
 
 
 class View(NamedTuple):

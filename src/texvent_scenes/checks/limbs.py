@@ -68,7 +68,7 @@ def find_tiny(
 def _limb_way(
     one: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
 ) -> float:
-    """The farthest that a part of a body is from where it is at first, or at rest, pixels."""
+    """The farthest that a part in the image is from where it is at first, or at rest, pixels."""
     states = [_corners(one, one.pose(time_s)) for time_s in times]
     bases = [each for each in (states[0], _corners(one, _REST)) if each.shape == states[0].shape]
     ways = []
@@ -77,8 +77,12 @@ def _limb_way(
         seen = project(camera, size, np.array([middle, middle + np.array([0.0, 0.0, 1.0])]))
         per_m = float(np.linalg.norm(seen[1, :2] - seen[0, :2]))
         same = [each for each in bases if each.shape == state.shape]
+        to_world = one.track.at(time_s).to_world()
+        x, y, _ = project(camera, size, state @ to_world[:, :3].T + to_world[:, 3]).T
+        is_in = (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height)
         way_m = max(
-            (float(np.linalg.norm(state - each, axis=1).max()) for each in same), default=1.0
+            (float((is_in * np.linalg.norm(state - each, axis=1)).max()) for each in same),
+            default=1.0,
         )
         ways.append(per_m * way_m if seen[0, 2] > 0.0 else 0.0)
     return max(ways)

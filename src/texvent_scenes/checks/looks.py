@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
+import numpy as np
+
 from texvent_scenes.checks.parts import Place, is_made_of
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.colours import SURFACES, find_colour
@@ -11,6 +13,7 @@ from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import MATERIALS, has_colour, share_of
 from texvent_scenes.models.protocol import ModelPart, Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.rendered_scene import Shape, Texture
 from texvent_scenes.staging.actors import Actor
 
@@ -18,10 +21,10 @@ _REST = Pose(0.0, 0.0, 0.0, "stand")
 _HUES = ("red", "orange", "yellow", "green", "blue", "purple", "pink")
 _COLOURFUL = 2
 """Hues of what is colourful."""
-_EVEN, _LONG, _FLAT, _MOST, _TINGE = 0.8, 2.5, 0.3, 0.5, 0.02
-"""Ratio of two extents that are about equal; of the longest to the middle one of what is long; of
-the height to the others of what is flat; shares of a surface that make its look, and its colour:
-a bicycle is red by its frame."""
+_EVEN, _EGG, _LONG, _FLAT, _MOST, _TINGE = 0.8, 0.65, 2.5, 0.3, 0.5, 0.02
+"""Ratio of two extents that are about equal; of those of a ball or an egg; of the longest to the
+middle one of what is long; of the height to the others of what is flat; shares of a surface that
+make its look, and its colour: a bicycle is red by its frame."""
 
 
 def has_look(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
@@ -78,6 +81,12 @@ def _is_round(actor: Actor) -> bool:
     is_even = least >= _EVEN * middle or middle >= _EVEN * greatest
     curved = share_of(actor.own_parts(_REST), lambda part: part.shape is not Shape.BOX)
     return is_even and curved >= _MOST
+
+
+def is_ball(actor: Actor) -> bool:
+    """Whether one ellipsoid of about equal extents makes up its shape."""
+    parts = [one for one in actor.own_parts(_REST) if one.shape is Shape.ELLIPSOID]
+    return any(np.ptp(bounds([one]), axis=0).min() >= _EGG * _sides(actor)[2] for one in parts)
 
 
 def _is_long(actor: Actor) -> bool:

@@ -1,4 +1,4 @@
-"""Water check: who swims and walks swims in water and walks out of it."""
+"""Water check: what swims or sails is in water, and who walks after a swim is out of it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ _INSTANTS, _HALF, _LEAST_CLIP_S = 9, 0.5, 1.0
 """Instants of a phase at which it is looked; share of them that tells, since it may come ashore on
 the way; length of a clip in which motions get so far that they are judged, s."""
 _ON_FOOT = frozenset({"walk", "run", "crawl"})
+_AFLOAT = frozenset({"swim", "sail", "paddle", "row", "surf"})
 
 
 def wet_share(scene: ComposedScene, ground_m: Float64Array) -> float:
@@ -35,7 +36,7 @@ def wet_share(scene: ComposedScene, ground_m: Float64Array) -> float:
 def find_wet_and_dry(
     scene: ComposedScene, description: SceneDescription, duration_s: float
 ) -> Iterator[Violation]:
-    """Swims on land and ways on foot in water, of who is said to do both.
+    """Swims on land, and ways on foot in water of who is said to do both.
 
     Args:
         scene: the staged scene.
@@ -45,14 +46,15 @@ def find_wet_and_dry(
     placed = {one.subject for one in description.relations if one.kind in ("on", "in", "ride")}
     for index, said in enumerate(description.objects):
         kinds = {one.kind for one in said.motions}
-        is_both = "swim" in kinds and kinds & _ON_FOOT and duration_s >= _LEAST_CLIP_S
-        own = [one for one in scene.actors if one.object_index == index and index not in placed]
-        for phase in schedule(said.motions, duration_s) if is_both and own else ():
+        is_judged = kinds & _AFLOAT and duration_s >= _LEAST_CLIP_S and index not in placed
+        own = [one for one in scene.actors if one.object_index == index and one.track.anchor is None
+               and one.noun.habitat != "air"]  # fmt: skip
+        for phase in schedule(said.motions, duration_s) if is_judged and own else ():
             at = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
             wet = [wet_share(scene, np.array([one.middle(float(t))[:2] for t in at]))
                    for one in own]  # fmt: skip
             kind = phase.motion.kind
-            if kind == "swim" and max(wet) < _HALF:
+            if kind in _AFLOAT and max(wet) < _HALF:
                 yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is on land")
             elif kind in _ON_FOOT and min(wet) > _HALF:
                 yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is in the water")

@@ -84,8 +84,9 @@ _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
 """Share of the clip in which what swims is in the water."""
-_STRAY, _UNEVEN = 0.12, 2.0
-"""Most departure of a row from its line, in gaps; most ratio of its gaps."""
+_STRAY, _UNEVEN, _LOOSE = 0.12, 2.0, 0.3
+"""Most departure of a row from its line, in gaps; most ratio of its gaps; most gap in a stack, in
+heights."""
 
 
 def find_held(
@@ -194,13 +195,17 @@ def is_in_line(places: Float64Array) -> bool:
 
 
 def _is_stack(staged: StagedClip, claim: Claim) -> bool:
-    """Whether bodies of its noun are on top of each other, not all on the same level."""
+    """Whether bodies of its noun are on top of each other, all but the lowest one."""
     objects = staged.description.objects
     noun = objects[claim.subject or 0].noun
-    low = [one.lowest_m(0.0) for one in staged.scene.actors
-           if objects[one.object_index].noun == noun]  # fmt: skip
-    least = min(one.model.height for one in staged.own(claim))
-    return max(low) - min(low) >= 0.5 * least
+    boxes = [one.corners(0.0) for one in staged.scene.actors
+             if objects[one.object_index].noun == noun]  # fmt: skip
+    low, high = (np.array([getattr(one, way)(axis=0) for one in boxes]) for way in ("min", "max"))
+    room = _LOOSE * (high - low)[:, 2]
+    rests = [bool(((np.abs(low[n, 2] - high[:, 2]) <= room) & (low[n, :2] < high[:, :2]).all(axis=1)
+                   & (high[n, :2] > low[:, :2]).all(axis=1)).any())
+             for n in range(len(boxes))]  # fmt: skip
+    return sum(rests) >= max(len(boxes) - 1, 1)
 
 
 def _is_in_water(staged: StagedClip, claim: Claim) -> bool:

@@ -27,7 +27,7 @@ from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
-from texvent_scenes.staging.camera.framing import pose
+from texvent_scenes.staging.camera.framing import USUAL_FOCAL, pose
 
 CAR = SceneObject("car")
 
@@ -50,6 +50,14 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     assert behind.out_of_view == ("car",)
     beside = unseen_from(SceneObject("car", count=3), position=(0.0, -3.5, 1.0))
     assert beside.out_of_view in (("car (1 of 3)",), ("car (2 of 3)",))
+
+
+@pytest.mark.parametrize(("noun", "is_told"), [("football", True), ("cup", False), ("rock", False)])
+def test_a_ball_is_told_by_its_outline_and_other_things_of_that_size_are_too_small(noun, is_told):
+    model = stage(SceneObject(noun), place="plain").actors[0].model
+    away_m = USUAL_FOCAL * np.sqrt(model.width * model.height * SIZE.width / SIZE.height / 0.0006)
+    unseen = unseen_from(SceneObject(noun), position=(0.0, -away_m, 1.0))
+    assert (unseen.too_small == ()) == is_told
 
 
 @pytest.mark.parametrize("count", [2, 3, 4])

@@ -61,6 +61,35 @@ def test_a_material_that_a_thing_has_anyway_is_shown(text, word, is_shown):
     check(text, word, is_shown)
 
 
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a lake at night", "at night", True),
+        ("candlelight in a kitchen at night", "candlelight", False),
+        ("a moonlit garden in the evening", "moonlit", False),
+        ("a sunny afternoon in a park", "afternoon", True),
+        ("a lizard in soft daylight from above, tight side view", "from above", False),
+    ],
+)
+def test_a_light_or_a_view_that_another_word_takes_the_place_of_is_not_shown(text, word, is_shown):
+    check(text, word, is_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_shown"),
+    [
+        ("a duck swims on a pond", "swims", True),
+        ("a fish swims in an aquarium", "swims", True),
+        ("a surfer paddles across the lawn", "paddles", False),
+        ("a boat sails on a road", "sails", False),
+        ("a stack of three books", "stack of", True),
+        ("a forklift carries a stack of pallets", "stack of", False),
+    ],
+)
+def test_what_is_afloat_is_in_water_and_a_stack_is_one_on_the_other(text, word, is_shown):
+    check(text, word, is_shown)
+
+
 @pytest.mark.parametrize("text", ["a bicycle lies on the grass", "a car lies on a road"])
 def test_what_stands_upright_does_not_lie(text):
     check(text, "lies", is_shown=False)

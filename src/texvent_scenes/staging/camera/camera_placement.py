@@ -38,9 +38,10 @@ _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""
 _NEAR_LENGTHS = 0.3
 """Lengths of its own from which on an object is followed in a close or medium shot."""
-_STATIC, _ALONG, _LEAST_ALONG, _LEAST_GAIN = 0.33, 0.65, 0.13, 1.1
+_STATIC, _ALONG, _LEAST_ALONG, _FOLLOWED, _LEAST_GAIN = 0.33, 0.65, 0.13, 0.25, 1.1
 """Prominence of the subject from which on a camera that stays shows all its way; with which the
-camera goes along, and at least; and by how much a passage must raise it."""
+camera goes along, that it would have at least if it went no faster than one can look, and that it
+has however fast it goes; and by how much a passage must raise it."""
 _WIDTHS_PER_S, _FILLED = 1.0, 0.75
 """Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
 in which the subject moves."""
@@ -53,8 +54,9 @@ above, rad."""
 _TOGETHER, _STRAIGHT = 0.6, 0.5
 """Share of its way by which another one may get away from a subject that the camera goes along
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
-_PASSING, _TOLD = frozenset({"past", "through"}), 0.8
-"""Relations to what is seen at mid clip, and its prominence from which on all the way is shown."""
+_TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15}
+"""Relation → prominence of what a subject passes or has in hand, from which on all the way is
+shown."""
 _LEAST_PASSAGE, _SEEN = 0.4, 0.16
 """Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
@@ -155,7 +157,7 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     gone_m = float(np.linalg.norm(places[-1] - places[0]))
     is_tied = path.tie is not None or shooting.description.camera.framing in ("close", "medium")
     is_across = gone_m > max(_STRAIGHT * way_m, size_m) and not goes_in_depth(main)
-    told = min(reached / _STATIC, _prominence_of_passed(shooting, path, main) / _TOLD)
+    told = min(reached / _STATIC, _share_of_told(shooting, path, main))
     if told >= 1.0 or is_tied or not is_across:
         return path
     if (passage_s := _find_descent(shooting, main)) is not None:
@@ -166,6 +168,7 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     extent_m = max(held_m / _ALONG, slow_m)
     if held_m >= _LEAST_ALONG * extent_m and _may_go_along(shooting, main):
         tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
+        extent_m = min(extent_m, max(held_m / _FOLLOWED, size_m))
         share = 1.0 - max(extent_m - size_m, 0.0) / way_m
         return _watch(shooting.along(replace(path, tie=tie and replace(tie, share=share))), main)[0]
     shares = [((way_m + size_m) * one - size_m) / way_m for one in (told, reached / _SEEN)]
@@ -190,15 +193,17 @@ def _find_descent(shooting: _Shooting, main: Actor) -> tuple[float, float] | Non
     return None
 
 
-def _prominence_of_passed(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:
-    """Prominence of the least of what a subject goes past or through at mid clip."""
-    relations = shooting.description.relations
-    passed = {n for one in relations if one.subject == main.object_index and one.kind in _PASSING
-              for n in one.targets}  # fmt: skip
+def _share_of_told(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:
+    """Least prominence at mid clip of what a subject passes or has in hand, by what tells it."""
     middle_s = 0.5 * path.duration_s
-    camera = path.at(middle_s)
-    boxes = [one.corners(middle_s)[None] for one in shooting.actors if one.object_index in passed]
-    return min((measure_prominence(camera, one, shooting.aspect) for one in boxes), default=1.0)
+    camera, shares = path.at(middle_s), [1.0]
+    for one in shooting.description.relations:
+        is_own = one.subject == main.object_index and one.kind in _TOLD
+        for other in shooting.actors if is_own else ():
+            if other.object_index in one.targets:
+                box = other.corners(middle_s)[None]
+                shares.append(measure_prominence(camera, box, shooting.aspect) / _TOLD[one.kind])
+    return min(shares)
 
 
 def _stand_back(shooting: _Shooting, path: CameraTrack, main: Actor) -> CameraTrack:

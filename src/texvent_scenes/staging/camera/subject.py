@@ -31,7 +31,7 @@ _LOWER = 2.0
 _PIECE, _MOST_PIECE, _TOLD = 0.7, 3.0, 0.25
 """Least and greatest reach of the piece of a larger one that must fit, in sizes of the largest
 mover; in its own, so that one tells what it is."""
-_GOALS = (1.0, 1.0, 0.9, 0.4)
+_GOALS = (1.0, 1.0, 0.9, 0.4, 0.3)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
 """Prominence of the subject in a wide shot, relative to its usual one."""
@@ -40,7 +40,7 @@ _KEPT_TOGETHER = frozenset(
      "left of", "right of"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
-_SENT = {"kick": 3.2, "throw": 3.2, "hit": 1.7}
+_SENT = {"kick": 3.2, "throw": 3.2, "roll": 3.2, "hit": 1.7}
 """Acts after which a thing flies off → how far it must be seen, in sizes of the subject."""
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
@@ -128,6 +128,8 @@ def list_framing_choices(
         {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
     ]
     related = set().union(*tied) - {main.object_index}
+    for r in (r for r in relations if r.kind == "on"):  # said from the lowest one of a stack on
+        related |= {r.subject} if related.intersection(r.targets) else set()
     landmarks = {n for r in relations if r.kind in _KEPT_TOGETHER for n in r.targets}
     sides = {n for n, one in enumerate(description.objects) if one.placement in ("left", "right")}
     partners = [one for one in near if one.object_index in (related | sides) - {main.object_index}]
@@ -136,7 +138,8 @@ def list_framing_choices(
     others = goes if main.is_mover else near
     kept = [one for one in partners if one.object_index in landmarks | sides | whole]
     copies = [one for one in actors if one.object_index == main.object_index]
-    choices = (near, [*others, *partners], partners, kept)
+    bound = [one for one in kept if one.object_index in related & (landmarks | whole)]
+    choices = (near, [*others, *partners], partners, kept, bound)
     return [
         FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)

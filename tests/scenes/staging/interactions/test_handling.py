@@ -73,7 +73,7 @@ def test_what_is_pulled_follows_at_one_distance(text):
 
 
 @pytest.mark.parametrize("text", [
-    "a dog with a stick in its mouth", "a fox carries a feather in its mouth",
+    "a dog with a stick in its mouth", "a fox carries a fish in its mouth",
     "a bear holding a fish in its jaws",
 ])  # fmt: skip
 def test_an_animal_holds_things_in_its_mouth(text):

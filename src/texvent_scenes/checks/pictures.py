@@ -1,0 +1,218 @@
+"""Picture check: words that change no pixels of small pictures, and motions of which nothing moves.
+
+Each picture is compared with one of the scene without what a word says, or of another instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from texvent.sensor import SensorSize
+from texvent_scenes.checks.places import find_unseen_place
+from texvent_scenes.checks.relations import Violation
+from texvent_scenes.defaults import NO_PLACE
+from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.raycast.render import render
+from texvent_scenes.rendered_scene import Float64Array, Ground, RenderedScene, Texture
+from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
+from texvent_scenes.staging.compose import ComposedScene
+from texvent_scenes.staging.particles.choose import FALLING, Staged
+from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
+from texvent_scenes.staging.tracks.phases import PATH_KINDS
+
+_SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
+"""Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
+share of those that are."""
+_LEAST_SKY, _LEAST_SCENERY, _STIRS = 0.02, 0.02, 0.0004
+"""Least shares of a small picture that clouds change, the scenery of a place, and what moves."""
+_LEAST_CLIP_S = 1.0
+"""Length of a clip, s, in which motions get so far that they are judged."""
+_FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
+"""Grounds that many places have: only their scenery shows which one it is."""
+_LEAST_HUE = 0.4
+"""Difference of a channel, of the greatest, from which on two grounds are of different colours."""
+_WALLS = (Texture.PLASTER, Texture.CONCRETE)
+"""Walls that many rooms have."""
+_TURNS = ("spin", "work", "rotate")
+"""Motions that only a picture tells."""
+_CARRIED = ("stand", "orbit")
+"""Motions of a mark that turns with what it is on."""
+_RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
+          "show amber", "show green")  # fmt: skip
+"""Motions that nothing needs to show."""
+_LATER_S = (0.13, 0.0171)
+"""Times after which rotation shows, s: of both, no usual rate makes whole turns."""
+_FINE = 13
+"""Instants at which it is looked for motion: of fewer, one who hops may be on the ground at all."""
+_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "is_wet", "wave_height")
+"""Fields of a place that pictures must show."""
+
+
+@dataclass(frozen=True)
+class SmallPictures:
+    """Small pictures of a scene at instants, each drawn once."""
+
+    scene: RenderedScene
+    times: Sequence[float]
+    """Instants, s."""
+    _drawn: dict[float, Float64Array] = field(default_factory=dict, init=False)
+
+    def at(self, time_s: float) -> Float64Array:
+        """[height, width, 3] the picture at an instant, 0 to 255."""
+        if time_s not in self._drawn:
+            picture = render(self.scene, time_s, _SIZE, samples=1, shadows=False)
+            self._drawn[time_s] = np.asarray(picture, dtype=np.float64)
+        return self._drawn[time_s]
+
+    def differ(
+        self, other: RenderedScene, *, least: float = _LEAST_SHARE, levels: float = _LEAST_LEVELS
+    ) -> bool:
+        """Whether enough pixels are others in another scene, at one of the instants."""
+        rest = SmallPictures(other, self.times)
+        return any(_differ(self.at(one), rest.at(one), least, levels) for one in self.times)
+
+    def change(self) -> bool:
+        """Whether enough pixels are others a moment after one of the instants."""
+        return any(_differ(self.at(one), self.at(one + later_s))
+                   for later_s in _LATER_S for one in self.times)  # fmt: skip
+
+    def stay(self) -> bool:
+        """Whether the pictures of all instants are the same."""
+        first, *others = map(self.at, self.times)
+        is_so = any(_differ(first, one, _STIRS) for one in others)
+        return not is_so and not self.change()
+
+
+def _differ(
+    first: Float64Array, second: Float64Array, least: float = _LEAST_SHARE,
+    levels: float = _LEAST_LEVELS,
+) -> bool:  # fmt: skip
+    """Whether enough pixels of two pictures differ."""
+    return bool(np.mean(np.abs(first - second).max(axis=-1) >= levels) >= least)
+
+
+def find_unshown(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
+    place, said, drawn = scene.place, description.place, SmallPictures(scene, times)
+    for name, value, other in _list_without(scene, description):
+        levels = _WHITE if name == "has_snow" else _LEAST_LEVELS
+        least = _LEAST_SKY if name == "clouds" else _LEAST_SHARE  # no panes that mirror them
+        if not drawn.differ(other, least=least, levels=levels):
+            is_kind = name in ("light", "weather", "effect")
+            line = name.split("_")[-1] if value is True else f"{name} {value}"
+            line = f"{line.replace('_', ' ')}: no pixel shows it"
+            yield Violation(name, value if is_kind else "", line)
+    for one in description.objects:
+        if one.is_lit and one.noun not in LAMPS:
+            yield Violation("is_lit", "", f"lights of the {one.noun}")
+    yield from _find_rest(scene, description, drawn)
+    yield from _find_unturned(scene, description, times)
+    alike = (one for one in PLACES.values() if one.ground is place.ground)
+    first = next(one for one in alike if one.surface is place.surface)
+    is_common = place.surface in _FLOORS or place.ground is Ground.CITY
+    is_common |= place is not first and not _has_own_colour(place, first)
+    is_shared = place.walls in _WALLS if place.is_room else is_common
+    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
+    other = replace(scene, still=assemble([]))
+    is_bare = is_said and not drawn.differ(other, least=_LEAST_SCENERY)
+    if is_bare and is_shared and place.scenery and not (said.is_empty and place.is_cleared):
+        bare = "bare walls and the floor are" if place.is_room else "the ground is"
+        line = f"{said.name}, of which only {bare} in view"
+        yield Violation("place", said.name or "", line)
+    yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
+
+
+def _find_unturned(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Violation]:
+    """Rotations of bodies that look the same from all sides, each seen alone and from one place."""
+    path = replace(scene.camera_path, moves=(), tie=None)
+    for index, one in enumerate(description.objects):
+        on = [each.subject for each in description.relations
+              if each.kind == "on" and index in each.targets]  # fmt: skip
+        marks = {n for n in on if (description.objects[n].motion or STANDING).kind in _CARRIED}
+        own = tuple(each for each in scene.actors if each.object_index in {index} | marks)
+        kind = one.motion.kind if one.motion and not one.motions[1:] else ""
+        if kind not in _TURNS or not own:
+            continue
+        alone = replace(scene, actors=own, still=assemble([]), particles=Staged(()))
+        alone = alone if path.journey else replace(alone, camera_path=path)
+        if not SmallPictures(alone, times).change():
+            line = f"the {one.noun}'s turning: it looks the same from all sides"
+            yield Violation("motion", kind, line)
+
+
+def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:
+    """Whether the ground of a place differs in hue from that of another place."""
+    own, other = (np.array(one.colours[0]) / max(one.colours[0]) for one in (place, usual))
+    return bool(np.abs(own - other).max() >= _LEAST_HUE)
+
+
+def _find_rest(
+    scene: ComposedScene, description: SceneDescription, drawn: SmallPictures
+) -> Iterator[Violation]:
+    """Motions of bodies that neither move nor take a posture, or of which no picture tells."""
+    times = drawn.times
+    fine = [float(one) for one in np.linspace(times[0], times[-1], _FINE)]
+    for index, one in enumerate(description.objects):
+        own = [actor for actor in scene.actors if actor.object_index == index]
+        kind = one.motion.kind if one.motion and not one.motions[1:] else _RESTS[0]
+        if not own or kind in _RESTS:
+            continue
+        if not any(_is_changed(actor, fine) for actor in own):
+            yield Violation("motion", kind, f"the {one.noun}'s {kind}: nothing of it moves")
+        elif kind in PATH_KINDS and times[-1] >= _LEAST_CLIP_S and drawn.stay():
+            yield Violation("motion", kind, f"the {one.noun}'s {kind}: the picture stays the same")
+
+
+def _is_changed(actor: Actor, times: Sequence[float]) -> bool:
+    """Whether its parts are in other places at another instant, or than at rest, or shine so."""
+    first, *others = (actor.place(time_s) for time_s in times)
+    rest = PlacedModel(actor.own_parts(Pose(0.0, 0.0, 0.0, "stand")), first.to_world, 0)
+    drawn = [assemble([one]) for one in (first, *others, rest)]
+    states = [np.column_stack([one.to_world.reshape(-1, 12), one.emission]) for one in drawn]
+    return not all(
+        one.shape == states[0].shape and np.allclose(one, states[0], atol=1e-3)
+        for one in states[1:]
+    )
+
+
+def _list_without(
+    scene: ComposedScene, description: SceneDescription
+) -> Iterator[tuple[str, Any, ComposedScene]]:
+    """Kind and value of what is said of surroundings, and the scene without it."""
+    said, base, staged = description.place, scene.animated_environment.base, scene.particles
+    x, y = map(float, base.road_offset)
+    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
+
+    def without(**fields: Any) -> ComposedScene:
+        other = build_environment(
+            replace(description, **fields), place=scene.place, road=road,
+            room_m=scene.camera_path.room_m, corridor_m=scene.camera_path.corridor_m,
+            distance_m=scene.camera_path.framing.distance_m,
+        )  # fmt: skip
+        return replace(scene, animated_environment=other)
+
+    for name in _SURROUNDINGS:
+        value, usual = getattr(said, name), getattr(Place, name)
+        is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
+        if value != usual and value not in FALLING and not is_so:
+            yield name, value, without(place=replace(said, **{name: usual}))
+    if description.light.kind not in (None, "day"):
+        yield "light", description.light.kind, without(light=replace(description.light, kind=None))
+    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
+        pairs = zip(staged.effects, staged.kinds, strict=True)
+        rest = tuple(effect for effect, own in pairs if own != kind)
+        if len(rest) < len(staged.effects):
+            name = "weather" if kind == said.weather else "effect"
+            yield name, kind, replace(scene, particles=replace(staged, effects=rest))
