@@ -100,6 +100,10 @@ DOUBTFUL = {
     ),
     "12 bits": (LEVELS.astype(np.uint16) * np.uint16(16), "have 12 bits.*white_level=4095"),
     "16 bits in floats": (LEVELS * 257.0, "white_level=65535"),
+    **{
+        f"floats up to {white:g}": (LEVELS / LEVELS.max() * white, f"white_level={white:g}")
+        for white in (1023.0, 4095.0, 65535.0, 90000.0)
+    },
     "12 bits in floats": (LEVELS * 16.0 + 0.5, "white_level=4095"),
     "int8": ((LEVELS // 2).astype(np.int8), "int8"),
     "masked": ([np.ma.masked_less(one, 60) for one in LEVELS], "masked value"),

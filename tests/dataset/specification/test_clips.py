@@ -86,6 +86,18 @@ def test_under_a_camera_the_images_of_a_folder_are_items(tmp_path: Path) -> None
     assert items.labels == ("cats", "dogs")
 
 
+@pytest.mark.parametrize("labelled", [0, 1, 3, 4])
+def test_either_all_items_have_a_label_or_none_and_their_number_is_told(labelled: int) -> None:
+    sources = [{"prompts": [f"car {n}"], **({"label": "a"} if n < labelled else {})}
+               for n in range(4)]  # fmt: skip
+    specification = specification_from({"name": "x", "sources": sources}, folder=Path())
+    if labelled in (0, 4):
+        assert len(read_items(specification).all) == 4
+        return
+    with pytest.raises(ConfigError, match=f"{labelled} of 4 prompts or videos have a label"):
+        read_items(specification)
+
+
 @given(
     low=st.floats(1e-3, 1e3),
     width=st.floats(0, 1e3),

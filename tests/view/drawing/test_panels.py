@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SENSORS, SensorSize
-from texvent.view.drawing.canvas import blank
+from texvent.view.drawing.canvas import blank, draw_label
 from texvent.view.drawing.palettes import PALETTES, get_palette
 from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend
 
@@ -15,6 +15,14 @@ SIZES = [
     SensorSize(3, 500),
     SensorSize(1001, 3),
 ]
+
+
+@pytest.mark.parametrize("y", [0, 1, 19, 20, 21, 79])
+def test_a_label_is_whole_above_its_corner_or_below_it_at_the_edge(y: int) -> None:
+    image = blank(120, 120, (0, 0, 0))
+    draw_label(image, "car", (30, y), (9, 200, 9), height=10)
+    rows = np.flatnonzero((image == (9, 200, 9)).all(axis=2).any(axis=1))
+    assert [rows[0], rows[-1] + 1] == ([y - 20, y] if y >= 20 else [y, y + 20])
 
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
