@@ -15,6 +15,7 @@ import copy
 import inspect
 import io
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -30,6 +31,7 @@ import numpy as np
 from tests.functions.values import arguments, is_own, made, mark, modules, written
 
 TABLE = Path(__file__).with_name("outcomes.txt")
+PLACES = (str(Path(__file__).parents[2]), sys.prefix, sys.base_prefix)
 PACKAGES = ("texvent", "texvent_scenes", "texvent_lab")
 ELSEWHERE = tuple(
     f"texvent{one}"
@@ -37,7 +39,7 @@ ELSEWHERE = tuple(
         "_scenes.read", "_scenes.checks", "_scenes.models", "_scenes.staging", "_scenes.raycast",
         "_scenes.procedural", "_scenes.rendered_scene", "_scenes.commands", "_lab.commands",
         "_lab.measure", ".cli.setup", ".generation.videos.video_cache",
-        ".generation.diffusers_models.guardrail",
+        ".generation.diffusers_models.guardrail", "._require", "._registry", ".runtime.jit",
         ".interpolate.dis_flow", ".runtime.files.hidden_parts", ".runtime.memory",
         ".runtime.threads", ".runtime.devices", ".runtime.identity", ".runtime.work",
         ".simulation.gpu",
@@ -140,7 +142,8 @@ def outcome(call: Callable[..., Any], named: dict[str, Any]) -> tuple[str, bool]
         for left in Path().iterdir():
             found += f" {left.name}"
             shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
-    return (found + said.getvalue()).replace(os.getcwd(), ""), is_fault
+    found = re.sub("install it with: .*", "", found + said.getvalue())
+    return re.sub("|".join(map(re.escape, (os.getcwd(), *PLACES))), "", found), is_fault
 
 
 def outcomes(calls: list[Callable[..., Any]]) -> Iterator[tuple[str, bool, dict[str, Any]]]:
