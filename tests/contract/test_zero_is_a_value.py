@@ -10,7 +10,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 NUMBERS = {"int", "float", "Fraction", "Number", "Seconds", "Hertz", "Metres"}
 WITHOUT_ZERO = {
-    "flicker.py": "ratio", "linear_light.py": "white_level full_scale", "video_file.py": "constant_rate",
+    "flicker.py": "ratio", "linear_light.py": "white_level full_scale",
+    "video_file.py": "constant_rate",
     "plan.py": "trial", "calibrate.py": "flicker_ratio", "simulated_samples.py": "slice_us",
     "pipeline_loading.py": "offload_gb gpu_gb", "config.py": "figure offload_gb gpu_gb",
     "download_sizes.py": "_rounded size", "dialect.py": "width", "memory.py": "machine_bytes",
