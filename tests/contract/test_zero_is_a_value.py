@@ -1,0 +1,114 @@
+"""Zero is a value: nowhere is a number that may be None taken for "not given" because it is 0."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+NUMBERS = {"int", "float", "Fraction", "Number", "Seconds", "Hertz", "Metres"}
+WITHOUT_ZERO = {
+    "flicker.py": "ratio", "linear_light.py": "white_level full_scale",
+    "video_file.py": "constant_rate",
+    "plan.py": "trial", "calibrate.py": "flicker_ratio", "simulated_samples.py": "slice_us",
+    "pipeline_loading.py": "offload_gb gpu_gb", "config.py": "figure offload_gb gpu_gb",
+    "download_sizes.py": "_rounded size", "dialect.py": "width", "memory.py": "machine_bytes",
+    "engines.py": "of", "engine.py": "clips", "model_options.py": "on_off_ratio",
+    "plots.py": "bin_us", "video_writer.py": "fps", "words.py": "blink_hz",
+    "defaults.py": "blink_hz", "procedural.py": "flicker_hz", "actors.py": "act_s",
+    "striking.py": "tumble_rad_s", "along_surface.py": "said_m_s", "track.py": "restitution",
+    "recordings.py": "events_per_image", "reconstruction_factors.py": "clips",
+}  # fmt: skip
+"""File → names of numbers in it whose zero is refused at the door, or does mean none."""
+FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def is_number_or_none(annotation: ast.expr | None) -> bool:
+    """Whether an annotation allows a number, None and nothing else."""
+    text = ast.unparse(annotation).strip("'\"") if annotation else ""
+    parts = {one.strip() for one in text.split("|")}
+    return "None" in parts and len(parts) > 1 and parts <= NUMBERS | {"None"}
+
+
+def asked(tree: ast.AST) -> Iterator[ast.expr]:
+    """Expressions whose truth decides."""
+    for one in ast.walk(tree):
+        if isinstance(one, ast.If | ast.While | ast.IfExp | ast.Assert):
+            yield from one.test.values if isinstance(one.test, ast.BoolOp) else [one.test]
+        elif isinstance(one, ast.BoolOp) and ast.unparse(one.values[-1]) not in ("0", "0.0"):
+            yield from one.values[:-1]
+        elif isinstance(one, ast.UnaryOp) and isinstance(one.op, ast.Not):
+            yield one.operand
+        elif isinstance(one, ast.comprehension):
+            yield from one.ifs
+        elif isinstance(one, ast.Call) and ast.unparse(one.func) in ("bool", "any", "all"):
+            yield from one.args
+
+
+def trees() -> dict[Path, ast.Module]:
+    places = ROOT / "src", ROOT / "lab" / "src"
+    files = [one for place in places for one in sorted(place.rglob("*.py"))]
+    return {one: ast.parse(one.read_text(encoding="utf-8")) for one in files}
+
+
+def numbers_by_name(of: dict[Path, ast.Module]) -> set[str]:
+    """Names of fields and functions that are, or give, such a number wherever they are."""
+    kinds = defaultdict(set)
+    for one in (one for tree in of.values() for one in ast.walk(tree)):
+        if isinstance(one, FUNCTIONS):
+            kinds[one.name].add(is_number_or_none(one.returns))
+        for field in one.body if isinstance(one, ast.ClassDef) else ():
+            if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name):
+                kinds[field.target.id].add(is_number_or_none(field.annotation))
+    return {name for name, found in kinds.items() if found == {True}}
+
+
+def name_of(value: ast.expr) -> str:
+    """Last name of a field, of a function that is called, or of what a name is given."""
+    value = value.value if isinstance(value, ast.NamedExpr) else value
+    value = value.func if isinstance(value, ast.Call) else value
+    return getattr(value, "attr", getattr(value, "id", ""))
+
+
+def zeros_taken_for_none(tree: ast.Module, fields: set[str]) -> Iterator[tuple[str, int]]:
+    """Names of such numbers whose truth is asked, and lines."""
+    for one in asked(tree):
+        is_named = not isinstance(one, ast.Name) or isinstance(one, ast.NamedExpr)
+        if is_named and name_of(one) in fields:
+            yield name_of(one), one.lineno
+    for function in (one for one in ast.walk(tree) if isinstance(one, FUNCTIONS)):
+        given = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
+        names = {one.arg for one in given if is_number_or_none(one.annotation)}
+        for one in ast.walk(function):
+            if isinstance(one, ast.Assign) and name_of(one.value) in fields - {"get"}:
+                names |= {target.id for target in one.targets if isinstance(target, ast.Name)}
+        for one in asked(function):
+            if isinstance(one, ast.Name) and one.id in names:
+                yield one.id, one.lineno
+
+
+def test_no_number_that_may_be_none_is_asked_for_its_truth():
+    of = trees()
+    fields = numbers_by_name(of)
+    assert len(fields) > 50
+    found = [
+        f"{path.relative_to(ROOT)}:{line} {name}"
+        for path, tree in of.items()
+        for name, line in zeros_taken_for_none(tree, fields)
+        if name not in WITHOUT_ZERO.get(path.name, "").split()
+    ]
+    assert not found, "compare with None:\n" + "\n".join(found)
+
+
+def test_zeros_are_found_where_they_decide():
+    text = "class A:\n    seed: int | None\n\ndef f(a: A, n: float | None, k: int):\n"
+    for line, is_found in {
+        "if a.seed: pass": True, "n = n or 3.0": True, "if not n: pass": True,
+        "b = 1 if n else 2": True, "b = n or 0.0": False,
+        "m = a.seed; b = m or 1": True, "m = k; b = m or 1": False,
+        "if n is None and k: pass": False, "if n is not None or a.seed == 0: pass": False,
+    }.items():  # fmt: skip
+        tree = ast.parse(f"{text}    {line}\n")
+        assert bool([*zeros_taken_for_none(tree, {"seed"})]) is is_found, line
