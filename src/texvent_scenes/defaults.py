@@ -468,7 +468,11 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
     """Usual place of objects with these motions."""
     habitats = {noun.habitat for noun in members}
     of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
-    if habitats == {"water"} or "plunge" in kinds or (habitats == {"ground"} and kinds & {"swim", "surf"}):
+    if (
+        habitats == {"water"}
+        or "plunge" in kinds
+        or (habitats == {"ground"} and kinds & {"swim", "surf"})
+    ):
         return "sea"
     if any(noun.motion in _AFLOAT for noun in members):
         return "sea" if "sea" in of_nouns else "lake"

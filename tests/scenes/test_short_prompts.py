@@ -86,10 +86,46 @@ def test_a_traffic_light_shows_the_colour_that_is_said(text, colours):
      "an array of four leds blinking at 10 Hz", "a crowded beach", "a woman sits at a piano",
      "two men watch a train", "a woman feeds the ducks", "a boy slides down a slide",
      "a balloon floats up into the sky", "a dolphin jumps out of the sea", "a drone spins in place",
+     "a quadruped robot trots", "a delivery robot rolls along the sidewalk",
+     "a gymnast does a cartwheel", "a boy does a handstand", "two boxers fight in a gym",
+     "highway at night, oncoming headlights", "heavy rain pounding on a puddle", "birds on a wire",
+     "palm trees bending in the wind", "a soap bubble pops", "a tram turns at a corner",
+     "a street seen from a rooftop", "a swimmer dives into the sea", "a weightlifter lifts a barbell",
      "a car stops for a pedestrian", "curtains move in the wind", "seagulls fly overhead",
      "a tram stops at a station", "a cat chases a mouse", "a dog barks at a cat"],
 )  # fmt: skip
 def test_words_that_the_picture_shows_are_not_listed_as_lost(text):
+    assert is_right(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a dog jumps into a lake", "a man leaps into the sea", "a woman jumps into the water"]
+)
+def test_who_jumps_into_water_comes_from_above_and_splashes(text):
+    scene = staged(text)[0]
+    (one,), (splash,) = scene.actors, scene.particles.effects
+    before, after = (one.lowest_m(splash.start_s + step) for step in (-0.05, 0.2))
+    assert one.lowest_m(0.0) > 0.4 > 0.0 > after
+    assert before > 0.0
+    times = np.array([splash.start_s - 0.1, splash.start_s + 0.1])
+    seen, gone = (np.abs(splash.at(at).to_world[:, :, :3]).max(axis=(1, 2)) for at in times[::-1])
+    assert seen.max() > 100.0 * gone.max()
+    assert is_right(text)
+
+
+def test_who_swims_or_stands_by_the_water_does_not_splash():
+    for text in ("a dog swims in a lake", "a man jumps on a beach"):
+        assert not staged(text)[0].particles.effects
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a horse gallops along a fence", "a cat runs along a wall", "a dog runs along a brick wall"],
+)
+def test_a_fence_is_as_long_as_the_way_along_it(text):
+    one, fence = staged(text)[0].actors
+    way = one.middle(2.0) - one.middle(0.0)
+    assert np.ptp(fence.corners(0.0)[:, 0]) == pytest.approx(np.linalg.norm(way), rel=0.4)
     assert is_right(text)
 
 
@@ -361,7 +397,8 @@ def test_what_several_hold_is_held_by_each_or_not_shown(text, verb, is_so):
 @pytest.mark.parametrize(
     "text",
     ["a car approaching the camera at 60 km/h", "a dog approaches the camera",
-     "a person approaching the camera"],
+     "a person approaching the camera", "a ping-pong ball thrown at the camera",
+     "a tomato flies straight at the lens", "a baseball thrown directly at the camera"],
 )  # fmt: skip
 def test_what_approaches_the_camera_comes_nearer(text):
     scene = staged(text)[0]

@@ -126,7 +126,9 @@ def _splash(actor: Actor, setting: Setting) -> list[Emitter]:
     x, y, _ = actor.middle(at_s)
     source = Source(min(actor.size_m, _MOST_SPLASH_M), np.array([x, y, 0.0]))
     rng = seeded(setting.seed, "splash", actor.instance)
-    return [Emitter.of(one, source, setting, rng, start_s=at_s) for one in EFFECTS["splash"].emitters]
+    return [
+        Emitter.of(one, source, setting, rng, start_s=at_s) for one in EFFECTS["splash"].emitters
+    ]
 
 
 def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from texvent_scenes.models.protocol import Model, ModelPart, Pose
+from texvent_scenes.models.shapes import moved, shift
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.staging.placement.object_groups import Goal, ObjectGroup
 from texvent_scenes.staging.placement.zones import are_driven
@@ -15,6 +19,8 @@ from texvent_scenes.staging.tracks.phases import ends_at_rest
 _FIXED, _AWAY = np.zeros(3), np.array([0.0, 1.0, 0.0])
 _AT_START = ("from", "away from")
 """Relations to the thing that a body leaves."""
+_ALONG, _PANEL = 0.8, 0.96
+"""Share of the way along a fence that is beside it; from panel to panel, in widths of one."""
 _EDGE_M, _AHEAD_M = 0.2, 2.0
 """Gap between a train and its platform, whose middle is so far ahead of that of the train, m."""
 _AT_DOOR_M, _QUEUE_M = 0.3, 1.2
@@ -34,9 +40,41 @@ def place_on_way(group: ObjectGroup, kind: str, subject: ObjectGroup, height: fl
         return _lead_out(group, subject, height)
     if kind in ("beside", *_AT_START, "past") and group.noun.name in nouns_with("alongside"):
         return _lay_alongside(group, kind, subject, height)
+    if kind == "past" and subject.plan.is_path and group.noun.name in nouns_with("runs on"):
+        _lay_out(group, subject)
     if kind in ("behind", "front", "beside"):
         return _place_in_queue(group, kind, subject, height)
     return None
+
+
+class RepeatedModel:
+    """A model several times in one row along its width, as the panels of a fence are."""
+
+    def __init__(self, model: Model, count: int) -> None:
+        self._model, self._count = model, count
+        self._apart_m = _PANEL * model.width
+        self.length, self.height = model.length, model.height
+        self.width = model.width + (count - 1) * self._apart_m
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):  # not yet set, as in a copy that is being made
+            raise AttributeError(name)
+        return getattr(self._model, name)
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """The parts of every panel."""
+        first = -0.5 * (self._count - 1)
+        places = [shift(0.0, (first + n) * self._apart_m) for n in range(self._count)]
+        return [each for one in places for each in moved(self._model.parts(pose), one)]
+
+
+def _lay_out(group: ObjectGroup, subject: ObjectGroup) -> None:
+    """Lay what has panels along most of the way of who goes by, parallel to it."""
+    count = math.ceil(_ALONG * subject.plan.travel_m / group.models[0].width)
+    if count > 1 and len(group.models) == 1 and group.scene_object.heading_deg is None:
+        group.models = [RepeatedModel(group.models[0], count)]
+        group.plan = replace(group.plan, yaw=subject.plan.yaw - 0.5 * math.pi)
+        group.fit()
 
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
