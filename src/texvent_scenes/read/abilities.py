@@ -53,6 +53,12 @@ class Abilities:
         kinds = {one["kind"] for one in self.things[index]["motions"]}
         return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
 
+    def is_swung(self, index: int) -> bool:
+        """Whether an object is on a swing."""
+        relations = [one for one in self.things[index]["relations"] if one["kind"] == "on"]
+        seats = [self.things[n]["noun"] for one in relations for n in one["to"]]
+        return bool({*seats} & nouns_with("swings"))
+
     def spins(self, index: int) -> bool:
         """Whether an object turns in its place."""
         return [one["kind"] for one in self.things[index]["motions"]] == ["spin"]
@@ -73,10 +79,7 @@ class Abilities:
             return bool(objects) and all(grips(one, verb.relation or "") for one in names)
         if (is_able := self._is_able(verb, subjects, objects, has_object)) is not None:
             return is_able
-        seats = [n for each in things for one in each["relations"] for n in one["to"]
-                 if one["kind"] == "on"]  # fmt: skip
-        is_swung = any(self.things[n]["noun"] in nouns_with("swings") for n in seats)
-        if is_swung and verb.kind == "move":
+        if verb.kind == "move" and any(map(self.is_swung, subjects)):
             return False  # it goes with its seat: "a girl on a swing going high"
         goes_on = verb.kind == "stand" and verb.is_near  # "a fan stops"
         if goes_on and any(self.nouns[one].is_working for one in names):

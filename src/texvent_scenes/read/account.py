@@ -147,7 +147,7 @@ def _hang_up(draft: SceneDraft) -> None:
 def _do_deeds(draft: SceneDraft) -> None:
     """Let those do it who are named by what they do and do nothing else: "a violinist"."""
     for index, one in enumerate(draft.things):
-        deed = one.pop("deed", None)
+        deed, _ = one.pop("deed", None), one.pop("word", "")
         acts = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
         if deed and not (one["motions"] or acts or "is_lost" in one):
             one["motions"].append({"kind": deed})
@@ -204,11 +204,14 @@ def _give_each(draft: SceneDraft) -> None:
     So do two who hold umbrellas or ride bicycles have one each, of which no number is said.
     """
     plural = {n for n, one in enumerate(draft.things) if one.pop("is_open", False)}
+    people: dict[int, int] = dict.fromkeys(plural, 0)
     for one in (each for each in draft.things if each["noun"] in PERSON_NOUNS):
         had = (n for each in one["relations"] if each["kind"] in word_set("things", "each_has")
                for n in each["to"])  # fmt: skip
-        for target in plural & {*had} if one["count"] > 1 else ():
-            draft.things[target]["count"] = one["count"]
+        for target in plural & {*had}:
+            people[target] += int(one["count"])
+    for target in (one for one in plural if people[one] > 1):
+        draft.things[target]["count"] = people[target]
     for one in draft.things:
         worn = (n for each in one["relations"] if each["kind"] == "wear" for n in each["to"])
         for target in (draft.things[n] for n in worn):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from texvent_scenes.read.clauses import Clause
 from texvent_scenes.read.draft import SceneDraft, names_place, split_move, turn_by
 from texvent_scenes.read.groups import Group, Phrase
 from texvent_scenes.read.lexicon import Sense, lexicon_of, word_set
+from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
@@ -67,7 +68,7 @@ def is_shot(clause: Clause) -> bool:
         return False  # it is that of the view
     words = [one for one in clause.after if one not in adverbs]
     first = words[0] if words else None
-    if not isinstance(first, Token) or not first.has("shot"):
+    if not isinstance(first, Token) or not (first.has("shot") or first.is_view):
         return False
     return clause.verb is None or first.at < clause.verb.at
 
@@ -91,6 +92,36 @@ def go_through(
     return True
 
 
+def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | None = None) -> bool:
+    """Whether it says from where something is seen, which puts nothing there; its words are lost.
+
+    As in "seen from a bridge", "follows from a vehicle"; what a camera leaves is seen.
+    """
+    preposition, kind = phrase.preposition, (move or {}).get("kind")
+    leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
+    is_so = preposition.text.startswith("from") and bool(phrase.groups) and not leaves
+    before = draft.tokens[preposition.at - 1]
+    is_view = before.text in word_set("things", "viewed") or before.has("shot")
+    if not is_so or (move is None and not is_view):
+        return False
+    heads = [one.head for one in phrase.groups if one.head is not None]
+    if heads and all(one.has("place") for one in heads):
+        return False  # "seen from a beach" is there
+    for token in (preposition, *(one for group in phrase.groups for one in list_words(group))):
+        draft.mark(token, "lost")
+    nouns = [one.noun.noun for one in phrase.groups if one.noun is not None]
+    after = draft.tokens[heads[-1].at + 1 :][:1] if heads else ()
+    if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
+        draft.mark(preposition, "shown")
+        draft.mark(heads[-1], "camera")  # "view from a drone flying over a field"
+    return True
+
+
+def is_course(token: Token) -> bool:
+    """Whether a participle says where a camera may go with what it is on."""
+    return any(one.value.who == "camera" for one in token.verbs("ing"))
+
+
 def claim_way(
     draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Sequence[int]
 ) -> None:
@@ -109,6 +140,8 @@ def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:
     if preposition.text == "around" and move["kind"] in ("truck", "travel"):
         return {"kind": "orbit", "pace": pace}
     is_open = move["kind"] == "truck" and "direction" not in move
+    if move["kind"] in ("tilt", "pan") and "direction" not in move:
+        return move | split_move(f"{move['kind']} {preposition.text.partition(' ')[0]}")  # "up to"
     is_place = bool(heads) and all(head and names_place(head, preposition.text) for head in heads)
     if is_open and is_place and preposition.text in word_set("things", "onward"):
         return {**split_move("travel forward"), "pace": pace}
@@ -140,8 +173,8 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
             name, move = ("pace", move | side) if "direction" in side else ("", move)
         elif name in ("pace", "speed_m_s"):
             move[name] = move.get("pace", 1.0) * value if name == "pace" else value
-        elif (turned := turn_by(move, name, value)) != move:
-            name, move = "pace", turned
+        elif (led := turn_by(move, name, value)) != move:
+            name, move = "pace", led
         if name in ("pace", "speed_m_s"):
             draft.show(one)
     means = [one.kind for one in senses if one.who == "plain" and one.kind in MEANS]

@@ -90,7 +90,8 @@ class _Parser(GroupReader):
             return second
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
-            return Clause(about="nearest")
+            is_shot = not clause.has_subject and self._token(-2).has("shot", "scene", "style")
+            return Clause(about="camera" if is_shot else "nearest")  # "side view that slides"
         if word != "and":
             return None
         self._take()
@@ -102,7 +103,8 @@ class _Parser(GroupReader):
             return Clause(about="meanwhile" if is_both else "same")  # "talking and walking"
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
-        starts = self._starts_group() or self._token().has("camera") or self._token().is_time
+        ahead = 1 if self._token().has("articles") else 0
+        starts = self._starts_group() or self._token(ahead).has("camera") or self._token().is_time
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _go_on(self, clause: Clause) -> Clause | None:

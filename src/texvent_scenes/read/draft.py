@@ -397,9 +397,9 @@ class SceneDraft(Abilities):
             for motion in thing["motions"]:
                 motion |= {"direction": side} if motion.get("direction") == OPPOSITE else {}
 
-    def pick(self, word: str, count: int) -> list[int]:
-        """Part some from the last object of more copies; or what was left of them."""
-        many = [n for n, one in enumerate(self.things) if one["count"] > 1][-1:]
+    def pick(self, word: str, count: int, among: Sequence[int] = ()) -> list[int]:
+        """Part some from the last object of more copies, of those that go; or what was left."""
+        many = self.find_several(among)
         if word in ("other", "others") or not many:
             return self._left
         self._left, (own,) = many, many
@@ -409,6 +409,24 @@ class SceneDraft(Abilities):
         if self.things[own]["count"] > count:
             self._part(own, count)
         return [len(self.things) - 1] if count in (1, self.things[-1]["count"]) else []
+
+    def find_several(self, among: Sequence[int] = (), least: int = 2) -> list[int]:
+        """The last object of so many copies, of those that go by themselves if there is one."""
+        said = among or range(len(self.things))
+        many = [n for n in said if self.things[n]["count"] >= least]
+        able = [one for one in many if self.can_go(one) and not self.is_swung(one)]
+        return (able or many)[-1:]
+
+    def count_like(self, own: int) -> int:
+        """Number of bodies of an object's noun."""
+        noun = self.things[own]["noun"]
+        return sum(one["count"] for one in self.things if one["noun"] == noun)
+
+    def add_like(self, own: int) -> list[int]:
+        """Add one more of a kind, which does nothing yet: "two goats fight, a third eats"."""
+        kept = {key: value for key, value in self.things[own].items() if key in ("noun", "deed")}
+        self.things.append(kept | {"motions": [], "relations": [], "count": 1})
+        return [len(self.things) - 1]
 
     def take_in_mouth(self, index: int) -> None:
         """Let an animal hold what it is with: "a dog with a stick in its mouth"."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.lexicon import NounSense, owned_parts, states, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
@@ -19,12 +20,17 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 
 
+def ordinals() -> dict[str, int]:
+    """Words of one of several → the number up to it: "third"."""
+    return dict(read_table("words", "read")["ordinals"])
+
+
 def _counts(token: Token) -> list[float]:
     """Numbers of things that a word means."""
     return [float(one.value[1]) for one in token.all("field") if one.value[0] == "count"]
 
 
-def _is_plural_form(word: str) -> bool:
+def is_plural_form(word: str) -> bool:
     """Whether a word that is not known ends as a plural or a verb does, and as no adjective."""
     return word.endswith("s") and not word.endswith(("ss", "us", "is", "’s", "'s", "sports"))
 
@@ -52,12 +58,26 @@ class Group:
 
     @property
     def picks(self) -> str:
-        """As "one" or "two" of several things that are named, "other", or ""."""
+        """As "one" or "two" of several things that are named, "other", "leader", or ""."""
         words = [one.text for one in self.unknown if self.head is None]
-        if self.count > 1:
+        known = (
+            "other",
+            "others",
+            "one",
+            "another",
+            *ordinals(),
+            *sorted(word_set("things", "members")),
+        )
+        if self.count > 1 and not {"other", "others"} & {*words}:
             is_part = self.of is not None and len(words) == 1 and words != ["both"]
             return words[0] if is_part else ""
-        return next((one for one in ("other", "others", "one", "another") if one in words), "")
+        return next((one for one in known if one in words), "")
+
+    @property
+    def ordinal(self) -> int:
+        """Number of the one that it picks, which may be a new one: 3 of "a third"; else 0."""
+        words = [one.text for one in self.unknown if self.article in ("a", "an")]
+        return max((ordinals().get(one, 0) for one in words), default=0)
 
     @property
     def count(self) -> int:
@@ -204,7 +224,7 @@ class GroupReader:
         if token.is_unknown and self._at > first and self._has_object():
             return True  # "a player in white serves the ball"
         before = self._token(-1)
-        if self._at > first and before.is_unknown and _is_plural_form(before.text):
+        if self._at > first and before.is_unknown and is_plural_form(before.text):
             return True  # "in blue kimonos wooden boxes": the colour is not that of the boxes
         is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
         if before.is_unknown and is_many and token.text.endswith("ing"):

@@ -128,7 +128,10 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
         found.setdefault(phrase, {})[sense] = None
     for word in word_set("ambiguous", "words"):
         for form in (word, *list_plurals(word)):
-            found.pop((form,), None)
+            said = found.pop((form,), {})  # a camera may track
+            found[(form,)] = {
+                one: None for one in said if one.kind == "verb" and one.value.who == "camera"
+            }
     return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
 
 

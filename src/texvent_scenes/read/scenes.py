@@ -13,7 +13,15 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import claim_way, find_move, go_through, is_ego, is_shot, sit_in
+from texvent_scenes.read.camera import (
+    claim_way,
+    find_move,
+    go_through,
+    is_ego,
+    is_shot,
+    is_standpoint,
+    sit_in,
+)
 from texvent_scenes.read.clauses import Clause, read_clauses
 from texvent_scenes.read.draft import SceneDraft, is_grammar, names_place
 from texvent_scenes.read.groups import Group, Phrase
@@ -88,7 +96,9 @@ class _SentenceReader(ThingReader):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head, *clause.negation)
         goes_on = self._was_camera and clause.about in ("same", "meanwhile", "then")
-        is_named = goes_on or clause.about == "camera"
+        heads = [one.head for one in clause.subjects if one.head is not None]
+        is_aboard = any(self._draft.fates.get(one.at) == "camera" for one in heads)
+        is_named = goes_on or is_aboard or clause.about == "camera"
         seated = None if is_named else sit_in(self._draft, clause)
         clause = seated or clause
         is_own = seated is not None or (not is_named and is_ego(self._draft, clause))
@@ -220,7 +230,9 @@ class _SentenceReader(ThingReader):
         last = NO_TOKEN
         for one in after:
             if isinstance(one, Phrase) and (
-                self._hangs_on_unknown(one) or are_own_parts(self._draft, one, subjects)
+                self._hangs_on_unknown(one)
+                or is_standpoint(self._draft, one)
+                or are_own_parts(self._draft, one, subjects)
             ):
                 continue
             if isinstance(one, Phrase):
@@ -322,12 +334,21 @@ class _SentenceReader(ThingReader):
                 return []
             if listed := self._find_listed(clause.subjects):
                 return listed
+            if clause.verb is not None and clause.verb.text in word_set("things", "hung"):
+                return self._nearest  # "a drone with a box hanging below it"
             both = self._nearest, self._subjects
             able = [[one for one in each if self._is_able(clause, one)] for each in both]
             going = [one for one in self._nearest if self._draft.can_go(one)]
             return next(filter(None, (*able, going)), self._subjects)
         if clause.subjects:
-            named = [self._pick(group) or self._name(group) for group in clause.subjects]
+            known = len(self._draft.things)
+            named = [self._pick(group, known) or self._name(group) for group in clause.subjects]
+            lost = [
+                not one
+                for one, group in zip(named, clause.subjects, strict=True)
+                if group.is_plural
+            ]
+            self._is_lost = any(lost) or (self._is_lost and not any(named))
             picked = [one for one, group in zip(named, clause.subjects, strict=True) if group.picks]
             self._leave_places([index for one in picked for index in one], clause.after[:1])
             return [index for one in (picked if any(picked) else named) for index in one]
@@ -435,10 +456,15 @@ class _SentenceReader(ThingReader):
             draft.mark(token, "shown" if far and draft.shows(before) else "lost")
             return  # "with mountains behind it"
         own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
-        is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
+        word = draft.tokens[token.at + 1].text
+        is_many = word == "them" and draft.is_many(self._earlier)
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
         others: Sequence[int] = subjects
         about: Sequence[int] = self._earlier if is_own else nearest
+        if word == "it" and about and all(draft.things[n]["noun"] in PERSON_NOUNS for n in about):
+            fit = [n for n in (*nearest, *self._where, *self._earlier)
+                   if n not in own and draft.things[n]["noun"] not in PERSON_NOUNS]  # fmt: skip
+            about = fit[:1]  # "a drone hovers while a man rolls a ball beneath it"
         is_fixed = self._where and not any(map(draft.can_go, self._where))
         if is_own and is_fixed and kind in word_set("things", "bearing"):
             about = self._where
@@ -455,7 +481,7 @@ class _SentenceReader(ThingReader):
     def _apply_to_camera(self, clause: Clause, *, is_own: bool) -> None:
         draft, targets = self._draft, list[int]()
         move = find_move(draft, clause, is_ego=is_own)
-        for group in clause.subjects:
+        for group in clause.subjects if clause.about != "company" else ():
             self._name(group, "in")
         for group in clause.objects if not is_own else ():
             targets += self._name(group)
@@ -463,6 +489,8 @@ class _SentenceReader(ThingReader):
         for one in clause.after:
             if not isinstance(one, Phrase):
                 self._draft.set_scene(one)
+            elif is_standpoint(draft, one, move or {}):
+                continue
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
@@ -477,7 +505,8 @@ class _SentenceReader(ThingReader):
                     is_side = move is None or not go_through(draft, move, one.preposition, found)
                 claim_way(draft, move, one.preposition, found)
                 heads = [group.head for group in one.groups if group.head is not None]
-                is_side |= bool(one.groups) and not any(map(draft.shows, heads))
+                words = heads or [each for group in one.groups for each in group.unknown]
+                is_side |= bool(one.groups) and not any(map(draft.shows, words))
                 is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:

@@ -10,6 +10,7 @@ from texvent_scenes.models.activities import TIMED
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.read.groups import is_plural_form
 from texvent_scenes.read.lexicon import NounSense, Sense, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
@@ -26,6 +27,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
+    tokens = [_see_as_move(one, tokens) for one in _drop_similes(tokens)]
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
@@ -33,17 +35,37 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
 
 
+def _drop_similes(tokens: Sequence[Token]) -> list[Token]:
+    """The tokens without senses of what something is only like: "spins like a top"."""
+    found, is_like = list[Token](), False
+    for token, after in zip(tokens, [*tokens[1:], NO_TOKEN], strict=False):
+        found.append(replace(token, senses=()) if is_like and not token.has("articles") else token)
+        is_like &= not (token.has("noun") or token.is_sign or token.text == "and")
+        is_like |= token.text == "like" and after.has("articles")
+    return found
+
+
+def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token without a move of the camera of which it is not said: "tracks"."""
+    is_open = any(token.text in (one, *list_plurals(one)) for one in word_set("ambiguous", "words"))
+    is_said = any(one.has("camera") for one in tokens[max(token.at - _NEAR, 0) : token.at])
+    return replace(token, senses=()) if is_open and not is_said else token
+
+
 def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
-    """The token as a word that is not known, if it says what is done: "and then darts away"."""
+    """The token as a verb, known or not, if it says what is done: "and then darts away"."""
     before, after, then = (tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
                            for at in (token.at - 1, token.at + 1, token.at + 2))  # fmt: skip
-    is_plural = any(one.value.is_plural for one in token.all("noun"))
-    is_verb = before.text in word_set("things", "begun") and is_plural
-    is_verb &= not (after.has("verb") or after.text == "and")  # "then cars drive by"
+    forms = {one.value.is_plural for one in token.all("noun")}
+    is_begun = before.text in word_set("things", "begun") or before.has("relatives")
+    is_begun |= before.is_pace and tokens[token.at - 2].has("relatives")
+    is_verb = True in forms and is_begun and not (after.has("verb") or after.text == "and")
+    is_verb &= token.has("verb") or not before.is_pace  # "then cars drive by"
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
-    if is_plural and is_led and not before.has("articles", "field", "relation"):
-        return replace(token, senses=token.all("verb"))  # "digs, swings around and dumps"
-    return replace(token, senses=()) if is_verb and not token.has("verb") else token
+    is_verb |= True in forms and is_led and not before.has("articles", "field", "relation")
+    is_agreed = before.is_unknown and is_plural_form(before.text) and not after.has("noun")
+    is_verb |= forms == {False} and bool(token.verbs("base")) and is_agreed  # "shadows slide"
+    return replace(token, senses=token.all("verb")) if is_verb else token
 
 
 def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
@@ -53,6 +75,9 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     """
     after, then = ([*tokens[token.at + 1 : token.at + 3], NO_TOKEN, NO_TOKEN])[:2]
     nouns = {one.value.noun for one in token.all("noun")}
+    last = {one.text.rpartition(" ")[2] for one in tokens[token.at + 2 : token.at + 4]}
+    if nouns and after.text == "of" and last & word_set("things", "rays"):
+        return replace(token, senses=())  # "a narrow cone of warm light"
     is_means = after.is_unknown and after.text.endswith("ed") and then.has("noun")
     is_means &= not any(one in NOUNS and NOUNS[one].speed_m_s for one in nouns)
     is_print = after.text in word_set("things", "prints")
@@ -82,6 +107,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others = {one.value.noun for each in tokens for one in each.all("noun")}
     others |= {one.text for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
+    others |= {one.value.kind for each in tokens for one in each.all("verb")}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
     is_led = token.at > 0 and tokens[token.at - 1].has("articles")  # "a pan", no camera's
     if row is None or not (senses or token.is_unknown or is_led):

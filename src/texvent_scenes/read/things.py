@@ -22,7 +22,7 @@ from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
-from texvent_scenes.read.groups import Group, Phrase, is_trajectory
+from texvent_scenes.read.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.lexicon import (
     NounSense,
     Sense,
@@ -58,19 +58,42 @@ class ThingReader:
         """Whether it happens after what was said before: "then"."""
         self._goes_on = False
         """Whether it happens while all that was said of its subjects before."""
+        self._is_lost = False
+        """Whether the last clause was about several things that are not known."""
 
     # Noun groups
 
-    def _pick(self, group: Group) -> list[int]:
-        """Some of several things, or the others: "two dogs, a brown one and a white one"."""
-        draft = self._draft
-        for whole in group.of.groups if group.of is not None and group.picks else ():
-            self._name(whole)  # "two of the dogs"
-        picked = draft.pick(group.picks, group.count) if group.picks else []
-        for token in group.unknown if picked else ():
+    def _pick(self, group: Group, known: int) -> list[int]:
+        """Some of several things, or the others: "two dogs, a brown one and a white one".
+
+        What is named again is one of the first `known` things: "four teenagers play, one player".
+        """
+        draft, whole = self._draft, self._find_several(group, known)
+        for each in group.of.groups if group.of is not None and group.picks else ():
+            whole += self._name(each)  # "two of the dogs"
+        if whole and group.head is not None and group.noun is not None:
+            noun = draft.things[whole[0]]["noun"]
+            draft.mark(group.head, "shown" if group.noun.noun == noun else noun)
+        elif not group.picks or (self._is_lost and not whole):
+            return []  # "three wugs hang, one falls"
+        several = draft.find_several(whole)
+        like = several or draft.find_several(least=1) * (group.picks == "another")
+        is_new = bool(like) and (not several or draft.count_like(like[0]) < group.ordinal)
+        picked = draft.add_like(like[0]) if is_new else draft.pick(group.picks, group.count, whole)
+        which = word_set("things", "members") | ({*ordinals()} if not is_new else set())
+        for token in (*group.modifiers, *group.unknown) if picked else ():
             self._say(token, picked)
-            draft.show(*([token] if token.text == group.picks else []))
+            draft.show(*([token] if token.text == group.picks and token.text not in which else []))
         return picked
+
+    def _find_several(self, group: Group, known: int) -> list[int]:
+        """Several of whom a group names one: the same noun, or persons of another name."""
+        if group.noun is None or "one" not in [one.text for one in group.modifiers]:
+            return []
+        own, sexed = group.noun.noun, word_set("things", "sexed")
+        like = PERSON_NOUNS - sexed if own in PERSON_NOUNS else set()
+        return [n for n, one in enumerate(self._draft.things[:known])
+                if one["count"] > 1 and one["noun"] in {own, *like}][-1:]  # fmt: skip
 
     def _leave_places(self, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
         """Take some of several away from where all were: "two on a desk, one on the floor"."""
@@ -178,11 +201,12 @@ class ThingReader:
         draft.show(head)
         is_plain = not group.modifiers and not group.unknown
         is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
-        if is_same and is_plain and group.article in ("the", "its", "his", "her", "their"):
+        if is_same and is_plain and self._is_again(group, head, known[-1]):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
             thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
+            thing |= {"word": head.text}
             thing |= {"deed": deed} if (deed := deeds().get(head.text)) else {}
             if noun.is_kind:
                 draft.mark(head, noun.noun)
@@ -207,6 +231,16 @@ class ThingReader:
             draft.stack(index)
         self._nearest = [index]
         return [index]
+
+    def _is_again(self, group: Group, head: Token, known: int) -> bool:
+        """Whether a group names a thing again; not "her coach", or "the car behind"."""
+        thing, after = self._draft.things[known], self._draft.tokens[head.at + 1 :][:2]
+        is_owned = group.article in ("its", "his", "her", "their")
+        is_role = thing["noun"] == "person" and head.text != "person"
+        is_role &= head.text != thing.get("word", head.text) and thing.get("word") != "person"
+        is_other = bool(after) and after[0].text in word_set("things", "elsewhere")
+        is_other &= not (after[1:] and after[1].has("articles", "pronouns", "noun", "field"))
+        return (is_owned or group.article == "the") and not (is_role or is_other)
 
     def _pose_again(self, head: Token) -> list[int]:
         """Let who is there do what follows: "thumbs up, then thumbs down"."""

@@ -71,6 +71,16 @@ class Token:
         return ("start_s",) in [one.value[:1] for one in self.all("adverb")]
 
     @property
+    def is_view(self) -> bool:
+        """Whether it says how something is seen: "medium shot", "from above"."""
+        return any(one.value[0] == "camera" for one in self.all("scene"))
+
+    @property
+    def is_pace(self) -> bool:
+        """Whether it is how fast something is done: "slowly"."""
+        return any(one.value[0] == "pace" for one in self.all("adverb"))
+
+    @property
     def is_liquid(self) -> bool:
         """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
         return self.text in word_set("things", "liquids")
@@ -302,7 +312,7 @@ def _without_chance(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
-        and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
+        and (one.kind != "scene" or one.value[1] != "view" or after not in articles - {"that"})
         and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
