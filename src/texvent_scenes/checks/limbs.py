@@ -8,6 +8,7 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
+from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import (
@@ -15,6 +16,7 @@ from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
+    MOUTH_ACTIVITIES,
     PERSON_NOUNS,
     TRAVELLING,
     motion_of,
@@ -27,6 +29,8 @@ _LEAST_SHARE = 0.03
 """Way of a limb, as a share of the height of the image, from which on an act is seen."""
 _POSTURES = frozenset({"stand", "sit", "lie", "kneel", "crouch", "look", "jump"})
 """Acts that the whole body shows."""
+_BY_HEAD = MOUTH_ACTIVITIES | {"look"}
+"""Acts that the head shows."""
 _OF_LIGHTS = frozenset(
     one for one in ANIMAL_ACTIVITIES if "signal" in str(motion_of("animal_activities", one))
 )
@@ -54,6 +58,13 @@ def find_tiny(
     for index, said in enumerate(description.objects):
         kinds = {one.kind for one in said.motions}
         own = [one for one in actors if one.object_index == index]
+        if own and said.noun in PERSON_NOUNS and kinds & _BY_HEAD and not any(
+            is_any_inside(one.anchor("head", time_s)[None, :, 3], camera, size)
+            for one in own for time_s, camera in zip(times, cameras, strict=True)
+        ):  # fmt: skip
+            for kind in sorted(kinds & _BY_HEAD):
+                yield Violation("motion", kind, f"the {said.noun}'s {kind}: its head is cut off")
+            continue
         able = own[0].noun.acts if own and own[0].noun.speed_m_s > 0.0 else frozenset()
         able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
         if not (own and kinds and kinds <= able - _POSTURES - _OF_LIGHTS):

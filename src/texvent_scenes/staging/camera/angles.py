@@ -14,8 +14,11 @@ from texvent_scenes.staging.actors import Actor, seeded
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": -0.25, "first person": 0.05}
 """View → elevation of the camera, rad; a low one ends at the ground."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
-_ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP = 0.24, 0.6, 0.16
-"""Elevation in rooms, from which one sees into an open container, and a runway as a strip, rad."""
+_ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP, _ONTO_FLAT = 0.24, 0.6, 0.16, 0.5
+"""Elevation in rooms, from which one sees into an open container, a runway as a strip, and what
+lies flat, rad."""
+_FLAT, _MOST_FLAT_M = 0.2, 1.0
+"""Height over length, and length in m, up to which what rests lies flat: a pencil."""
 _ELONGATED, _LEAST_M, ALONG_IT = 4.5, 3.0, 0.75
 """Length over height, and length in m, from which on a subject is seen at an angle to its side."""
 
@@ -80,6 +83,9 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     model = main.model
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]
+    is_flat = model.height < _FLAT * model.length < _FLAT * _MOST_FLAT_M
+    if is_flat and main.track.is_resting and main.noun.habitat != "air":
+        return _ONTO_FLAT
     if is_room(place):
         return _ROOM_ELEVATION
     if main.noun.name in nouns_with("takes off") and place == "runway":

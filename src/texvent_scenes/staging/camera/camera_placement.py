@@ -54,9 +54,9 @@ above, rad."""
 _TOGETHER, _STRAIGHT = 0.6, 0.5
 """Share of its way by which another one may get away from a subject that the camera goes along
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
-_TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15}
-"""Relation → prominence of what a subject passes or has in hand, from which on all the way is
-shown."""
+_TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15, "follow": 0.15}
+"""Relation → prominence of what a subject passes, has in hand or is after, from which on all the
+way is shown."""
 _LEAST_PASSAGE, _SEEN = 0.4, 0.16
 """Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
@@ -170,7 +170,12 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
         tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
         extent_m = min(extent_m, max(held_m / _FOLLOWED, size_m))
         share = 1.0 - max(extent_m - size_m, 0.0) / way_m
-        return _watch(shooting.along(replace(path, tie=tie and replace(tie, share=share))), main)[0]
+        for each in (share, 1.0):
+            along = shooting.along(replace(path, tie=tie and replace(tie, share=each)))
+            near = _watch(along, main)[0]
+            if _share_of_told(shooting, near, main) >= 1.0:
+                break
+        return near
     shares = [((way_m + size_m) * one - size_m) / way_m for one in (told, reached / _SEEN)]
     half_s = middle_s * max(shares[0], min(shares[1], _LEAST_PASSAGE), 0.1 * size_m / way_m)
     passage_s = middle_s - half_s, middle_s + half_s
@@ -194,7 +199,7 @@ def _find_descent(shooting: _Shooting, main: Actor) -> tuple[float, float] | Non
 
 
 def _share_of_told(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:
-    """Least prominence at mid clip of what a subject passes or has in hand, by what tells it."""
+    """Least prominence at mid clip of what a subject passes, holds or follows, by what tells it."""
     middle_s = 0.5 * path.duration_s
     camera, shares = path.at(middle_s), [1.0]
     for one in shooting.description.relations:

@@ -28,13 +28,14 @@ _WHOLE = 3.5
 """Other objects must fit as a whole if they are at most this many times as large as the movers."""
 _LOWER = 2.0
 """Height of the part of what is tall beside something, in sizes of the largest mover."""
-_PIECE, _MOST_PIECE, _TOLD = 0.7, 3.0, 0.25
+_PIECE, _MOST_PIECE, _TOLD, _TOUCHED = 0.7, 3.0, 0.25, 0.1
 """Least and greatest reach of the piece of a larger one that must fit, in sizes of the largest
-mover; in its own, so that one tells what it is."""
+mover; in its own, so that one tells what it is, and where the subject would be a speck."""
 _GOALS = (1.0, 1.0, 0.9, 0.4, 0.3)
 """Prominence of the subject for which the image may hold no more than each of the views."""
-_LARGE_IN_WIDE = 0.75
-"""Prominence of the subject in a wide shot, relative to its usual one."""
+_LARGE_IN_WIDE, _SMALL_TARGET = 0.75, 0.4
+"""Prominence of the subject in a wide shot, and of what the camera is said to be about if those
+who act are more than twice as large, relative to its usual one."""
 _KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of"}
@@ -96,6 +97,8 @@ class _Scope(NamedTuple):
     """Containers and passages, which tell what they are as a whole."""
     sent: Mapping[int, float] = MappingProxyType({})
     """Objects that are thrown or struck → how far they must be seen, in sizes of the subject."""
+    told: float = _TOLD
+    """Reach of the piece of a larger thing, in its own sizes."""
     sided: Collection[int] = ()
     """Objects between which something is: of what is tall, the lower part from side to side."""
 
@@ -112,7 +115,7 @@ def list_framing_choices(
     whole = {n for r in relations for n in r.targets if _tells_as_a_whole(r.kind, description, n)}
     sided = {n for r in relations if r.kind == "between" for n in r.targets}
     sent = {n: _SENT[r.kind] for r in relations if r.kind in _SENT for n in r.targets}
-    scope = _Scope(main, times, tie, passed, cut, whole, sent, sided)
+    scope = _Scope(main, times, tie, passed, cut, whole, sent, sided=sided)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
@@ -124,26 +127,44 @@ def list_framing_choices(
     if shot.framing == "wide":
         fill = _WIDE_FILL
     goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
-    tied = [
-        {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
+    is_large = any(one.is_mover and one.size_m > 2.0 * main.size_m for one in near)
+    goal *= _SMALL_TARGET if shot.target is not None and is_large else 1.0
+    copies = [one for one in actors if one.object_index == main.object_index]
+    groups = _list_groups(description, near, main, whole)
+    scopes = [*([scope] * (len(groups) - 1)), scope._replace(told=_TOUCHED)]
+    return [
+        FramingChoice(_points_of([*copies, *group], each), fill, goal * least)
+        for group, each, least in zip(groups, scopes, _GOALS, strict=True)
     ]
-    related = set().union(*tied) - {main.object_index}
+
+
+def _list_groups(
+    description: SceneDescription, near: Sequence[Actor], main: Actor, whole: set[int]
+) -> list[Sequence[Actor]]:
+    """Groups of bodies beside a subject, fewer and fewer: all that is near, to what it is bound to.
+
+    Args:
+        description: the scene.
+        near: bodies that are not in the distance.
+        main: the subject.
+        whole: objects that tell what they are as a whole.
+    """
+    relations, own = description.relations, main.object_index
+    tied = [{r.subject, *r.targets} for r in relations if own in (r.subject, *r.targets)]
+    related = set().union(*tied) - {own}
     for r in (r for r in relations if r.kind == "on"):  # said from the lowest one of a stack on
-        related |= {r.subject} if related.intersection(r.targets) else set()
+        related |= {r.subject} - {own} if related.intersection(r.targets) else set()
     landmarks = {n for r in relations if r.kind in _KEPT_TOGETHER for n in r.targets}
+    agents = {r.subject for r in relations if r.kind in _SENT.keys() | {"follow"}
+              and own in r.targets}  # fmt: skip
     sides = {n for n, one in enumerate(description.objects) if one.placement in ("left", "right")}
-    partners = [one for one in near if one.object_index in (related | sides) - {main.object_index}]
+    partners = [one for one in near if one.object_index in (related | sides) - {own}]
     # A lighthouse and a swing only work where they are.
     goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
-    others = goes if main.is_mover else near
-    kept = [one for one in partners if one.object_index in landmarks | sides | whole]
-    copies = [one for one in actors if one.object_index == main.object_index]
-    bound = [one for one in kept if one.object_index in related & (landmarks | whole)]
-    choices = (near, [*others, *partners], partners, kept, bound)
-    return [
-        FramingChoice(_points_of([*copies, *some], scope), fill, goal * least)
-        for some, least in zip(choices, _GOALS, strict=True)
-    ]
+    told = landmarks | whole | agents
+    kept = [one for one in partners if one.object_index in told | sides]
+    bound = [one for one in partners if one.object_index in told & related]
+    return [near, [*(goes if main.is_mover else near), *partners], partners, kept, bound]
 
 
 def near_part(
@@ -212,7 +233,7 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
         if is_large and not is_mover and actor.object_index not in scope.whole:
-            reach_m = max(_PIECE * largest, min(_TOLD * actor.size_m, _MOST_PIECE * largest))
+            reach_m = max(_PIECE * largest, min(scope.told * actor.size_m, _MOST_PIECE * largest))
             piece = _near_piece(actor, main, times, reach_m)
             if actor.object_index in scope.sided:
                 piece = actor.corners(float(times[0])).copy()
