@@ -90,7 +90,8 @@ def test_a_traffic_light_shows_the_colour_that_is_said(text, colours):
      "a gymnast does a cartwheel", "a boy does a handstand", "two boxers fight in a gym",
      "highway at night, oncoming headlights", "heavy rain pounding on a puddle", "birds on a wire",
      "palm trees bending in the wind", "a soap bubble pops", "a tram turns at a corner",
-     "a street seen from a rooftop", "a swimmer dives into the sea", "a weightlifter lifts a barbell",
+     "a street seen from a rooftop", "a swimmer dives into the sea",
+     "a weightlifter lifts a barbell",
      "a car stops for a pedestrian", "curtains move in the wind", "seagulls fly overhead",
      "a tram stops at a station", "a cat chases a mouse", "a dog barks at a cat"],
 )  # fmt: skip

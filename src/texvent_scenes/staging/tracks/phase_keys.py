@@ -50,8 +50,8 @@ _RAMP_S, _SKID, _SUNK = 0.3, 1.1, 0.95
 """Time to reach a speed, s; angle by which the rear of what skids comes round, rad; share of its
 height by which what floats goes down as it sinks."""
 _PLUNGED, _LEAPT, _STOOD, _GONE = 1.0, 0.15, 0.62, 1.4
-"""Height above the water of who leaps into it, in its own; rise of the leap, as a share of that; how
-deep who walks stands there, and how deep others go, in their own heights."""
+"""Height above the water of who leaps into it, in its own; rise of the leap, as a share of that;
+how deep who walks stands there, and how deep others go, in their own heights."""
 _BRAKING_M_S2 = 6.0
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
