@@ -56,8 +56,8 @@ _TOGETHER, _STRAIGHT = 0.6, 0.5
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
 _PASSING = ("past", "through")
 _TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15, "follow": 0.15}
-"""Relations to what is seen at mid clip; relation → prominence of what a subject passes, holds or is
-after, from which on all the way is shown."""
+"""Relations to what is seen at mid clip; relation → prominence of what a subject passes, holds or
+is after, from which on all the way is shown."""
 _LEAST_PASSAGE, _SEEN = 0.4, 0.16
 """Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
