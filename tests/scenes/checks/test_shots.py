@@ -8,9 +8,12 @@ from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 from tests.scenes.test_short_prompts import report, staged
 
 from texvent.camera import project
+from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.spec.scene import Camera, CameraMove
+from texvent_scenes.staging.camera.camera_track import CameraTrack
+from texvent_scenes.staging.camera.framing import pose
 
 TIMES = [float(one) for one in np.linspace(0.0, DURATION_S, 7)]
 
@@ -49,6 +52,29 @@ def test_a_move_holds_if_the_camera_moves(kind):
     still = stage(thing("man", ("stand",)), camera=Camera(moves=(CameraMove("static"),)))
     assert faults(still, said) == [kind]
     assert faults(stage(thing("man", ("walk", "right")), camera=said), said) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [("the camera follows a ball that a dog chases", 1), ("a cat chases a mouse", 1),
+     ("a spoon lies on a table", 0), ("small racing drone loops around orange gates", 0)],
+)  # fmt: skip
+def test_what_is_small_beside_what_the_camera_is_about_is_large_enough_to_be_told(text, number):
+    """Its box, at mid clip, is in the image, and takes more than .3 % of it."""
+    scene, middle_s = staged(text)[0], 1.0
+    points = project(scene.camera(middle_s), SIZE, scene.actors[number].corners(middle_s))
+    assert ((points > 0.0) & (points < [SIZE.width, SIZE.height, np.inf])).all()
+    assert np.prod(np.ptp(points[:, :2], axis=0)) > 0.003 * SIZE.width * SIZE.height
+
+
+@pytest.mark.parametrize(("aim_m", "is_told"), [(1.2, True), (0.3, False)])
+def test_a_look_is_told_only_with_the_head_in_the_image(aim_m, is_told):
+    scene = stage(thing("man", ("look",)))
+    near = CameraTrack(pose((0.0, -2.0, aim_m), (0.0, 0.0, aim_m)), (), DURATION_S)
+    cameras = [near.at(one) for one in TIMES]
+    description = SceneDescription(objects=(thing("man", ("look",)),))
+    lost = [*find_tiny(description, scene.actors, cameras, TIMES, SIZE)]
+    assert (lost == []) == is_told
 
 
 @pytest.mark.parametrize(

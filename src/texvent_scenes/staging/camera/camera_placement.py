@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -54,9 +54,10 @@ above, rad."""
 _TOGETHER, _STRAIGHT = 0.6, 0.5
 """Share of its way by which another one may get away from a subject that the camera goes along
 with; and by which a subject leaves its place, which goes neither in circles nor to and fro."""
+_PASSING = ("past", "through")
 _TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15, "follow": 0.15}
-"""Relation → prominence of what a subject passes, has in hand or is after, from which on all the
-way is shown."""
+"""Relations to what is seen at mid clip; relation → prominence of what a subject passes, holds or
+is after, from which on all the way is shown."""
 _LEAST_PASSAGE, _SEEN = 0.4, 0.16
 """Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
@@ -176,6 +177,9 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
             if _share_of_told(shooting, near, main) >= 1.0:
                 break
         return near
+    told = min(reached / _STATIC, _share_of_told(shooting, path, main, _PASSING))
+    if told >= 1.0:  # only what it holds or follows is small
+        return path
     shares = [((way_m + size_m) * one - size_m) / way_m for one in (told, reached / _SEEN)]
     half_s = middle_s * max(shares[0], min(shares[1], _LEAST_PASSAGE), 0.1 * size_m / way_m)
     passage_s = middle_s - half_s, middle_s + half_s
@@ -198,12 +202,14 @@ def _find_descent(shooting: _Shooting, main: Actor) -> tuple[float, float] | Non
     return None
 
 
-def _share_of_told(shooting: _Shooting, path: CameraTrack, main: Actor) -> float:
+def _share_of_told(
+    shooting: _Shooting, path: CameraTrack, main: Actor, kinds: Collection[str] = _TOLD.keys()
+) -> float:
     """Least prominence at mid clip of what a subject passes, holds or follows, by what tells it."""
     middle_s = 0.5 * path.duration_s
     camera, shares = path.at(middle_s), [1.0]
     for one in shooting.description.relations:
-        is_own = one.subject == main.object_index and one.kind in _TOLD
+        is_own = one.subject == main.object_index and one.kind in kinds
         for other in shooting.actors if is_own else ():
             if other.object_index in one.targets:
                 box = other.corners(middle_s)[None]
