@@ -75,8 +75,8 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     """
     after, then = ([*tokens[token.at + 1 : token.at + 3], NO_TOKEN, NO_TOKEN])[:2]
     nouns = {one.value.noun for one in token.all("noun")}
-    last = {one.text.rpartition(" ")[2] for one in tokens[token.at + 2 : token.at + 4]}
-    if nouns and after.text == "of" and last & word_set("things", "rays"):
+    ends = {one.text.rpartition(" ")[2] for one in tokens[token.at + 2 : token.at + 4]}
+    if nouns and after.text == "of" and ends & word_set("things", "rays"):
         return replace(token, senses=())  # "a narrow cone of warm light"
     is_means = after.is_unknown and after.text.endswith("ed") and then.has("noun")
     is_means &= not any(one in NOUNS and NOUNS[one].speed_m_s for one in nouns)
