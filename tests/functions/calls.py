@@ -28,7 +28,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from tests.functions.values import arguments, is_own, made, mark, modules, written
+from tests.functions.values import arguments, give, is_own, made, mark, modules, written
 
 TABLE = Path(__file__).with_name("outcomes.txt")
 PLACES = (str(Path(__file__).parents[2]), sys.prefix, sys.base_prefix)
@@ -143,7 +143,9 @@ def outcome(call: Callable[..., Any], named: dict[str, Any]) -> tuple[str, bool]
             found += f" {left.name}"
             shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
     found = re.sub("install it with: .*", "", found + said.getvalue())
-    return re.sub("|".join(map(re.escape, (os.getcwd(), *PLACES))), "", found), is_fault
+    return re.sub(
+        "|".join(map(re.escape, (os.getcwd(), str(Path.cwd().parent), *PLACES))), "", found
+    ), is_fault
 
 
 def outcomes(calls: list[Callable[..., Any]]) -> Iterator[tuple[str, bool, dict[str, Any]]]:
@@ -187,6 +189,7 @@ def found_by_a_process(*words: str, seed: int = 0) -> dict[str, str]:
     with tempfile.TemporaryDirectory() as place:
         here, into = Path(place, "here"), Path(place, "table")
         here.mkdir()
+        give(Path(place, "given"))
         env = {"NUMBA_DISABLE_JIT": "1", "PYTHONHASHSEED": str(seed), "HOME": str(here / "home"),
                "COLUMNS": "80", "NO_COLOR": "1", "PYTHONWARNINGS": "ignore"}  # fmt: skip
         command = [sys.executable, "-m", "tests.functions.calls", "--into", str(into), *words]
