@@ -8,6 +8,7 @@ import enum
 import importlib
 import inspect
 import math
+import os
 import pkgutil
 import sys
 import types
@@ -86,6 +87,8 @@ def give(folder: Path) -> None:
     Image.fromarray(frames()[0]).save(folder / "still.png")
     scene = 'prompt = "a red ball rolls"\n[[objects]]\nnoun = "ball"\n'
     (folder / "scene.toml").write_text(scene, encoding="utf-8")
+    for one in folder.iterdir():
+        os.utime(one, (1, 1))
 
 
 def array(shape: tuple[int, ...], kind: Any) -> np.ndarray:
