@@ -28,9 +28,10 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from tests.functions.values import arguments, is_own, made, mark, modules, written
+from tests.functions.values import GIVEN, arguments, give, is_own, made, mark, modules, written
 
 TABLE = Path(__file__).with_name("outcomes.txt")
+KEPT = GIVEN.with_name("kept")
 PLACES = (str(Path(__file__).parents[2]), sys.prefix, sys.base_prefix)
 PACKAGES = ("texvent", "texvent_scenes", "texvent_lab")
 ELSEWHERE = tuple(
@@ -52,7 +53,7 @@ MOST_CALLS, SLOW_S, PATIENCE_S = 24, 1.0, 60
 """Calls of a function or object; a function that takes longer has no digits, or hangs."""
 DENIED = ("subprocess.Popen", "os.system", "os.fork", "os.exec", "os.posix_spawn", "os.kill",
           "socket.connect", "socket.bind", "socket.getaddrinfo",
-          "webbrowser.open", "os.listxattr")  # fmt: skip
+          "webbrowser.open")  # fmt: skip
 CHANGES = ("os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.truncate", "os.chmod",
            "shutil.rmtree")  # fmt: skip
 
@@ -70,7 +71,7 @@ def watch(event: str, words: tuple[Any, ...]) -> None:
     writes = writes or flags & (os.O_WRONLY | os.O_RDWR)
     if (writes or event in CHANGES) and isinstance(words[0], str | bytes):
         place = os.path.realpath(os.fsdecode(words[0]))
-        if not place.startswith((os.getcwd(), "/dev/null")):
+        if not place.startswith((str(Path.cwd().parent), "/dev/null")):
             raise PermissionError(event)
 
 
@@ -139,11 +140,31 @@ def outcome(call: Callable[..., Any], named: dict[str, Any]) -> tuple[str, bool]
         if dict(os.environ) != before:
             os.environ.clear()
             os.environ.update(before)
-        for left in Path().iterdir():
-            found += f" {left.name}"
-            shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
+        found += clean()
     found = re.sub("install it with: .*", "", found + said.getvalue())
-    return re.sub("|".join(map(re.escape, (os.getcwd(), *PLACES))), "", found), is_fault
+    return re.sub(
+        "|".join(map(re.escape, (os.getcwd(), str(Path.cwd().parent), *PLACES))), "", found
+    ), is_fault
+
+
+def states(folder: Path) -> dict[str, tuple[int, int]]:
+    """Sizes of the files of a folder, and times of change."""
+    return {
+        one.name: (one.stat().st_size, one.stat().st_mtime_ns) for one in sorted(folder.iterdir())
+    }
+
+
+def clean() -> str:
+    """Remove what a call left behind and mend the given files; names of what it left."""
+    found = ""
+    for left in sorted(Path().iterdir()):
+        found += f" {left.name}"
+        shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
+    if not GIVEN.is_dir() or states(GIVEN) != states(KEPT):
+        shutil.rmtree(GIVEN, ignore_errors=True)
+        shutil.copytree(KEPT, GIVEN)
+        found += " given"
+    return found
 
 
 def outcomes(calls: list[Callable[..., Any]]) -> Iterator[tuple[str, bool, dict[str, Any]]]:
@@ -187,6 +208,8 @@ def found_by_a_process(*words: str, seed: int = 0) -> dict[str, str]:
     with tempfile.TemporaryDirectory() as place:
         here, into = Path(place, "here"), Path(place, "table")
         here.mkdir()
+        for name in (GIVEN.name, KEPT.name):
+            give(Path(place, name))
         env = {"NUMBA_DISABLE_JIT": "1", "PYTHONHASHSEED": str(seed), "HOME": str(here / "home"),
                "COLUMNS": "80", "NO_COLOR": "1", "PYTHONWARNINGS": "ignore"}  # fmt: skip
         command = [sys.executable, "-m", "tests.functions.calls", "--into", str(into), *words]

@@ -8,6 +8,7 @@ import enum
 import importlib
 import inspect
 import math
+import os
 import pkgutil
 import sys
 import types
@@ -17,17 +18,24 @@ from fractions import Fraction
 from functools import cache
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 from zlib import crc32
 
 import numpy as np
+from PIL import Image
 
+from texvent.capture.array_frames import ArrayFrames
+from texvent.capture.given_times import FrameTimes
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.frames import FrameStream
+from texvent.io.files import save
 from texvent.sensor import SensorSize
 
 SHAPES = ((5, 6), (3,), (5, 6, 3), (4, 3), (3, 3), (2, 5, 6), (8,), (0,))
 """Those of arrays; arguments of one call have the same one first."""
+GIVEN = Path("../given")
+"""Files that calls may read."""
 OF_TYPE: dict[Any, tuple[Any, ...]] = {
     bool: (False, True),
     int: (2, 0, 1, 5, 40, -3),
@@ -36,7 +44,16 @@ OF_TYPE: dict[Any, tuple[Any, ...]] = {
     Fraction: (Fraction(1, 4), Fraction(30), Fraction(0)),
     str: ("a red ball", "", "x", "12", "esim", "a.h5"),
     bytes: (bytes(range(1, 40)), b"", b"# a 1\n1 2 3 4\n"),
-    Path: (Path("a.h5"), Path("no/b.npz"), Path("c")),
+    Path: (
+        GIVEN / "events.h5",
+        GIVEN / "clip.npy",
+        GIVEN / "events.csv",
+        GIVEN / "still.png",
+        Path("a.h5"),
+        Path("no/b.npz"),
+        GIVEN,
+        GIVEN / "scene.toml",
+    ),
     slice: (slice(1, 3), slice(None)),
     SensorSize: (SensorSize(6, 5), SensorSize(3, 8)),
     type(None): (None,),
@@ -54,6 +71,24 @@ def events(count: int) -> EventStream:
         x=(index * 7 % 6).astype(np.uint16), y=(index * 5 % 5).astype(np.uint16),
         t=np.cumsum(index * 13 % 29) * 100, p=index * 3 % 4 > 1, size=SensorSize(6, 5),
     )  # fmt: skip
+
+
+def frames() -> np.ndarray:
+    """Four frames of that sensor, each brighter on one side."""
+    return np.stack([array((5, 6), np.uint8) * (1 + n % 2) + 9 * n for n in range(4)])
+
+
+def give(folder: Path) -> None:
+    """Write the files that calls may read."""
+    folder.mkdir()
+    for name in ("events.h5", "events.csv"):
+        save(folder / name, events(40))
+    np.save(folder / "clip.npy", frames())
+    Image.fromarray(frames()[0]).save(folder / "still.png")
+    scene = 'prompt = "a red ball rolls"\n[[objects]]\nnoun = "ball"\n'
+    (folder / "scene.toml").write_text(scene, encoding="utf-8")
+    for one in folder.iterdir():
+        os.utime(one, (1, 1))
 
 
 def array(shape: tuple[int, ...], kind: Any) -> np.ndarray:
@@ -74,6 +109,16 @@ def array(shape: tuple[int, ...], kind: Any) -> np.ndarray:
     elif kind.kind == "b":
         mixed = mixed % 3 > 0
     return mixed.astype(kind).reshape(shape)
+
+
+MAKERS: dict[Any, Callable[[], list[Any]]] = {
+    EventStream: lambda: [events(40), events(1), events(0)],
+    EventPackets: lambda: [EventPackets([events(40)[:9], events(40)[9:]], events(0).size)],
+    FrameStream: lambda: [ArrayFrames(frames(), FrameTimes(fps=Fraction(10)))],
+    np.random.Generator: lambda: [np.random.default_rng(7)],
+    Callable[[str], None]: lambda: [print],
+    type: lambda: [int, np.float64],
+}
 
 
 def of_origin(hint: Any, depth: int) -> list[Any] | None:
@@ -108,16 +153,17 @@ def of_origin(hint: Any, depth: int) -> list[Any] | None:
 def values(hint: Any, depth: int = 0) -> list[Any]:
     """Values of a type; empty: none is known."""
     try:
+        if hint in MAKERS:
+            return MAKERS[hint]()
         if hint in OF_TYPE:
             return [*OF_TYPE[hint]]
     except TypeError:
         return []
     if (found := of_origin(hint, depth)) is not None:
         return found
-    if hint is EventStream:
-        return [events(40), events(1), events(0)]
-    if hint is EventPackets:
-        return [EventPackets.of(events(40))] if hasattr(EventPackets, "of") else []
+    if isinstance(hint, TypeVar):
+        some = hint.__constraints__ or (hint.__bound__ or Any,)
+        return [one for kind in some for one in values(kind, depth)]
     if inspect.isclass(hint) and issubclass(hint, np.generic) and hint is not np.generic:
         return [array((1,), hint)[0], array((3,), hint)[2]]
     if inspect.isclass(hint) and issubclass(hint, enum.Enum):
@@ -161,7 +207,7 @@ def hints_of(call: Callable[..., Any]) -> dict[str, Any]:
     """Type of each parameter."""
     inner = call.__init__ if inspect.isclass(call) else inspect.unwrap(call)
     module = call.__module__ if inspect.isclass(call) else inner.__module__
-    is_record = inspect.isclass(call) and is_dataclass(call)
+    is_record = inspect.isclass(call) and (is_dataclass(call) or issubclass(call, tuple))
     return get_type_hints(call if is_record else inner, names_of(module), include_extras=True)
 
 
