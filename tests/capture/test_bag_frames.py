@@ -122,14 +122,12 @@ DAMAGED.height = 40
 
 
 def shortened(by: int) -> Any:
-    """An image that lacks its last bytes; `PADDING` of them are no pixels."""
     made = image(2, TIMES_US[1], PICTURE, "rgb8")
     made.data = made.data[:-by]
     return made
 
 
 def packed(by: int) -> bytes:
-    """A message that ends early."""
     whole = bytes(types_of(2).serialize_cdr(image(2, TIMES_US[1], PICTURE, "rgb8"), IMAGE))
     return whole[:-by]
 

@@ -133,7 +133,6 @@ REFUSED = {
     ),
     "generate s.toml --llm-url http://127.0.0.1:9 -o o.h5": "--llm-url reads a sentence, and s.to",
     "generate ball --video-only --format npz": "writes a video; leave out --format and --truth",
-    "batch": "texvent batch needs",
     "data frobnicate": "unknown action 'data frobnicate'; ",
     "dataset make e -o o": "-o goes with a specification; a data set goes on in its own folder",
     "dataset export e": "export needs the folder to write; name it with -o",

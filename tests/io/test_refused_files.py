@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
-import shutil
 import struct
 import zipfile
 from collections.abc import Callable
@@ -55,34 +53,25 @@ def aedat4(
 
 
 def aedat3(
-    path: Path, size: str = "9x7", item: int = 8, room: int = 1, count: int = 1, more: str = ""
-) -> None:
-    head = f"#!AER-DAT3.1\r\n#Size: {size}\r\n{more}#!END-HEADER\r\n"
-    packet = struct.pack("<hhiiiiii", 1, 1, item, 4, 0, room, count, count)
-    path.write_bytes(head.encode() + packet + (struct.pack("<II", 1, 5) + bytes(item - 8)) * count)
+    path: Path, size: str = "9x7", item: int = 8, room: int = 1, count: int = 1,
+    more: str = "", sources: tuple[int, ...] = (1,),
+) -> None:  # fmt: skip
+    head = f"#!AER-DAT3.1\r\n#Size: {size}\r\n{more}#!END-HEADER\r\n".encode()
+    body = (struct.pack("<II", 1, 5) + bytes(item - 8)) * count
+    numbers = (item, 4, 0, room, count, count)
+    heads = (struct.pack("<hhiiiiii", 1, source, *numbers) for source in sources)
+    path.write_bytes(head + b"".join(one + body for one in heads))
 
 
 def es(path: Path, change: Bytes = bytes) -> None:
     path.write_bytes(change((CORPUS / "es" / "e.es").read_bytes()))
 
 
-def npz(path: Path, text: str = "", **more: Any) -> Options:
-    np.savez(path, x=[1, 2], y=[1, 2], t=[0, 1], p=[0, 1], **more)
+def npz(path: Path, text: str = "readme.txt", **changes: Any) -> Options:
+    arrays = {**dict.fromkeys("xy", (1, 2)), **dict.fromkeys("tp", (0, 1)), **changes}
+    np.savez(path, **{name: one for name, one in arrays.items() if one is not None})
     with zipfile.ZipFile(path, "a") as file:
-        file.writestr(text or "readme.txt", "no array")
-    return TO_LOAD
-
-
-def records(path: Path, kind: str) -> Options:
-    one = np.zeros(2, [*((name, "<i8") for name in "txyp"), ("more", kind)])
-    np.savez(path, events=one)
-    return TO_LOAD
-
-
-def npy(path: Path, version: tuple[int, int]) -> Options:
-    with path.open("wb") as file:
-        rows = np.array([[3, 1, 2, 0], [400, 2, 2, 1]])
-        np.lib.format.write_array(file, rows, version=version)
+        file.writestr(text, "no array")
     return TO_LOAD
 
 
@@ -91,14 +80,6 @@ def esim(path: Path, name: str = "0000000000.npz", kind: type = np.int64) -> Opt
     with (path / name).open("wb") as file:
         np.savez(file, x=[1, 2], y=[1, 2], t=np.array([0, 1000], kind), p=[0, 1])
     return {**TO_LOAD, "format": "esim"}
-
-
-def evreal(path: Path, sides: Any) -> Options:
-    shutil.copytree(CORPUS / "evreal" / "folder", path)
-    facts = json.loads((path / "metadata.json").read_text("utf-8"))
-    high, wide = facts["sensor_resolution"]
-    (path / "metadata.json").write_text(json.dumps({**facts, "sensor_resolution": sides}), "utf-8")
-    return {"size": (wide, high)}
 
 
 @functools.cache
@@ -147,26 +128,32 @@ ROWS: dict[str, tuple[Callable[..., Options | None], Options, Options, str]] = {
     "d.aedat": (aedat3, {"count": 2}, {"count": 2, "room": 2}, "a packet of 2 events of 8 bytes"),
     "e.aedat": (aedat3, {"more": f"#{'a' * MOST}\n"}, {"more": f"#{'a' * (MOST - 60)}\n"},
         "its header is longer than 8 MiB"),
+    "f.aedat": (aedat3, {"more": "#Format: SerializedTS\r\n"}, {"more": "#Format: RAW\r\n"},
+        "format 'SerializedTS', not RAW"),
+    "g.aedat": (aedat3, {"sources": (1, 2)}, {"sources": (2, 2)},
+        r"events of several cameras \(sources \[1, 2\]\)"),
     "a.es": (es, {"change": put(12, "B", 3)}, {}, "is Event Stream version 3; texvent reads 2"),
     "b.es": (es, {"change": put(15, "B", 2)}, {}, r"type 2 \(atis\); texvent reads type 1 \(dvs"),
     "c.es": (es, {"change": cut(15)}, {}, "ends inside its header; the file was cut off"),
     "d.es": (es, {"change": cut(19)}, {"change": cut(20)}, "ends inside its header; the file was"),
     "a.npz": (npz, {"text": "t"}, {}, "member 't' is not a NumPy array"),
-    "b.npz": (records, {"kind": "V0"}, {"kind": "V1"}, "array 'events' claims items of no bytes"),
-    "c.npz": (npz, {"t_offset": [0, 1]}, {"t_offset": [7]}, "t_offset must be one number; it is"),
-    "a.npy": (npy, {"version": (3, 0)}, {"version": (2, 0)}, r"version \(3, 0\) of the format is"),
+    "b.npz": (npz, {"p": None}, {}, "holds no events by names"),
+    "c.npz": (npz, {"y": [0]}, {}, "differ in length"),
+    "d.npz": (npz, {"x": [0.5, 1]}, {"x": [0.0, 1]}, "not whole numbers"),
+    "e.npz": (npz, {"timestamp_scale_ms": 2.0}, {"timestamp_scale_ms": 1e-3}, "in units of 2"),
+    "f.npz": (npz, {"width": "a", "height": 7}, {"width": 9, "height": 7}, "must be whole number"),
+    "g.npz": (npz, {"t_offset": [0, 1]}, {"t_offset": [7]}, "t_offset must be one number; it is"),
     "a": (esim, {"name": "000000000.npz"}, {}, r"holds no files 0000000000\.npz"),
     "b": (esim, {"kind": float}, {}, "t is float64; ESIM writes whole nanoseconds"),
-    "c": (evreal, {"sides": [7, 9.5]}, {"sides": None}, r"sensor_resolution of \[7, 9\.5\]"),
-    "d": (ros2, {"change": cut(40)}, {}, "a message of events is cut off"),
-    "e": (ros2, {"change": cut(-1)}, {}, "a message states 16 bytes of events; it is damaged"),
-    "f": (ros2, {"change": put(PAYLOAD, "I", 15)}, {"change": put(PAYLOAD, "I", 8)},
+    "c": (ros2, {"change": cut(40)}, {}, "a message of events is cut off"),
+    "d": (ros2, {"change": cut(-1)}, {}, "a message states 16 bytes of events; it is damaged"),
+    "e": (ros2, {"change": put(PAYLOAD, "I", 15)}, {"change": put(PAYLOAD, "I", 8)},
         "a message states 15 bytes of events; it is damaged"),
-    "g": (ros2, {"change": put(0, "H", 0)}, {}, "a message is not little-endian CDR, which"),
-    "h": (ros2, {"facts": lambda _: b"[]"}, {}, r"holds no facts of a bag \("),
-    "i": (ros2, {"facts": lambda data: data.ljust(MOST + 1, b"#")},
+    "f": (ros2, {"change": put(0, "H", 0)}, {}, "a message is not little-endian CDR, which"),
+    "g": (ros2, {"facts": lambda _: b"[]"}, {}, r"holds no facts of a bag \("),
+    "h": (ros2, {"facts": lambda data: data.ljust(MOST + 1, b"#")},
         {"facts": lambda data: data.ljust(MOST, b"#")}, f"is longer than {MOST} bytes; it is dam"),
-    "j": (ros2, {"stored": cut(2048)}, {}, r"is damaged or not a bag \("),
+    "i": (ros2, {"stored": cut(2048)}, {}, r"is damaged or not a bag \("),
     "a.bag": (ros1, {"change": cut(-1)}, {}, "a message states 3 events in 38 bytes"),
     "b.bag": (ros1, {"change": lambda data: data + bytes(4)},
         {"change": lambda data: data + bytes(3)}, "a message states 3 events in 43 bytes"),

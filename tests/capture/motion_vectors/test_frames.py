@@ -83,6 +83,9 @@ def test_one_file_for_all_frames(tmp_path):
         config = CaptureConfig(fps=Fraction(25), motion=tmp_path / name)
         motions = check_exact(open_frames(FILM, config), backward=has_backward)
         assert (motions[0].depth is not None) == (name == "all.npz")
+    np.savez(tmp_path / "pairs.npz", flow=FORWARD[:-1], depth=DEPTH[:-1])
+    motions = check_exact(opened({"motion": tmp_path / "pairs.npz"}), backward=False)
+    assert [one.depth is None for one in motions] == [False] * 5 + [True]
 
 
 def test_a_pattern_names_files_among_others(tmp_path):
@@ -153,8 +156,6 @@ REFUSED_ARRAYS = {
     "negative depth": ({"motion": FORWARD, "depth": changed(DEPTH, -1e-6)},
         {"motion": FORWARD, "depth": changed(DEPTH, 0.0)},
         r"depth, frame 0: depth has 1 value\(s\) that are NaN or negative"),
-    "unknown depth": ({"motion": FORWARD, "depth": np.full_like(DEPTH, np.nan)}, {},
-        r"3072 value\(s\) that are NaN"),
     "depth in steps": ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)},
         {"motion": FORWARD, "depth": DEPTH.astype(np.uint16), "depth_scale": 1.0},
         r"give `depth_scale`: metres per"),
