@@ -125,6 +125,12 @@ def test_unequal_lengths_and_fractional_coordinates_are_refused():
     zeros = np.zeros(2, np.int64)
     with pytest.raises(InputError, match="equally long"):
         EventStream(zeros, zeros, zeros, zeros[:1], SIZE)
+    with pytest.raises(InputError, match="nothing to concatenate; give at least one"):
+        EventStream.concat([])
+    with pytest.raises(InputError, match="cannot concatenate sensors of 8x6 and 8x7"):
+        EventStream.concat([stream([1]), EventStream.empty(SensorSize(8, 7))])
+    with pytest.raises(InputError, match=r"chooses no events \(boolean index did not match"):
+        stream([1, 2])[np.ones(3, bool)]
     with pytest.raises(InputError, match="x must hold integers; got float64"):
         EventStream(zeros + 0.5, zeros, zeros, zeros, SIZE)
 

@@ -66,6 +66,11 @@ def test_a_frame_has_the_time_of_the_middle_of_its_exposure(tmp_path):
     assert first.pixels.shape == (4, 6)
     assert len(list(stream)) == 2, "it can be read again"
     assert stream.metadata["times"] == "middle of the exposure"
+    assert list(stream.times_us) == [1_500, 41_500]
+    given = open_frames(tmp_path / "r.aedat4", CaptureConfig(), t_us=[30_000, 70_000])
+    assert list(given.times_us) == [frame.t_us for frame in given] == [30_000, 70_000]
+    with pytest.raises(InputError, match="t_us has 3 times for 2 frames"):
+        open_frames(tmp_path / "r.aedat4", CaptureConfig(), t_us=[30_000, 70_000, 90_000])
 
 
 @pytest.mark.parametrize(
@@ -102,17 +107,22 @@ def test_a_recording_of_events_alone_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("numbers", "pixels", "problem"),
+    ("numbers", "pixels", "change", "problem"),
     [
-        ({5: 5}, 48, "OpenCV type 5"),
-        ({}, 23, "23 bytes of pixels for 6x4x1"),
+        ({5: 5}, 48, bytes, "frame 1.*OpenCV type 5"),
+        ({}, 23, bytes, "frame 1.*23 bytes of pixels for 6x4x1"),
+        ({7: 3}, 18, bytes, "frame 1 is 6x3, the sensor 6x4; frames of a part"),
+        ({}, 24, lambda frame: struct.pack("<I", len(frame) - 5) + frame[4:-1],
+            "frame 1: its pixels reach past the end of the packet"),
+        ({}, 24, lambda frame: frame.replace(b"FRME", b"EVTS"),
+            r"before byte \d+: no FRME table where one must be"),
     ],
-)
-def test_frames_that_cannot_be_are_refused(tmp_path, numbers, pixels, problem):
+)  # fmt: skip
+def test_frames_that_cannot_be_are_refused(tmp_path, numbers, pixels, change, problem):
     given = {0: 99_000, 6: SIZE.width, 7: SIZE.height, **numbers}
-    frames = [grey(1, start=0, end=10), make_frame(bytes(pixels), given)]
+    frames = [grey(1, start=0, end=10), change(make_frame(bytes(pixels), given))]
     stream = open_frames(write_file(tmp_path / "r.aedat4", frames), CaptureConfig())
-    with pytest.raises(FileFormatError, match=rf"frame 1.*{problem}"):
+    with pytest.raises(FileFormatError, match=problem):
         list(stream)
 
 

@@ -36,6 +36,10 @@ def test_a_list_can_be_read_again_and_a_generator_once():
     assert [np.array_equal(f.pixels, p) for f, p in zip(frames, images, strict=True)] == [True] * 3
     with pytest.raises(InputError, match="generator of frames can be read once, and was"):
         iter(stream).__next__()
+    with pytest.raises(InputError, match=r"the generator has no frame \(left\); if it was read"):
+        open_frames(iter([]), AT_100)
+    with pytest.raises(InputError, match="a FrameStream has its own times; leave out fps, t_us"):
+        open_frames(stream, AT_100)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])

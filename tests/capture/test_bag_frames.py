@@ -69,7 +69,7 @@ def test_images_of_every_encoding_are_read_at_their_stamps(
     ]
     stream = open_frames(bag(tmp_path, version, {"/camera": (IMAGE, sent)}), CaptureConfig())
     assert (stream.size, stream.frame_count) == ((6, 4), 3)
-    assert [frame.t_us for frame in stream] == TIMES_US
+    assert list(stream.times_us) == [frame.t_us for frame in stream] == TIMES_US
     for frame, picture in zip(stream, wanted, strict=True):
         np.testing.assert_array_equal(frame.pixels, picture)
 
@@ -101,7 +101,8 @@ def test_one_topic_of_several_is_chosen_raw_or_compressed(tmp_path: Path, versio
         frames(path)
     with pytest.raises(InputError, match="no stream '/middle'"):
         frames(path, topic="/middle")
-    assert [one.t_us for one in frames(path, topic="left/raw", fps=50)] == [0, 20_000, 40_000]
+    steady = open_frames(path, CaptureConfig(topic="left/raw", fps=50))
+    assert list(steady.times_us) == [one.t_us for one in steady] == [0, 20_000, 40_000]
     np.save(tmp_path / "clip.npy", pictures)
     with pytest.raises(ConfigError, match=r"topic chooses images of a ROS bag, and .* is none"):
         frames(tmp_path / "clip.npy", topic="left", fps=50)
@@ -120,6 +121,23 @@ DAMAGED = image(2, TIMES_US[1], PICTURE, "rgb8")
 DAMAGED.height = 40
 
 
+def shortened(by: int) -> Any:
+    made = image(2, TIMES_US[1], PICTURE, "rgb8")
+    made.data = made.data[:-by]
+    return made
+
+
+def packed(by: int) -> bytes:
+    whole = bytes(types_of(2).serialize_cdr(image(2, TIMES_US[1], PICTURE, "rgb8"), IMAGE))
+    return whole[:-by]
+
+
+def test_the_last_row_may_end_with_its_pixels(tmp_path: Path) -> None:
+    sent = [image(2, TIMES_US[0], PICTURE, "rgb8"), shortened(PADDING)]
+    path = bag(tmp_path, 2, {"/camera": (IMAGE, sent)})
+    np.testing.assert_array_equal(frames(path)[1].pixels, PICTURE)
+
+
 @pytest.mark.parametrize(
     ("second", "said"),
     [
@@ -128,6 +146,9 @@ DAMAGED.height = 40
         (image(2, TIMES_US[0], PICTURE, "rgb8"), r"has the stamp .* give the frame rate, --fps"),
         (image(2, TIMES_US[0] - 9, PICTURE, "rgb8"), "order of the recording is not that of the s"),
         (DAMAGED, "an image of 6x40 rgb8 has"),
+        (shortened(PADDING + 1), "an image of 6x4 rgb8 has 80 bytes in rows of 21"),
+        (packed(1), "a message states 84 bytes of data; it is damaged"),
+        (packed(86), "a message of an image is cut off"),
     ],
 )
 def test_images_that_cannot_be_used_are_refused(tmp_path: Path, second: Any, said: str) -> None:

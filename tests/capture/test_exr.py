@@ -5,6 +5,8 @@ import pytest
 
 import texvent
 from texvent.capture.exr_image import exr_frame
+from texvent.capture.image_folder import coding_facts
+from texvent.capture.motion_vectors.fields import read_file
 from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
@@ -62,6 +64,14 @@ def test_damage_and_missing_colour_are_one_line(tmp_path):
         exr_frame(tmp_path / "cut.exr")
     with pytest.raises(InputError, match=r"has no colour \(R, G, B or Y\); its channels: Depth\.Z"):
         exr_frame(write(tmp_path / "z.exr", {"Depth.Z": np.ones((2, 2))}))
+    layers = {f"{layer}.Vector.{axis}": np.ones((2, 2)) for layer in "AB" for axis in "XYZW"}
+    with pytest.raises(FileFormatError, match=r"several channels Vector\.X \(A\.Vector\.X, B\.V"):
+        read_file(write(tmp_path / "layers.exr", layers), "motion")
+    with pytest.raises(InputError, match=r"no pass that is known .*; its channels: B, G, R"):
+        read_file(tmp_path / "a.exr", "motion")
+    (tmp_path / "z.exr").with_suffix(".png").write_bytes(b"")
+    with pytest.raises(InputError, match=r"a\.exr is linear light and z\.png is gamma-coded; fram"):
+        coding_facts([tmp_path / "a.exr", tmp_path / "z.png"])
 
 
 def test_a_real_render_of_blender():
@@ -74,10 +84,9 @@ def test_a_real_render_of_blender():
     assert np.hypot(*middle.forward.T).max() > 3.0  # the ball
     assert 3.0 < middle.depth.min() < middle.depth.max() < 30.0
     assert len(np.unique(middle.instance)) >= 5
-    with pytest.raises(InputError, match="motion_convention=blender,y-down,y-up; give that"):
-        open_frames(
-            BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention="blender,y-down")
-        )
+    for words in ("blender,y-down", "y-down"):  # the file names its renderer itself
+        with pytest.raises(InputError, match="motion_convention=blender,y-down,y-up; give that"):
+            open_frames(BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention=words))
 
 
 def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):

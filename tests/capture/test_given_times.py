@@ -114,6 +114,14 @@ def test_wrong_files_are_refused(tmp_path, lines, error, message):
         read_timestamps(path, "ns" if lines == "1\n2\n" else "s")
 
 
+def test_a_list_that_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"none\.txt does not exist; check `timestamps`"):
+        read_timestamps(tmp_path / "none.txt", "s")
+    (tmp_path / "t.txt").write_bytes(b"0 caf\xe9.png\n")
+    with pytest.raises(FileFormatError, match=r"cannot be read \(.*save it as UTF-8 text"):
+        read_timestamps(tmp_path / "t.txt", "s")
+
+
 @pytest.mark.parametrize(
     ("step", "units"),
     [

@@ -1,6 +1,9 @@
 """Frames of recordings: DSEC's images seen from its event camera, and EVREAL's folders."""
 
+import contextlib
+
 import cv2
+import h5py
 import numpy as np
 import pytest
 
@@ -47,6 +50,19 @@ def test_a_calibration_that_lacks_an_entry_is_refused(tmp_path):
     folder = write_sequence(tmp_path)
     (folder / "calibration" / "cam_to_cam.yaml").write_text("intrinsics: {}\n")
     with pytest.raises(FileFormatError, match="camRect0"):
+        open_frames(folder, CaptureConfig())
+
+
+@pytest.mark.parametrize("far", [0.9e-3, 1.1e-3])
+def test_turns_that_are_none_and_places_that_are_nowhere_are_refused(tmp_path, far):
+    stretched = np.diag([1.0 + far, 1.0, 1.0])
+    folder = write_sequence(tmp_path, rotation=stretched)
+    is_refused = pytest.raises(FileFormatError, match="not finite, or turns that are none")
+    with contextlib.nullcontext() if far < 1e-3 else is_refused:
+        open_frames(folder, CaptureConfig())
+    with h5py.File(folder / "events" / "left" / "rectify_map.h5", "r+") as file:
+        file["rectify_map"][3, 4, 1] = np.nan
+    with pytest.raises(FileFormatError, match="rectify_map holds values that are NaN or infinite"):
         open_frames(folder, CaptureConfig())
 
 

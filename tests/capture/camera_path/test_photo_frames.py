@@ -109,6 +109,10 @@ def test_what_is_no_image_gets_one_line(tmp_path):
     video.write_bytes(b"x")
     with pytest.raises(InputError, match=r"clip.mp4 is no still image .* leave `camera` out"):
         texvent.simulate(video, camera="pan")
+    with pytest.raises(InputError, match=r"no such image: .*none\.png"):
+        texvent.simulate(tmp_path / "none.png", camera="pan")
+    with pytest.raises(InputError, match=r"over one still image, not over int; give its path"):
+        texvent.simulate(3, camera="pan")
     with pytest.raises(InputError, match=r"must be \[H, W\].*\[3, 60, 80\]"):
         texvent.simulate(np.stack([PHOTO] * 3), camera="pan")
     with pytest.raises(InputError, match="so they are probably"):

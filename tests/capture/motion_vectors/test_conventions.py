@@ -70,7 +70,9 @@ def test_a_coarser_field_is_repeated_and_its_pixels_count_as_several():
     assert in_ndc[0, 3].tolist() == [2.0 * 2, 3.0 * 1]  # a share of the image is the same
 
 
-@pytest.mark.parametrize("text", ["blendr", "scale=0", "scale=x", "px,,", ""])
+@pytest.mark.parametrize(
+    "text", ["blendr", "scale=0", "scale=x", "scale=e", "scale=1e999", "px,,", ""]
+)
 def test_unknown_words_are_named(text):
     with pytest.raises(ConfigError, match="motion_convention has"):
         parse_convention(text)

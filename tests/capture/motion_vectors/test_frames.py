@@ -1,14 +1,16 @@
+import zipfile
 from fractions import Fraction
 
 import cv2
 import numpy as np
 import pytest
 from tests.capture.motion_vectors import moving_scene as scene
+from tests.video_check.made_clips import encode
 
 import texvent
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
 from texvent.frames import Frame, MotionVectors, Video
 from texvent.sensor import SensorSize
 
@@ -81,6 +83,9 @@ def test_one_file_for_all_frames(tmp_path):
         config = CaptureConfig(fps=Fraction(25), motion=tmp_path / name)
         motions = check_exact(open_frames(FILM, config), backward=has_backward)
         assert (motions[0].depth is not None) == (name == "all.npz")
+    np.savez(tmp_path / "pairs.npz", flow=FORWARD[:-1], depth=DEPTH[:-1])
+    motions = check_exact(opened({"motion": tmp_path / "pairs.npz"}), backward=False)
+    assert [one.depth is None for one in motions] == [False] * 5 + [True]
 
 
 def test_a_pattern_names_files_among_others(tmp_path):
@@ -117,44 +122,132 @@ def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow,
     list(opened({"motion": flow}, check_motion=False))
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (
-            {"motion": FORWARD[:-2]},
-            r"motion has fields of 4 frames, and there are 6 frames; give 6",
-        ),
-        ({"motion": FORWARD[:, :-1]}, r"forward field is 64x47, the frames are 64x48"),
-        ({"motion": np.full_like(FORWARD, np.nan)}, r"is NaN in 100% of its pixels"),
-        ({"motion": FORWARD.transpose(0, 3, 1, 2)}, r"components come last: \.transpose"),
-        (
-            {"motion": FORWARD, "depth": np.full_like(DEPTH, np.nan)},
-            r"3072 value\(s\) that are NaN",
-        ),
-        ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)}, r"give `depth_scale`: metres per"),
-        ({"motion": FORWARD, "instances": DEPTH + 0.5}, r"no whole numbers"),
-    ],
-)
-def test_bad_fields_are_one_clear_line(given, message):
+def changed(field, value, share=None):
+    """A copy whose first pixel has another value, or this share of all pixels of every frame."""
+    field = field.copy()
+    count = 1 if share is None else int(share * scene.WIDTH * scene.HEIGHT)
+    field.reshape(len(field), scene.WIDTH * scene.HEIGHT, -1)[:, :count] = value
+    return field
+
+
+WIDE = INSTANCES.astype(np.int64)
+REFUSED_ARRAYS = {
+    "too few": ({"motion": FORWARD[:-2]}, {"motion": FORWARD[:-1]},
+        r"motion has fields of 4 frames, and there are 6 frames; give 6: .*, or 5: one per pair"),
+    "depth per pair": ({"motion": FORWARD, "depth": DEPTH[:-1]}, {"motion": FORWARD},
+        r"depth has fields of 5 frames, and there are 6 frames; give 6: one per frame$"),
+    "a row too few": ({"motion": FORWARD[:, :-1]}, {"motion": FORWARD[:, ::2, ::2] / 2},
+        r"motion, frame \d: the forward field is 64x47, the frames are 64x48"),
+    "unknown": ({"motion": changed(FORWARD, np.nan, 0.51)},
+        {"motion": changed(FORWARD, np.nan, 0.5)}, r"NaN in 51% of its pixels; at most 50%"),
+    "too long": ({"motion": changed(FORWARD, -1.001e6)}, {"motion": changed(FORWARD, -1e6)},
+        r"has 1 infinite vector\(s\), or of more than 1e\+06"),
+    "components first": ({"motion": FORWARD.transpose(0, 3, 1, 2)}, {},
+        r"components come last: \.transpose"),
+    "five components": ({"motion": FORWARD[..., [0, 1, 0, 1, 0]]},
+        {"motion": FORWARD[..., [0, 1, 0, 1]]},
+        r"float32 of shape \[48, 64, 5\]; vectors are numbers \[H, W, 2\]$"),
+    "no field": ({"motion": {"flow": FORWARD}}, {}, r"is no field of motion; give a path"),
+    "twice": ({"motion": BACKWARD, "motion_back": BACKWARD, "motion_convention": "backward"}, {},
+        r"backward vectors are given twice, by motion \(vectors\) and motion_back \(backward\)"),
+    "exchanged": ({"motion": BACKWARD, "motion_back": FORWARD},
+        {"motion": FORWARD, "motion_back": BACKWARD, "check_motion": True},
+        r"forward motion vectors do not fit .* if the vectors are meant backward; exchange the"),
+    "negative depth": ({"motion": FORWARD, "depth": changed(DEPTH, -1e-6)},
+        {"motion": FORWARD, "depth": changed(DEPTH, 0.0)},
+        r"depth, frame 0: depth has 1 value\(s\) that are NaN or negative"),
+    "depth in steps": ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)},
+        {"motion": FORWARD, "depth": DEPTH.astype(np.uint16), "depth_scale": 1.0},
+        r"give `depth_scale`: metres per"),
+    "two depths": ({"motion": FORWARD, "depth": DEPTH[..., None].repeat(2, -1)},
+        {"motion": FORWARD, "depth": DEPTH[..., None]},
+        r"depth has float32 of shape \[48, 64, 2\]; it is \[H, W\]"),
+    "depth of another size": ({"motion": FORWARD, "depth": DEPTH[:, :, :-1]},
+        {"motion": FORWARD, "depth": DEPTH[:, ::4, ::4]},
+        r"depth is 63x48, the frames are 64x48"),
+    "half an id": ({"motion": FORWARD, "instances": DEPTH + 0.5},
+        {"motion": FORWARD, "instances": DEPTH}, r"no whole numbers"),
+    **{
+        f"id {bad}": ({"motion": FORWARD, "instances": changed(WIDE, bad)},
+            {"motion": FORWARD, "instances": changed(WIDE, good)}, "ids of more than 32 bits")
+        for bad, good in ((2**32, 2**32 - 1), (-(2**31) - 1, -(2**31)))
+    },
+}  # fmt: skip
+"""Name → what is given, what is just good enough, words of the message."""
+OPTIONS = ("motion_convention", "depth_scale", "check_motion")
+
+
+def read_all(given, **options):
+    options |= {name: given[name] for name in OPTIONS if name in given}
+    return list(opened({name: given[name] for name in given if name not in OPTIONS}, **options))
+
+
+@pytest.mark.parametrize("name", REFUSED_ARRAYS)
+def test_bad_fields_are_one_clear_line(name):
+    given, near, message = REFUSED_ARRAYS[name]
     with pytest.raises(InputError, match=message) as error:
-        list(opened(given))
+        read_all(given)
     assert "\n" not in str(error.value)
+    assert len(read_all(near, check_motion=False)) == len(FILM)
 
 
-def test_files_that_are_not_there(tmp_path):
-    (tmp_path / "both").mkdir()
-    np.save(tmp_path / "both" / "a.npy", FORWARD[0])
-    cv2.imwrite(str(tmp_path / "both" / "a.png"), FILM[0].astype(np.uint8))
-    cv2.imwrite(str(tmp_path / "one.png"), FILM[0].astype(np.uint8))
-    np.savez(tmp_path / "odd.npz", u=FORWARD, v=FORWARD)
-    for name, message in {
-        "missing": "no file or folder",
-        "both": r"holds \.npy and \.png files; name those",
-        "one.png": "is the field of one frame",
-        "odd.npz": "holds u, v; arrays must be called flow",
-    }.items():
-        with pytest.raises(InputError, match=message):
-            open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path / name))
+def test_frames_that_are_counted_late_or_once_are_refused_too(tmp_path):
+    encode(FILM.astype(np.uint8), tmp_path / "film.avi", codec="ffv1")
+    config = CaptureConfig(check_motion=False)
+    short = open_frames(tmp_path / "film.avi", config, motion={"motion": FORWARD[:4]})
+    with pytest.raises(InputError, match=r"fields of 4 frames, but there is a frame 4; give one"):
+        list(short)
+    pairs = open_frames(tmp_path / "film.avi", config, motion={"motion": FORWARD[:5]})
+    assert [frame.motion.forward is None for frame in pairs] == [False] * 5 + [True]
+    with pytest.raises(InputError, match="frames that can be read twice, not a live stream"):
+        open_frames(iter(FILM), CaptureConfig(fps=Fraction(25)), motion={"motion": FORWARD})
+
+
+def test_vectors_of_another_film_are_warned_of():
+    noise = np.random.default_rng(3).integers(0, 256, FILM.shape).astype(np.float32)
+    told = r"motion: forward motion vectors explain little: .* differ by \d+\.\d grey levels, and"
+    with pytest.warns(TexventWarning, match=told):
+        opened({"motion": FORWARD + np.float32(4)}, film=noise)
+
+
+def write_odd_archive(path):
+    np.savez(path, flow=FORWARD)
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr("depth", "no array")
+
+
+REFUSED_FILES = {
+    "missing": (lambda path: None, "no file or folder"),
+    "both": (lambda path: (path.mkdir(), np.save(path / "a.npy", FORWARD[0]),
+        cv2.imwrite(str(path / "a.png"), FILM[0].astype(np.uint8))),
+        r"holds \.npy and \.png files; name those"),
+    "empty": (lambda path: path.mkdir(), r"vectors, depth or ids; looked for \.exr, \.npz, \.npy"),
+    "a.txt": (lambda path: path.write_text("1"), "is no file of motion vectors, depth or ids; kn"),
+    "one.png": (lambda path: cv2.imwrite(str(path), FILM[0].astype(np.uint8)),
+        "is the field of one frame"),
+    "odd.npz": (lambda path: np.savez(path, u=FORWARD, v=FORWARD),
+        "holds u, v; arrays must be called flow"),
+    "uneven.npz": (lambda path: np.savez(path, flow=FORWARD, depth=DEPTH[:-1]),
+        r"fields of different numbers of frames \(vectors 6, depth 5\)"),
+    "depth.npz": (lambda path: np.savez(path, depth=DEPTH, ids=INSTANCES),
+        r"depth\.npz has no motion; it holds depth, instances"),
+    "number.npy": (lambda path: np.save(path, np.float32(3)), r"holds a single number; fields are"),
+    "text.npz": (write_odd_archive, "is damaged: it holds entries that are no arrays"),
+    "late": (lambda path: (path.mkdir(), *(
+        np.savez(path / f"{index}.npz", flow=flow, **({"depth": DEPTH[0]} if index < 3 else {}))
+        for index, flow in enumerate(FORWARD))),
+        "the fields of frame 3 lack depth, which those of the first frame have"),
+}  # fmt: skip
+"""Name → how the file or folder is written, words of the message."""
+
+
+@pytest.mark.parametrize("name", REFUSED_FILES)
+def test_files_without_vectors_are_one_clear_line(tmp_path, name):
+    write, message = REFUSED_FILES[name]
+    write(tmp_path / name)
+    with pytest.raises(InputError, match=message) as error:
+        list(opened({"motion": tmp_path / name}))
+    assert "\n" not in str(error.value)
 
 
 def test_start_stop_and_fit_change_motion_as_pixels():
@@ -246,6 +339,9 @@ def test_depth_and_ids_in_images(tmp_path):
     assert np.array_equal(motions[2].instance, INSTANCES[2])
     with pytest.raises(InputError, match="is an image; vectors are read from"):
         opened({"motion": tmp_path / "ids"})
+    cv2.imwrite(str(tmp_path / "depth" / "2.png"), np.zeros((48, 64, 3), np.uint8))
+    with pytest.raises(FileFormatError, match=r"2\.png is a colour image; depth is one channel"):
+        list(opened({"motion": FORWARD}, **options))
 
 
 def test_no_surface_is_infinitely_far():

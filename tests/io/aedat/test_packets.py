@@ -19,24 +19,6 @@ from texvent.io.aedat.aedat4_tables import Table
 from texvent.io.files import load
 
 
-@pytest.mark.parametrize(
-    ("line", "sources", "message"),
-    [
-        (b"#Format: SerializedTS\r\n", (1,), "format 'SerializedTS', not RAW"),
-        (b"", (1, 2), r"events of several cameras \(sources \[1, 2\]\)"),
-    ],
-)
-def test_aedat3_of_two_cameras_or_packed_is_refused(
-    tmp_path: Path, line: bytes, sources: tuple[int, ...], message: str
-) -> None:
-    path = tmp_path / "e.aedat"
-    heads = [struct.pack("<hhiiiiii", 1, source, 8, 4, 0, 1, 1, 1) for source in sources]
-    header = b"#!AER-DAT3.1\r\n" + line + b"#Size: 9x9\r\n#!END-HEADER\r\n"
-    path.write_bytes(header + b"".join(head + struct.pack("<II", 1, 5) for head in heads))
-    with pytest.raises(FileFormatError, match=message):
-        load(path)
-
-
 @pytest.mark.parametrize("turns", [(0, 0, 1, 1), (1, 0, 0, 0), (0, 3, 0, 0)])
 def test_aedat3_counts_of_turns_where_the_time_goes_on_are_damage(
     tmp_path: Path, turns: tuple[int, ...]

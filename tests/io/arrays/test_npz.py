@@ -31,25 +31,6 @@ def test_pickled_objects_are_refused_because_they_could_run_code(tmp_path: Path)
         load(path, size=(4, 4))
 
 
-@pytest.mark.parametrize(
-    ("arrays", "message"),
-    [
-        ({"x": [0], "y": [0], "t": [0]}, "holds no events by names"),
-        ({"x": [0, 1], "y": [0], "t": [0], "p": [0]}, "differ in length"),
-        ({"x": [0.5], "y": [0], "t": [0], "p": [0]}, "not whole numbers"),
-        ({"x": [0], "y": [0], "t": [0], "p": [0], "timestamp_scale_ms": 2.0}, "units of 2"),
-        ({"x": [0], "y": [0], "t": [0], "p": [0], "width": "a", "height": 4}, "whole number"),
-    ],
-)
-def test_wrong_arrays_are_one_clear_line(
-    tmp_path: Path, arrays: dict[str, object], message: str
-) -> None:
-    path = tmp_path / "events.npz"
-    np.savez(path, **{name: np.array(value) for name, value in arrays.items()})
-    with pytest.raises(FileFormatError, match=message):
-        load(path, size=(4, 4))
-
-
 def test_a_single_array_is_not_an_archive(tmp_path: Path) -> None:
     path = tmp_path / "events.npz"
     with path.open("wb") as file:
