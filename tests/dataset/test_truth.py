@@ -257,6 +257,10 @@ def filmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     frames = texvent.video("a red car drives left past a tree", sensor="32x24", duration=0.2)
     texvent.save_truth(frames, folder / "truth", "boxes")
     (folder / "truth/boxes/coco.json").rename(folder / "car.json")
+    facts = json.loads((folder / "car.json").read_text())
+    for box in facts["annotations"]:
+        del box["track_id"]
+    (folder / "loose.json").write_text(json.dumps(facts))
     (folder / "clips").mkdir()
     np.save(folder / "clips/car.npy", np.stack([frame.pixels for frame in frames]).astype("u1"))
     return folder
@@ -322,6 +326,19 @@ def test_labels_of_more_frames_are_refused_before_any_work(filmed: Path, tmp_pat
         ({"source": {"boxes": "{nmae}.json"}}, "names {nmae}; there is: folder, name"),
         ({"source": {"boxes": ""}}, "or sources `boxes`, labels of their videos"),
         ({"source": {"box_rate": 0}}, "box_rate is 0"),
+        (
+            {"source": {"boxes": "loose.json", "box_rate": 48}},
+            "loose.json has boxes without one; l",
+        ),
+        (
+            {
+                "sources": [
+                    {"videos": ["clips"], "boxes": one} if one else {"videos": ["clips"]}
+                    for one in ("car.json", "")
+                ]
+            },
+            "give all some, or none",
+        ),
     ],
 )
 def test_labels_that_cannot_be_are_refused_before_any_work(

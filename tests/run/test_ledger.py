@@ -5,9 +5,11 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.errors import FileFormatError
 from texvent.run.ledger import FILES, Ledger, describe_differences
 
 KEYS = st.sampled_from("abc")
@@ -92,3 +94,13 @@ def test_at_most_three_differences_are_named_and_the_others_counted(old, new):
     ]
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     assert told == "; ".join(words[:3]) + more
+
+
+@pytest.mark.parametrize("damage", ["{", "[]", '{"no": 1}', '{"key": 1, "files": {"../a": {}}}'])
+def test_only_the_last_line_may_be_damaged(tmp_path, damage):
+    path, rows = tmp_path / "ledger", ('{"key": "a"}', '{"key": "b"}')
+    path.write_text("\n".join((*rows, damage, "")))
+    assert {*Ledger(path, remedy="name another")} == {"a", "b"}
+    path.write_text("\n".join((rows[0], damage, rows[1], "")))
+    with pytest.raises(FileFormatError, match=r"ledger line 2 is damaged; name another$"):
+        Ledger(path, remedy="name another")

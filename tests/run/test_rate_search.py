@@ -41,6 +41,8 @@ def test_the_search_takes_the_nearest_where_rates_jump():
 def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
     with pytest.raises(InputError, match=r"no contrast threshold.*the nearest is"):
         match_rate(simulation(), target)
+    with pytest.raises(InputError, match="needs at least two frames; this source has fewer"):
+        match_rate(simulation(moving_waves(1)), target)
 
 
 @pytest.mark.parametrize(

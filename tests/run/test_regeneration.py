@@ -47,6 +47,7 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(
         {"prompt": None},
         {"settings": None},
         {"texvent_version": "0.0.0"},
+        {"rig": {"camera": 1}},
         {"edits": [{"crop": "0,0,8,8"}]},
         {"settings": {"run": {"seed": "x"}, "generate": {}}},
         {"settings": {"run": {}, "generate": {"no_such_option": 3}}},

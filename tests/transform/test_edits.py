@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
+from tests.refusals import Refusal, check_refusal
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.transform.edits import flip_polarity, reverse_time, shift, start_at_zero
+from texvent.transform.edits import flip_polarity, merge, reverse_time, shift, start_at_zero
 
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
@@ -102,9 +104,43 @@ def test_labels_go_with_their_events() -> None:
     assert events.rotate(90).label.tolist() == [0, 1]
 
 
-def test_what_cannot_be_done_is_refused() -> None:
-    events = stream([(0, 0, 1, 1)])
-    with pytest.raises(ConfigError, match="degrees is 45; it must be 0, 90, 180 or 270"):
-        events.rotate(45)
-    with pytest.raises(ConfigError, match="axes is 'z'; give 'x'"):
-        events.flip("z")
+class Odd:
+    """A filter that answers with numbers of a type."""
+
+    def __init__(self, dtype: type, extra: int = 0) -> None:
+        self.dtype, self.extra = dtype, extra
+
+    def start(self, events: object) -> Callable[[EventStream], Any]:
+        return lambda packet: np.ones(len(packet) + self.extra, self.dtype)
+
+
+REFUSED: dict[str, Refusal] = {
+    "degrees": (lambda one: one.rotate(45), ConfigError,
+                "degrees is 45; it must be 0, 90, 180 or 270", lambda one: one.rotate(270)),
+    "axis": (lambda one: one.flip("z"), ConfigError, "axes is 'z'; give 'x'",
+             lambda one: one.flip("y")),
+    "region": (lambda one: one.crop(5, 0, 4, 6), InputError,
+               "the region 5,0,4,6 does not lie inside the sensor of 8x6; give x,y,width,height "
+               "with x + width <= 8 and y + height <= 6", lambda one: one.crop(4, 0, 4, 6)),
+    "nothing": (lambda one: merge([]), InputError, "nothing to merge; give at least one recording",
+                lambda one: merge([packets(one)])),
+    "sizes": (lambda one: merge([packets(one), packets(one.rotate(90))]), InputError,
+              "cannot merge sensors of 8x6 and 6x8; crop or resize one first",
+              lambda one: merge([packets(one), packets(one.rotate(180))])),
+    "numbers": (lambda one: one.filter(Odd(np.uint8)), InputError,
+                "the filter Odd gave uint8 of shape (1,); it must give a mask, bool of shape (1,),",
+                lambda one: one.filter(Odd(np.bool_))),
+    "longer": (lambda one: one.filter(Odd(bool, 1)), InputError,
+               "the filter Odd gave bool of shape (2,); it must give a mask, bool of shape (1,),",
+               lambda one: one.filter(Odd(bool, 0))),
+    "time": (lambda one: one.between("1", 9), InputError,
+             "the start of the range is '1'; give a time in µs", lambda one: one.between(1, 9)),
+    "reversed": (lambda one: one.between(3, 1), InputError,
+                 "the range from 3 to 1 µs is reversed; its stop must come after its start: 1, 3",
+                 lambda one: one.between(1, 3)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_done_is_refused(name: str) -> None:
+    check_refusal(REFUSED[name], stream([(0, 0, 1, 1)]))

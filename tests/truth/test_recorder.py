@@ -22,6 +22,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.truth.class_ids import CLASS_IDS
 from texvent.truth.sinks import encode_flow, write_png
+from texvent.view.drawing.canvas import png_bytes
 
 from .hand_video import SIZE, board_video, level
 
@@ -143,6 +144,7 @@ class MotionFrames:
     frame_count: int = 5
     is_live: bool = False
     has_ids: bool = True
+    number: int = 5
 
     @property
     def metadata(self):
@@ -150,18 +152,18 @@ class MotionFrames:
 
     def ids(self, index: int):
         ids = np.zeros(self.size.shape, np.int32)
-        ids[10:20, 4 + 4 * index : 12 + 4 * index] = 5
+        ids[10:20, 4 + 4 * index : 12 + 4 * index] = self.number
         return ids
 
     def __iter__(self):
         for index in range(self.frame_count):
             ids = self.ids(index)
             flow = np.zeros((*self.size.shape, 2), np.float32)
-            flow[ids == 5, 0] = 4.0
+            flow[ids > 0, 0] = 4.0
             back = -flow
             flow[0, 0] = np.nan
-            pixels = np.where(ids == 5, 40, 200).astype(np.uint8)
-            depth = np.where(ids == 5, 2.0, 9.0).astype(np.float32)
+            pixels = np.where(ids > 0, 40, 200).astype(np.uint8)
+            depth = np.where(ids > 0, 2.0, 9.0).astype(np.float32)
             motion = MotionVectors(flow, back, depth=depth, instance=ids if self.has_ids else None)
             yield Frame(pixels, index * 40_000, motion=motion)
 
@@ -237,9 +239,24 @@ def test_truth_that_nobody_knows_is_refused(tmp_path):
         ConfigError, match="no part 'flwo' of truth; allowed: flow, flow-back, depth"
     ):
         texvent.save_truth(board_video(), tmp_path / "a.truth", "flwo")
+    for parts, words in {
+        "": "parts is ''; give some of flow",
+        "events": "parts is 'events'; give",
+    }.items():
+        with pytest.raises(ConfigError, match=words):
+            texvent.save_truth(board_video(), tmp_path / "a.truth", parts)
+    with pytest.raises(InputError, match="no frame was given, so there is no truth to write"):
+        texvent.save_truth(MotionFrames(frame_count=0), tmp_path / "a.truth", "ids")
+    with pytest.raises(InputError, match=r"ids run from 0 to 65536; files hold 0\.\.65535"):
+        texvent.save_truth(MotionFrames(number=65_536), tmp_path / "a.truth", "ids")
     with pytest.raises(ConfigError, match="as_packets"):
         texvent.generate("a ball", as_packets=True, truth_folder=tmp_path / "a.truth")
     assert not list(tmp_path.iterdir())
+
+
+def test_ids_have_16_bits(tmp_path):
+    texvent.save_truth(MotionFrames(number=65_535), tmp_path / "a.truth", "ids")
+    assert texvent.load_truth(tmp_path / "a.truth").instance().max() == 65_535
 
 
 def test_a_clip_cut_in_time_keeps_its_truth(tmp_path):
@@ -269,6 +286,8 @@ def test_only_folders_of_truth_are_replaced(tmp_path):
     ("name", "text", "message"),
     [
         ("truth.json", "{", "is damaged"),
+        ("truth.json", None, r"a\.truth holds no truth\.json; give a folder that --truth wrote"),
+        ("instance/000000.png", png_bytes(np.zeros((60, 80), np.uint8)), "0.png is no 16-bit PNG"),
         ("truth.json", "[]", "is not of the format"),
         ("truth.json", '{"format": "texvent truth 1", "frames": 6}', "width of truth.json is None"),
         ("timestamps.txt", "0\n1\n", "counts 6 frames, timestamps.txt 2"),
@@ -285,7 +304,7 @@ def test_damage_is_named(written, tmp_path, name, text, message):
     if text is None:
         (folder / name).unlink()
     else:
-        (folder / name).write_text(text)
+        (folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(InputError, match=message):
         texvent.load_truth(folder).check(SIZE)
 

@@ -10,7 +10,7 @@ from texvent.errors import FileFormatError, TexventWarning
 
 def written(tmp_path, name, text):
     path = tmp_path / name
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text, encoding="utf-8", errors="surrogateescape")
     return path
 
 
@@ -97,6 +97,13 @@ def test_json_lines_hold_texts_or_objects(tmp_path):
         ("p.jsonl", '{"prompt": "a", "seed": 9223372036854775808}\n', "from 0 to 2"),
         ("p.jsonl", '{"prompt": ["a"]}\n', "it must be a text"),
         ("p.jsonl", '{"video": 3}\n', "it must be a path"),
+        (
+            "p.csv",
+            "prompt,scene\na car,a.toml\n",
+            "line 2 has a scene and a prompt or video; leave",
+        ),
+        ("p.jsonl", '{"prompt": "a", "label": ["b"]}\n', r"label is \['b'\]; it must be a text"),
+        ("p.txt", "a c\udce4r\n", r"p\.txt is not UTF-8 text: invalid continuation byte"),
         ("p.jsonl", "[" * 100_000 + "\n", "line 1 is not JSON"),
         ("p.csv", "prompt\n" + "x" * 200_000 + "\n", "field larger than field limit"),
     ],

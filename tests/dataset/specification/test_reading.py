@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.refusals import Call, Refusal, check_refusal
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.specification.items import read_items
@@ -177,3 +178,54 @@ def test_sources_that_give_nothing_are_refused(sources: list[Any], wanted: str) 
     spec = specification_from({"name": "x", "sources": sources}, folder=Path())
     with pytest.raises(InputError, match=wanted.replace("{", "\\{").replace("}", "\\}")):
         read_items(spec)
+
+
+def of(source: dict[str, Any] | None = None, **changes: Any) -> Call:
+    """Reads a specification of one source or more, and its items; files count from a folder."""
+    tables = {**ONE, **({"sources": [source]} if source else {}), **changes}
+    return lambda folder: read_items(specification_from(tables, folder=folder))
+
+
+def template(*words: Any) -> dict[str, Any]:
+    return {"template": "a {b}", "words": {"b": list(words)}}
+
+
+def fps(**drawn: Any) -> Call:
+    return of(options={"fps": drawn})
+
+
+FILES = {
+    "cars.txt": "a car\n",
+    "notes.md": "a car\n",
+    "empty.txt": "# nothing\n\n",
+    "a.npy": "",
+}
+VIDEO, BOXED = {"videos": "a.npy"}, {"videos": "a.npy", "boxes": "b.json"}
+REFUSED: dict[str, Refusal] = {
+    "boxes": (of({"prompts": ["a"], "boxes": "b.json"}), ConfigError,
+              "source 1: boxes are labels of videos; this source has none", of(BOXED)),
+    "box rate": (of({**VIDEO, "box_rate": 10}), ConfigError,
+                 "box_rate is that of boxes; this source names", of({**BOXED, "box_rate": 10})),
+    "no list": (fps(uniform=5), ConfigError, "uniform is 5; it must be a list", fps(choice=[5])),
+    "logarithm": (fps(log_uniform=[0, 9]), ConfigError, "log_uniform begins at 0; give more",
+                  fps(log_uniform=[0.5, 9])),
+    "whole": (fps(integer=[1, 2.5]), ConfigError, "fps: integer is [1, 2.5]; whole numbers",
+              fps(integer=[1.0, 2])),
+    "words": (of(template(["x"])), ConfigError, "b is [['x']]; it must be a list of texts",
+              of(template("x", 2, 3.5))),
+    "shares": (of(splits={"a": 0.5, "b": 0.500002}), ConfigError, "add up to 1.000002; make it 1",
+               of(splits={"a": 0.5, "b": 0.5000009})),
+    "kinds": (of(sources=[{"prompts": ["a car"]}, VIDEO]), ConfigError, "give prompts and videos;",
+              of(sources=[{"prompts": ["a car"]}, {"prompts": ["a bus"]}])),
+    "other file": (of({"file": "notes.md"}), InputError, "notes.md is no list; its name must end",
+                   of({"file": "cars.txt"})),
+    "empty": (of({"file": "empty.txt"}), InputError, "empty.txt holds no prompt",
+              of({"file": "cars.txt"})),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_lies_beside_a_mistake_is_read(name: str, tmp_path: Path) -> None:
+    for file, text in FILES.items():
+        (tmp_path / file).write_text(text)
+    check_refusal(REFUSED[name], tmp_path, tmp_path)

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tarfile
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from itertools import combinations
 from pathlib import Path
 
@@ -76,6 +77,13 @@ def test_filters_choose_variant_split_and_label(folder, written):
     assert keys(variant=("esim", "paper"), label=("bus", "car")) == every
     # The number of a class does not depend on what is chosen.
     assert texvent.dataset.open(folder, label="car")[0].class_number == 1
+
+
+@pytest.mark.parametrize(("outside", "inside"), [(24, 23), (-25, -24)])
+def test_numbers_of_samples_end(samples, written, outside, inside):
+    with pytest.raises(IndexError, match=rf"^sample {outside} does not exist; there are 24$"):
+        samples[outside]
+    assert samples[inside].key == list(written)[inside]
 
 
 def test_slices_longer_than_a_sample_are_refused_at_once(folder, written):
@@ -186,6 +194,10 @@ def test_missing_and_changed_files_give_one_line(tmp_path):
         ("p.npy", 128, b"\x02", "p runs from"),
         ("y.npy", 0, b"none", "not a .npy column"),
         ("x.npy", 60, b"9", "damaged"),
+        ("x.npy", 61, b"41", r"tar is damaged: not a \.npy column \(buffer is smaller"),
+        ("x.npy", 22, b"f", r"tar is damaged: not a \.npy column of integers; run"),
+        ("json", 0, b"[", r"sample k000 of .*tar is damaged \(Expecting"),
+        ("json", 0, b"[]".ljust(400), "tar is damaged: its facts are no table; run tex"),
     ],
 )
 def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, value, message):
@@ -196,7 +208,31 @@ def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, val
         file.seek(places[name][0] + offset)
         file.write(value)
     with pytest.raises(FileFormatError, match=message):
-        texvent.dataset.open(tmp_path).events(0)
+        texvent.dataset.open(tmp_path)[0].facts  # noqa: B018
+
+
+RECORD, NOTE = "esim/test-000000.json", "specification.json"
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "message"),
+    [
+        (RECORD, b'{"name": "\xe4"}', r"json is damaged \('utf-8' codec can't decode byte 0xe4 in"),
+        (RECORD, {"name": "train-000000"}, "'train-000000' is no shard of split 'test'"),
+        (RECORD, {"name": "test-000001"}, r"0\.tar belongs to another data set; run"),
+        (RECORD, {"versions": {"numpy": 2}}, r"json is damaged \(versions are texts\)"),
+        (RECORD, {"versions": {"numpy": "2"}}, None),
+        (NOTE, {"labels": ["bus", "dog"]}, "class 'car' of a sample is none of its labels"),
+        (NOTE, {"labels": ["car", "bus"]}, None),
+    ],
+)
+def test_records_that_say_other_things_are_named(tmp_path, name, change, message):
+    write_set(tmp_path)
+    path = tmp_path / name
+    changed = {**json.loads(path.read_text()), **(change if isinstance(change, dict) else {})}
+    path.write_bytes(change if isinstance(change, bytes) else json.dumps(changed).encode())
+    with pytest.raises(FileFormatError, match=message) if message else nullcontext():
+        assert texvent.dataset.open(tmp_path).make(0)["class_number"] in (0, 1)
 
 
 def test_a_sample_that_lacks_columns_is_damaged(folder, written):

@@ -1,10 +1,11 @@
 """A model folder is looked through before it is read, and what is wrong is named."""
 
 import json
+from contextlib import nullcontext
 
 import pytest
 
-from texvent.errors import InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.generation.video_models.model_files import (
     check_weight_files,
     fingerprint,
@@ -68,3 +69,21 @@ def test_the_fingerprint_follows_the_content(model):
     assert fingerprint(model) == before
     (model / "transformer" / "config.json").write_text('{"layers": 2}')
     assert fingerprint(model) != before
+
+
+INDEX = "transformer/diffusion.safetensors.index.json"
+WRONG = {
+    "no class": ("model_index.json", {}, FileFormatError, "index.json names no pipeline class"),
+    "no names": ("model_index.json", [], FileFormatError, "is damaged: it holds no names; fetch"),
+    "part": (INDEX, {"weight_map": {"a": "weights.safetensors", "b": "2.safetensors"}}, InputError,
+             "2.safetensors, which diffusion.safetensors.index.json names; put the file there"),
+    "": (INDEX, {"weight_map": {"a": "weights.safetensors"}}, None, ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_an_index_names_what_is_there(model, name):
+    file, content, error, words = WRONG[name]
+    (model / file).write_text(json.dumps(content))
+    with pytest.raises(error, match=words) if error else nullcontext():
+        check_weight_files(model)

@@ -73,6 +73,15 @@ def test_a_nan_of_the_model_is_refused_and_leaves_nothing(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_stream_without_frames_or_rate_is_refused_and_leaves_nothing(tmp_path):
+    still = Video(np.zeros((1, 8, 8), np.uint8), [0])
+    with pytest.raises(InputError, match="has no frame rate, so it cannot be written; give `fps`"):
+        write_stream(still, tmp_path / "v.avi", overwrite=False)
+    with pytest.raises(InputError, match="the video has no frame"):
+        write_video([], tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     stored = cache.store("abc", noise(), FPS, {"prompt": "ä cat", "seed": 0})
     found = cache.find("abc", Fraction(10))

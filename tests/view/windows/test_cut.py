@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.refusals import Call, Refusal, check_refusal
 
+from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.view.drawing.canvas import png_bytes
 from texvent.view.windows import cut_counts, cut_windows, still_window_us
 
 SIZE = SensorSize(4, 4)
@@ -63,3 +66,26 @@ def busy_stream() -> EventStream:
     """250 events with distinct times on a small sensor, so that pixels fire again and again."""
     step = np.arange(250)
     return EventStream(step * 7 % 8, step * 5 % 6, 100 + step * 61, step // 3 % 2, SensorSize(8, 6))
+
+
+def cut(*times: int, step_us: int = 1000, window_us: int = 1000) -> Call:
+    return lambda _: [
+        *cut_windows([at_times(*times)], step_us=Fraction(step_us), window_us=window_us)
+    ]
+
+
+REFUSED: dict[str, Refusal] = {
+    "window": (cut(0, window_us=0), ConfigError, "window 0 µs, step 1000 µs; both must be above 0",
+               cut(0, window_us=1)),
+    "pause": (cut(0, 1_000_000, 19_000_001), InputError,
+              "no event from 1 to 19 s: 18,000 images would be empty; show a part (--time START,",
+              cut(0, 1_000_000, 19_000_000)),
+    "width": (lambda _: png_bytes(np.zeros((1, 1_000_001), np.uint8)), OutputError,
+              "an image of shape (1, 1000001) cannot be written as PNG",
+              lambda _: png_bytes(np.zeros((1, 1_000_000), np.uint8))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_windows_and_images_have_limits(name: str) -> None:
+    check_refusal(REFUSED[name], None)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from texvent.dataset.specification.entries import entries_of, moved_together
-from texvent.dataset.specification.list_files import ListEntry
+from texvent.dataset.specification.list_files import ListEntry, read_list
 from texvent.dataset.specification.specification import (
     SampleSource,
     Specification,
@@ -147,7 +147,7 @@ def _entries(source: SampleSource, of_stills: bool) -> Iterable[ListEntry]:
     if source.file is not None:
         if not source.file.is_file():
             raise InputError(f"no such list: {source.file}; file names a .txt, .csv or .jsonl")
-        return entries_of(str(source.file))
+        return read_list(source.file)
     return itertools.chain.from_iterable(entries_of(one, of_stills) for one in source.videos)
 
 

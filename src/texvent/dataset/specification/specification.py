@@ -277,7 +277,7 @@ def _check_splits(splits: Mapping[str, float], sources: tuple[SampleSource, ...]
         check_name("split", name)
         check_range(f"share of split {name}", share, 0.0, 1.0)
     if not math.isclose(sum(splits.values()), 1.0, abs_tol=1e-6):
-        raise ConfigError(f"the shares of splits add up to {sum(splits.values()):g}; make it 1")
+        raise ConfigError(f"the shares of splits add up to {sum(splits.values()):.9g}; make it 1")
     for source in sources:
         if source.split is not None and source.split not in splits:
             raise ConfigError(

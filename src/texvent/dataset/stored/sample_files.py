@@ -121,9 +121,13 @@ class SampleFiles:
         try:
             facts = read_json(self.read(("json",)).get("json", b""))
         except (ValueError, RecursionError) as error:
-            raise FileFormatError(f"{self._where} is damaged ({one_line(error)})") from error
+            raise FileFormatError(
+                f"{self._where} is damaged ({one_line(error)}); run texvent dataset verify"
+            ) from error
         if not isinstance(facts, dict):
-            raise FileFormatError(f"{self._where} is damaged: its facts are no table")
+            raise FileFormatError(
+                f"{self._where} is damaged: its facts are no table; run texvent dataset verify"
+            )
         return facts
 
     def truth(self) -> ClipTruth:
