@@ -270,9 +270,6 @@ class GroupReader:
         led = self._tokens[first - 1] if first else NO_TOKEN
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
-        is_lone |= any(
-            count > 1 for one in self._tokens[first : self._at] for count in _counts(one)
-        )
         is_lone |= self._has_verb or bool(
             self._token(1).verbs("s")
         )  # "with propeller guards hovers"
