@@ -87,6 +87,8 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     led = [one for one in tokens[: token.at] if one.has("relation", "articles", "small", "verb")]
     before, last = ([NO_TOKEN, NO_TOKEN, *led])[-2:]
     is_thing = last.has("articles", "verb") and {last.text, before.text} != {"the", "through"}
+    if last.text == "between" and token.has("field") and nouns:
+        return replace(token, senses=token.all("field"))  # "between orange and shadow"
     is_mass = token.text in word_set("things", "masses")
     return token if is_thing or not is_mass else replace(token, senses=())
 
@@ -109,7 +111,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
-    is_led = token.at > 0 and tokens[token.at - 1].has("articles")  # "a pan", no camera's
+    is_led = token.at > 0 and tokens[token.at - 1].has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])

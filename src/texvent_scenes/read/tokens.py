@@ -312,7 +312,8 @@ def _without_chance(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
-        and (one.kind != "scene" or one.value[1] != "view" or after not in articles - {"that"})
+        and (one.kind != "scene" or one.value[1] != "view" or after == "that"
+             or after not in articles | {"to"})
         and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
