@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
@@ -36,6 +36,13 @@ def owned_parts() -> Mapping[str, Mapping[str, int]]:
     """Words of parts that are no things by themselves → nouns that have them, and how many."""
     parts: Mapping[str, Mapping[str, int]] = read_table("words", "read")["parts"]
     return parts
+
+
+@cache
+def general_names() -> Mapping[str, Sequence[str]]:
+    """Words for things that were named more closely before → their nouns: "the bird"."""
+    found: Mapping[str, Sequence[str]] = read_table("words", "read")["general"]
+    return found
 
 
 @cache

@@ -28,6 +28,7 @@ from texvent_scenes.read.lexicon import (
     Sense,
     VerbSense,
     deeds,
+    general_names,
     owned_parts,
     states,
     word_set,
@@ -187,6 +188,7 @@ class ThingReader:
         draft, noun = self._draft, group.noun
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
+        known = known or (self._list_kinds(head) if group.article == "the" else [])
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
         if owners and group.article in word_set("things", "owners") | {"the", ""}:
@@ -231,6 +233,13 @@ class ThingReader:
             draft.stack(index)
         self._nearest = [index]
         return [index]
+
+    def _list_kinds(self, head: Token) -> list[int]:
+        """Things of a kind: "the bird" means the pigeon, "the robot" a delivery robot."""
+        word, kinds = head.text, general_names().get(head.text, ())
+        things = enumerate(self._draft.things)
+        return [n for n, one in things
+                if one["noun"] in kinds or one.get("word", "").endswith(f" {word}")]  # fmt: skip
 
     def _is_again(self, group: Group, head: Token, known: int) -> bool:
         """Whether a group names a thing again; not "her coach", or "the car behind"."""
