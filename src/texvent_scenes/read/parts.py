@@ -108,6 +108,9 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
                 one |= {"is_lit": True, "blink_hz": BLINK_HZ}
                 one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
     elif "colour" in fields:
+        painted = read_table("words", "read")["painted"].get(part, ())
+        for one in (draft.things[n] for n in owners):
+            one |= {"colour": fields["colour"]} if one["noun"] in painted else {}
         draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
         return  # "with shiny blades"

@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.models.activities import TIMED
+from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
@@ -28,6 +29,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
     tokens = [_see_as_move(one, tokens) for one in _drop_similes(tokens)]
+    tokens = [replace(one, senses=()) if _is_of_light(one, tokens) else one for one in tokens]
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
@@ -50,6 +52,21 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
     is_open = any(token.text in (one, *list_plurals(one)) for one in word_set("ambiguous", "words"))
     is_said = any(one.has("camera") for one in tokens[max(token.at - _NEAR, 0) : token.at])
     return replace(token, senses=()) if is_open and not is_said else token
+
+
+def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether it says from where light comes, not the view: "a lamp shines from above"."""
+    is_view = ("camera", "view") in [one.value[:2] for one in token.all("scene")]
+    if not is_view or not token.text.startswith("from "):
+        return False
+    signs = (one.at + 1 for one in tokens[: token.at] if one.is_sign or one.text == "and")
+    said = tokens[max(signs, default=0) : token.at]
+    if any(one.has("camera", "shot") or one.text in word_set("things", "viewed") for one in said):
+        return False
+    lit = word_set("things", "rays") | word_set("things", "lit")
+    nouns = {each.value.noun for one in said for each in one.all("noun")}
+    lamps = {one for one in nouns & LAMPS.keys() if one in NOUNS and not NOUNS[one].speed_m_s}
+    return bool(lamps) or any(one.text in lit for one in said)
 
 
 def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:

@@ -60,6 +60,8 @@ class _Plan:
     gripper: Gripper
     kind: str
     contact_s: float
+    is_inside: bool
+    """Whether the thing is left in the goal, not on it."""
 
     @property
     def activity(self) -> str:
@@ -90,6 +92,7 @@ def _settings(value: float, place: int, turn: float) -> tuple[float, float, floa
 def grip(
     kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
     support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
+    is_inside: bool = True,
 ) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
     """The machine, the things and the goal of an act.
 
@@ -101,6 +104,7 @@ def grip(
         support: what the first is on; else the machine has it where its hand is.
         goal: what it is set down on or in, which is put there.
         is_turned: whether the machine may be turned, its side to the camera.
+        is_inside: whether it is left in a goal that has a rim, not on it.
     """
     row = gripper_of(machine.noun.name)
     if kind == "hold":
@@ -109,7 +113,7 @@ def grip(
         row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
     if support is None and is_turned:
         machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
-    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s))
+    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), is_inside)
     first, *others = things
     level_m = machine.track.at(0.0).position[2]
     pick = 0.0
@@ -187,7 +191,7 @@ def _left_height(plan: _Plan, goal: Actor | None, others: Sequence[Actor], first
     """Height at which the bottom of the thing is left, m."""
     level_m = plan.machine.track.at(0.0).position[2]
     if goal is not None:
-        rim = find_rim(goal.noun.name, goal.model)
+        rim = find_rim(goal.noun.name, goal.model) if plan.is_inside else None
         return level_m + (rim.height + _OVER_RIM_M if rim else find_support(goal.model).height)
     fallen = 2.0 * first.model.height if plan.kind == "drop" else 0.0
     return level_m + fallen + sum(one.model.height for one in others)
@@ -241,7 +245,8 @@ def _bound(carrier: Track, axes: partial[Float64Array], place: Affine, time_s: f
 
 def _floor_below(plan: _Plan, thing: Actor, goal: Actor | None) -> float | None:
     """Height of its origin where it comes to rest after it is let go; None: it stays there."""
-    is_dropped = plan.kind == "drop" or (goal is not None and has_rim(goal.noun.name))
+    is_in = goal is not None and plan.is_inside and has_rim(goal.noun.name)
+    is_dropped = plan.kind == "drop" or is_in
     level_m = plan.machine.track.at(0.0).position[2]
     return level_m + thing.foot_m if is_dropped else None
 

@@ -47,13 +47,14 @@ def perform_grip(
         return
     below = _list_near(act, description.relations, copies)
     is_left = act.kind in ("move over", "set down", "drop")
-    goal = next((below[kind] for kind in _OVER if kind in below), None) if is_left else None
+    over = next((kind for kind in _OVER if kind in below), "") if is_left else ""
+    goal = below.get(over)
     support = next((below[kind] for kind in _UNDER if kind in below and below[kind] != goal), None)
     machine, handled, put = grip(
         act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
         support=None if support is None else cast[support],
         goal=None if goal is None else cast[goal],
-        is_turned=description.objects[act.subject].heading_deg is None,
+        is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
     )  # fmt: skip
     cast.update({who[0]: machine, **dict(zip(things, handled, strict=True))})
     if goal is not None and put is not None:

@@ -52,3 +52,12 @@ def test_what_is_stacked_rests_on_the_others():
     low = sorted(one.lowest_m(1.99) for one in blocks)
     np.testing.assert_allclose(low, np.arange(3) * blocks[0].model.height, atol=0.01)
     assert max(one.lowest_m(0.0) for one in blocks) < 1.1 * blocks[0].model.height
+
+
+@pytest.mark.parametrize(("way", "share"), [("on", 1.0), ("in", 0.0)])
+def test_what_is_put_on_a_box_is_on_top_and_in_it_at_its_bottom(way, share):
+    scene = staged(f"a robot arm picks up a blue cube and places it {way} a green box")[0]
+    (cube,) = (one for one in scene.actors if one.noun.name == "cube")
+    (box,) = (one for one in scene.actors if one.noun.name.endswith("box"))
+    low_m = box.lowest_m(1.99) + share * box.model.height
+    assert cube.lowest_m(1.99) == pytest.approx(low_m, abs=0.06 * box.model.height)
