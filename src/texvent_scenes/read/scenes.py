@@ -13,6 +13,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
+from texvent_scenes.read.again import leave_places
 from texvent_scenes.read.camera import (
     claim_way,
     find_move,
@@ -350,7 +351,7 @@ class _SentenceReader(ThingReader):
             ]
             self._is_lost = any(lost) or (self._is_lost and not any(named))
             picked = [one for one, group in zip(named, clause.subjects, strict=True) if group.picks]
-            self._leave_places([index for one in picked for index in one], clause.after[:1])
+            leave_places(self._draft, [index for one in picked for index in one], clause.after[:1])
             return [index for one in (picked if any(picked) else named) for index in one]
         first = clause.after[0] if clause.after and clause.verb is None else None
         is_open = isinstance(first, Token) and (first.is_unknown or first.has("verb"))

@@ -21,6 +21,7 @@ from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.read.again import find_whole_of, is_again, list_kinds
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.lexicon import (
@@ -28,7 +29,6 @@ from texvent_scenes.read.lexicon import (
     Sense,
     VerbSense,
     deeds,
-    general_names,
     owned_parts,
     states,
     word_set,
@@ -36,7 +36,7 @@ from texvent_scenes.read.lexicon import (
 from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
 from texvent_scenes.read.prepositions import relate_one, ridden_by
 from texvent_scenes.read.tokens import NO_TOKEN, Token
-from texvent_scenes.spec.data import PLACING, WAYS
+from texvent_scenes.spec.data import WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
 
@@ -69,7 +69,7 @@ class ThingReader:
 
         What is named again is one of the first `known` things: "four teenagers play, one player".
         """
-        draft, whole = self._draft, self._find_several(group, known)
+        draft, whole = self._draft, find_whole_of(self._draft, group, known)
         for each in group.of.groups if group.of is not None and group.picks else ():
             whole += self._name(each)  # "two of the dogs"
         if whole and group.head is not None and group.noun is not None:
@@ -86,22 +86,6 @@ class ThingReader:
             self._say(token, picked)
             draft.show(*([token] if token.text == group.picks and token.text not in which else []))
         return picked
-
-    def _find_several(self, group: Group, known: int) -> list[int]:
-        """Several of whom a group names one: the same noun, or persons of another name."""
-        if group.noun is None or "one" not in [one.text for one in group.modifiers]:
-            return []
-        own, sexed = group.noun.noun, word_set("things", "sexed")
-        like = PERSON_NOUNS - sexed if own in PERSON_NOUNS else set()
-        return [n for n, one in enumerate(self._draft.things[:known])
-                if one["count"] > 1 and one["noun"] in {own, *like}][-1:]  # fmt: skip
-
-    def _leave_places(self, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
-        """Take some of several away from where all were: "two on a desk, one on the floor"."""
-        words = (one.preposition for one in after if isinstance(one, Phrase))
-        kinds = {sense.value for word in words for sense in word.all("relation")}
-        for thing in (self._draft.things[index] for index in picked if kinds & PLACING):
-            thing["relations"] = [one for one in thing["relations"] if one["kind"] not in PLACING]
 
     def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
         """Add what a group names; the indices of its objects, at most one."""
@@ -188,7 +172,7 @@ class ThingReader:
         draft, noun = self._draft, group.noun
         is_owned = group.article in word_set("things", "owners")
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
-        known = known or (self._list_kinds(head) if group.article == "the" else [])
+        known = known or (list_kinds(draft, head) if group.article == "the" else [])
         is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
         owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
         if owners and group.article in word_set("things", "owners") | {"the", ""}:
@@ -203,7 +187,7 @@ class ThingReader:
         draft.show(head)
         is_plain = not group.modifiers and not group.unknown
         is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
-        if is_same and is_plain and self._is_again(group, head, known[-1]):
+        if is_same and is_plain and is_again(draft, group, head, known[-1]):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
@@ -233,23 +217,6 @@ class ThingReader:
             draft.stack(index)
         self._nearest = [index]
         return [index]
-
-    def _list_kinds(self, head: Token) -> list[int]:
-        """Things of a kind: "the bird" means the pigeon, "the robot" a delivery robot."""
-        word, kinds = head.text, general_names().get(head.text, ())
-        things = enumerate(self._draft.things)
-        return [n for n, one in things
-                if one["noun"] in kinds or one.get("word", "").endswith(f" {word}")]  # fmt: skip
-
-    def _is_again(self, group: Group, head: Token, known: int) -> bool:
-        """Whether a group names a thing again; not "her coach", or "the car behind"."""
-        thing, after = self._draft.things[known], self._draft.tokens[head.at + 1 :][:2]
-        is_owned = group.article in ("its", "his", "her", "their")
-        is_role = thing["noun"] == "person" and head.text != "person"
-        is_role &= head.text != thing.get("word", head.text) and thing.get("word") != "person"
-        is_other = bool(after) and after[0].text in word_set("things", "elsewhere")
-        is_other &= not (after[1:] and after[1].has("articles", "pronouns", "noun", "field"))
-        return (is_owned or group.article == "the") and not (is_role or is_other)
 
     def _pose_again(self, head: Token) -> list[int]:
         """Let who is there do what follows: "thumbs up, then thumbs down"."""
