@@ -174,7 +174,7 @@ def test_parts_that_do_what_is_said_are_shown(text):
     ("text", "false"),
     [
         ("a tree with flashing lights", "flashing"),
-        ("a fan with green blades", "green"),
+        ("a ceiling fan with green blades", "green"),
         ("an ambulance with yellow lights", "yellow"),
         ("a fan with shiny blades", "shiny"),
         ("a dog with striped legs", "striped"),
