@@ -147,7 +147,8 @@ def _hang_up(draft: SceneDraft) -> None:
 def _do_deeds(draft: SceneDraft) -> None:
     """Let those do it who are named by what they do and do nothing else: "a violinist"."""
     for index, one in enumerate(draft.things):
-        deed, _ = one.pop("deed", None), one.pop("word", "")
+        deed = one.pop("deed", None)
+        one.pop("word", None)
         acts = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
         if deed and not (one["motions"] or acts or "is_lost" in one):
             one["motions"].append({"kind": deed})

@@ -137,7 +137,7 @@ class SceneDraft(Abilities):
     nouns: Mapping[str, Noun]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
-    not known, "deed" if its word tells what it does."""
+    not known, "deed" if its word tells what it does, "word" as it was named."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
     """Phase of moves of the camera: those said after "then" follow."""

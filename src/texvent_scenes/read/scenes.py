@@ -457,15 +457,10 @@ class _SentenceReader(ThingReader):
             draft.mark(token, "shown" if far and draft.shows(before) else "lost")
             return  # "with mountains behind it"
         own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
-        word = draft.tokens[token.at + 1].text
-        is_many = word == "them" and draft.is_many(self._earlier)
+        is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(self._earlier)
         is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
         others: Sequence[int] = subjects
         about: Sequence[int] = self._earlier if is_own else nearest
-        if word == "it" and about and all(draft.things[n]["noun"] in PERSON_NOUNS for n in about):
-            fit = [n for n in (*nearest, *self._where, *self._earlier)
-                   if n not in own and draft.things[n]["noun"] not in PERSON_NOUNS]  # fmt: skip
-            about = fit[:1]  # "a drone hovers while a man rolls a ball beneath it"
         is_fixed = self._where and not any(map(draft.can_go, self._where))
         if is_own and is_fixed and kind in word_set("things", "bearing"):
             about = self._where
