@@ -32,10 +32,14 @@ def list_plurals(noun: str) -> tuple[str, ...]:
     Example:
         >>> list_plurals("traffic cone"), list_plurals("bus"), list_plurals("snow goose")
         (('traffic cones',), ('buses', 'busses'), ('snow geese', 'snow gooses'))
+        >>> list_plurals("stairs")
+        ('stairs',)
     """
     first, last = noun[: noun.rfind(" ") + 1], noun.split()[-1]
     is_plural = last.endswith("s") and not last.endswith(_SINGULAR)
-    usual = noun if is_plural or last.endswith(_UNCHANGED) else None
+    if is_plural and last not in _IRREGULAR:
+        return (noun,)
+    usual = noun if last.endswith(_UNCHANGED) else None
     usual = f"{first}{_IRREGULAR[last]}" if last in _IRREGULAR else usual
     regular = _list_regular_plurals(noun)
     return regular if usual is None else (usual, *(one for one in regular if one != usual))

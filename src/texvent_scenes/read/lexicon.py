@@ -133,7 +133,7 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
         words = text.replace("-", " ").split()
         phrase = tuple(one for one in words if one not in articles) or (text,)
         found.setdefault(phrase, {})[sense] = None
-    for word in word_set("ambiguous", "words"):
+    for word in sorted(word_set("ambiguous", "words")):
         for form in (word, *list_plurals(word)):
             said = found.pop((form,), {})  # a camera may track
             found[(form,)] = {
@@ -158,7 +158,7 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():
-        for plural in set(list_plurals(name)) - {name}:
+        for plural in (one for one in list_plurals(name) if one != name):
             yield plural, Sense("noun", replace(one, is_plural=True))
     for name, sense in plurals.items():
         yield name, Sense("noun", sense)
@@ -308,7 +308,7 @@ def _sense_of(kind: str, *rest: str) -> Sense:
 
 
 def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
-    yield from ((form, sense) for form in {phrase, *list_plurals(phrase)})
+    yield from ((form, sense) for form in dict.fromkeys((phrase, *list_plurals(phrase))))
 
 
 def _plain(value: str) -> str | float | bool:

@@ -165,7 +165,8 @@ def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) ->
 
 def find_nouns(word: str, nouns: Mapping[str, Noun]) -> dict[str, bool]:
     """Nouns that an ambiguous word may mean, such as "computer mouse" → whether it is a plural."""
-    said = {one for one in word_set("ambiguous", "words") if word in (one, *list_plurals(one))}
+    said = sorted(one for one in word_set("ambiguous", "words")
+                  if word in (one, *list_plurals(one)))  # fmt: skip
     return {
         noun.name: word != one
         for one in said
