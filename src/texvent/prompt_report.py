@@ -20,6 +20,7 @@ _LISTS = (
     "shown",
     "not_understood",
     "not_shown",
+    "uncertain",
     "out_of_view",
     "too_small",
     "notes",
@@ -70,6 +71,8 @@ class PromptReport:
     """Words that had no effect on the scene, in order, each once."""
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    uncertain: tuple[str, ...] = ()
+    """Verbs, ways, relations and views that are drawn, but of clauses of which words are lost."""
     out_of_view: tuple[str, ...] = ()
     """Objects that the camera never shows, such as "tree" or "dog (2 of 3)"."""
     too_small: tuple[str, ...] = ()
@@ -105,6 +108,7 @@ class PromptReport:
             "not shown": list(self.not_shown),
             "out of view": list(self.out_of_view),
             "too small": list(self.too_small),
+            "uncertain beside them": list(self.uncertain),
         }
 
     def warnings(self, of: str = "prompt words ") -> list[str]:

@@ -55,6 +55,16 @@ class Claim:
 
 
 @dataclass(frozen=True)
+class Clause:
+    """Words between two signs of a prompt."""
+
+    words: frozenset[str]
+    """All but those of colour, size and the like, whose loss changes nothing else."""
+    ties: tuple[str, ...]
+    """Those that say what its things do, how they are placed and seen, and not what they are."""
+
+
+@dataclass(frozen=True)
 class SceneDescription(Scene):
     """A scene whose objects have ids of their own, which their nouns may no longer tell."""
 
@@ -63,6 +73,8 @@ class SceneDescription(Scene):
     """Report of the words of a prompt that was read."""
     claims: tuple[Claim, ...] = ()
     """Words that the report of the staged scene takes in."""
+    clauses: tuple[Clause, ...] = ()
+    """Clauses of the prompt."""
     notes: tuple[str, ...] = ()
     """Decisions where the scene leaves a choice open, as sentences."""
 

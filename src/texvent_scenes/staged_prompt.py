@@ -64,9 +64,12 @@ def stage(
     claimed = (one for one in sorted(failed) if one not in said.shown)
     lost = (one for one in (*said.shown, *claimed) if one not in shown
             and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
+    lost_words = {*said.not_understood}
+    uncertain = {word for one in description.clauses if one.words & lost_words for word in one.ties}
     report = replace(
         said,
-        shown=shown,
+        shown=tuple(one for one in shown if one not in uncertain),
+        uncertain=tuple(one for one in shown if one in uncertain),
         notes=_as_said((*said.notes, *scene.notes, *scene.camera_path.notes, *unseen.notes,
                *(f"out of view: {one}, of which no number is said" for one in sorted(enough)))),
         not_shown=(*_as_said(lines), *lost),

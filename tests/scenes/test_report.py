@@ -13,6 +13,7 @@ REPORTS = st.builds(
     substituted=st.lists(st.builds(Substitution, st.text(), st.text()), max_size=3).map(tuple),
     not_understood=WORDS,
     not_shown=WORDS,
+    uncertain=WORDS,
     out_of_view=WORDS,
     too_small=WORDS,
     notes=WORDS,

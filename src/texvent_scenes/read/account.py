@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from texvent.prompt_report import Substitution
-from texvent_scenes.description import Claim
+from texvent_scenes.description import Claim, Clause
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_values
@@ -31,6 +32,8 @@ class Reading:
     """Words without effect on the scene."""
     claims: tuple[Claim, ...] = ()
     """Words, of both lists, of which only the staged scene tells whether it shows them."""
+    clauses: tuple[Clause, ...] = ()
+    """Clauses of the sentence; of one without some of its words the rest is uncertain."""
 
 
 def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
@@ -70,13 +73,41 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         if fate == "lost" or (fate and fates.get(text, "shown") == "shown"):
             fates[text] = fate
     others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
+    lost = tuple(word for word, fate in fates.items() if fate == "lost")
     return Reading(
         scene=_build(draft, prompt),
         shown=tuple(word for word, fate in fates.items() if fate == "shown"),
         substituted=tuple(Substitution(*one) for one in others),
-        not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
+        not_understood=lost,
         claims=tuple(_list_claims(draft)),
+        clauses=tuple(_list_clauses(draft, lost)),
     )
+
+
+_TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
+"""Kinds of words that say how things go together."""
+
+
+def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
+    """Clauses with what depends on how the rest of them is read.
+
+    These are words that say how things go together, and things of which what leads to them, such
+    as "steep" or "beneath", is not understood.
+    """
+    words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
+    for is_end, group in itertools.groupby(
+        words, lambda one: one[1].is_sign or (one[1].has("conjunctions") and one[0] not in lost)
+    ):
+        if is_end:
+            continue
+        clause, before = [*group], ""
+        ties = (text for text, one in clause
+                if one.is_view or (one.has(*_TIES) and not one.has("noun", "place", "field")))  # fmt: skip
+        yield Clause(frozenset(text for text, one in clause if not one.has("field")), tuple(ties))
+        for text, one in clause:
+            if one.has("noun", "place"):
+                yield Clause(frozenset((before,)), (text,))
+            before = before if one.has("articles", "field") and text not in lost else text
 
 
 _SEEN_SIZE = 3.0
