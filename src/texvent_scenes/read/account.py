@@ -101,8 +101,8 @@ def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
         if is_end:
             continue
         clause, before = [*group], ""
-        ties = (text for text, one in clause
-                if one.is_view or (one.has(*_TIES) and not one.has("noun", "place", "field")))  # fmt: skip
+        others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
+        ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
         yield Clause(frozenset(text for text, one in clause if not one.has("field")), tuple(ties))
         for text, one in clause:
             if one.has("noun", "place"):
