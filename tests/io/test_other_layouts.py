@@ -162,6 +162,9 @@ def test_any_other_text_is_rows_of_events(tmp_path: Path) -> None:
         ({"y": np.uint16(6 - Y)}, {".origin": "lower left"}),
         ({"x": np.int8(8 - X), "y": 6 - Y}, {"events.origin": b"BOTTOM_RIGHT"}),
         ({"y": 12 - 2 * Y}, {"y.y_up": True, "y.scale_factor": 0.5}),
+        ({"y": 6 - Y}, {"y.origin": "lower left", "events.origin": "upper right", ".y_up": False}),
+        ({"x": 8 - X}, {"events.origin": "top right", ".origin": "bottom left"}),
+        ({}, {"y.y_up": False, ".y_up": True}),
         ({}, {".origin": "Zürich", ".y_up": False, "t.scale_factor": 1}),
     ],
 )

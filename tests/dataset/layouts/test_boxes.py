@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
 from texvent.dataset.layouts.boxes import LABEL_RECORD, ClassList, boxes_at, records_of
 from texvent.errors import ConfigError, InputError
+from texvent.truth.boxes import BOX_RECORD
 
 
 def places(boxes: np.ndarray) -> list[tuple[float, ...]]:
@@ -23,6 +26,21 @@ def test_boxes_move_along_their_tracks_and_those_that_come_are_at_the_nearest_pl
     # Without tracks nothing says which box is which.
     boxes["track_id"] = 0
     assert places(boxes_at(boxes, INSTANTS, 150_000)) == [(12, 10, 20, 15), (40, 20, 8, 20)]
+
+
+@given(
+    st.lists(st.lists(st.integers(0, 90), min_size=8, max_size=8), min_size=1, max_size=4),
+    st.integers(0, 40_000),
+)
+def test_all_sides_of_boxes_go_in_straight_lines(ways, t_us) -> None:
+    rows = [(first, *way[4 * n :][:4], CAR, track, 1)
+            for n, first in enumerate((0, 40_000)) for track, way in enumerate(ways)]  # fmt: skip
+    found = boxes_at(np.array(rows, BOX_RECORD), np.array([0, 40_000]), t_us)
+    for track, way in enumerate(ways):
+        own = found[found["track_id"] == track][0]
+        for n, side in enumerate(("x", "y", "w", "h")):
+            at = np.interp(t_us, (0, 40_000), (way[n], way[4 + n]))
+            assert own[side] == pytest.approx(at, abs=1e-3)
 
 
 def test_boxes_are_not_known_far_from_labelled_instants() -> None:

@@ -84,3 +84,15 @@ def test_light_that_beats_is_rendered_at_every_instant():
     interpolator = MotionInterpolator(InterpolateConfig(interpolate="motion"), moving)
     for frame in interpolator.between(first, second, [2_500, 7_500]):
         np.testing.assert_allclose(frame.pixels, moving.at(frame.t_us).luma, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize("interpolate", ["motion", "exact", "blend"])
+def test_beats_of_light_ask_for_frames_of_those_that_render_them(interpolate):
+    config = ProceduralConfig(duration=0.1, samples=1)
+    beating = ProceduralGenerator(config, size=SensorSize(32, 24)).generate(
+        "a lamp flickers at 100 Hz"
+    )
+    settings = resolve("generate", {"interpolate": interpolate, "noise": "none"})
+    instants = sum(1 for _ in Simulation(video=beating, settings=settings).steps())
+    last_s = (beating.frame_count - 1) / 24
+    assert (instants >= 12 * 100 * last_s) == (interpolate != "blend")
