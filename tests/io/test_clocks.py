@@ -82,6 +82,28 @@ def test_no_repair_is_needed_where_a_clock_turns(
     assert load(tmp_path / name, size=(128, 128)).t.tolist() == times.tolist()
 
 
+def atis_overflows(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    """Each event after a mark of its own, which stands for 8192 µs."""
+    rows = [bytes([0, 240, 0, 0, 0, 5, 5]) + int(t).to_bytes(3, "big") for t in times % 2**13]
+    return "e.bin", b"".join(rows)
+
+
+@pytest.mark.parametrize("write", [aedat2, aedat1, aedat3, dat, atis, atis_overflows])
+@pytest.mark.parametrize("block_bytes", [20, 60, 1000])
+def test_blocks_of_any_size_are_read_alike(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    write: Callable[[NDArray[np.int64]], tuple[str, bytes]],
+    block_bytes: int,
+) -> None:
+    name, content = write(2**23 - 200_000 + 10_000 * np.arange(100))
+    (tmp_path / name).write_bytes(content)
+    whole = load(tmp_path / name, size=(128, 128))
+    monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", block_bytes)
+    assert load(tmp_path / name, size=(128, 128)).equals(whole)
+    assert len(whole) == 100
+
+
 @pytest.mark.parametrize(
     ("write", "bits"), [(aedat2, 32), (aedat1, 31), (aedat3, 31), (dat, 32), (dat, 31), (atis, 23)]
 )

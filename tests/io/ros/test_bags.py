@@ -134,6 +134,7 @@ CAER_CMP = struct.pack("<8H", 0x1046, 0x2003, 0x3805, 0x0001, 0x1006, 0x2004, 0x
     ("encoding", "payload", "base_ns", "times"),
     [
         ("mono", MONO, 70_000, [70, 80]),
+        ("mono", MONO, 70_995, [71, 81]),
         ("libcaer", CAER, 10_000, [2**31 - 1, 2**31 + 10]),
         ("libcaer_cmp", CAER_CMP, 5_000_999, [5070, 5000 + 4096 + 6]),
         ("evt3", struct.pack("<6H", 0x8000, 0x6046, 5, 0x2803, 0x6050, 6), 0, [70]),

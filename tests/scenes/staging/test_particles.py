@@ -1,5 +1,7 @@
 """Effects: functions of time with a constant number of shapes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage
@@ -103,3 +105,13 @@ def test_flight_solves_its_equation_of_motion(drag_s):
     way, later = flight(age, velocity, drag_s, pull)
     np.testing.assert_allclose(way[0], place, atol=1e-4)
     np.testing.assert_allclose(later[0], speed, atol=1e-4)
+
+
+@pytest.mark.parametrize("pace", [1.0, 0.4])
+@pytest.mark.parametrize("start_s", [0.0, 0.3])
+def test_slow_motion_of_particles_begins_with_them(start_s, pace):
+    (emitter,) = staged(Effect("sparks", "box")).particles.effects
+    shown, usual = (replace(emitter, start_s=start_s, pace=one) for one in (pace, 1.0))
+    for after_s in (0.05, 0.2, 0.5):
+        found, expected = shown.at(start_s + after_s), usual.at(start_s + pace * after_s)
+        np.testing.assert_allclose(found.to_world, expected.to_world, atol=1e-9)
