@@ -28,7 +28,7 @@ from texvent_scenes.checks.phases import (
 )
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.checks.placement import find_misplaced
-from texvent_scenes.checks.places import find_near
+from texvent_scenes.checks.places import MOST_FOG, find_near
 from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
@@ -38,7 +38,7 @@ from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
 from texvent_scenes.raycast.render import world_and_shapes
-from texvent_scenes.rendered_scene import RenderedScene
+from texvent_scenes.rendered_scene import Float64Array, RenderedScene
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main
@@ -319,7 +319,7 @@ def count_pixels(
     step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
     x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    seen = [Counter(visible_instances(scene, time_s, size, points)[1].tolist()) for time_s in times]
+    seen = [Counter(_list_seen(scene, time_s, size, points)) for time_s in times]
     views = {}
     for number, ids in _group_by_best(instances, seen).items():
         world, shapes = world_and_shapes(scene, times[number], size, shadows=False)
@@ -331,6 +331,15 @@ def count_pixels(
             views[one] = View(count * step * step, count / max(int(alone[one]), 1),
                               tuple(each[one] for each in seen))  # fmt: skip
     return {one: views[one] for one in instances}
+
+
+def _list_seen(
+    scene: RenderedScene, time_s: float, size: SensorSize, points: Float64Array
+) -> list[int]:
+    """Instances through image points, 0 where fog leaves next to nothing of one."""
+    depth, seen = visible_instances(scene, time_s, size, points)
+    is_clear = depth <= MOST_FOG * float(scene.environment(time_s).fog_distance)
+    return [int(one) for one in np.where(is_clear, seen, 0)]
 
 
 def _group_by_best(instances: list[int], seen: Sequence[Counter[int]]) -> dict[int, list[int]]:

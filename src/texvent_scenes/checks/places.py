@@ -30,6 +30,9 @@ _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
 
+_CLEAR_M, MOST_FOG = 150.0, 2.5
+"""Least distance of sight in which the horizon is seen, m; distance, in those of sight, up to which
+fog leaves something of a body or a ground."""
 _WIDE = 2.0
 """Width of a corridor, as a multiple of the usual one, from which on it looks like a room."""
 
@@ -46,7 +49,8 @@ def find_unseen_place(
         times: instants, s.
     """
     cameras = [scene.camera(time_s) for time_s in times]
-    for one in said.backdrops if not any(map(has_horizon, cameras)) else ():
+    is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
+    for one in said.backdrops if is_veiled or not any(map(has_horizon, cameras)) else ():
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
     crossings = scene.animated_environment.base.road_crossings
@@ -63,6 +67,8 @@ def find_unseen_place(
     if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
+        if kind == "water":  # whatever the water is called
+            yield Violation("place", "sea", "")
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
@@ -141,4 +147,5 @@ def _find_ground(
     room_m = (_WAVES_M if scene.place.has_shore else _LEVEL_M) + _ROUNDING * np.nan_to_num(depth)
     with np.errstate(invalid="ignore"):
         is_ground = (np.abs(places[:, 2]) <= room_m) & (instance == 0)
+        is_ground &= depth <= MOST_FOG * scene.environment(time_s).fog_distance
     return places[is_ground, :2], float(is_ground.mean())

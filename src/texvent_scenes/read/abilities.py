@@ -20,9 +20,11 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.lexicon import VerbSense, word_set
 from texvent_scenes.read.tokens import Token
-from texvent_scenes.spec.data import ACTED
+from texvent_scenes.spec.data import ACTED, SENT
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+_THROWN_M = 2.0
+"""Greatest extent of what is thrown, caught or kicked, m."""
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
 
@@ -67,6 +69,11 @@ class Abilities:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
 
+    def is_light(self, index: int) -> bool:
+        """Whether an object is small enough to be thrown, as no wall is."""
+        model = self.nouns[self.things[index]["noun"]].build(colour=None, scale=1.0, seed=0)
+        return max(model.length, model.width, model.height) <= _THROWN_M
+
     def fits(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
     ) -> bool:
@@ -99,6 +106,7 @@ class Abilities:
             is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
             is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
+            is_moved &= verb.relation not in ("catch", *SENT) or all(map(self.is_light, objects))
             is_moved &= verb.relation != "wear" or all(
                 can_be_worn(self.things[n]["noun"]) for n in objects
             )

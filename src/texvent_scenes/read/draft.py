@@ -231,12 +231,25 @@ class SceneDraft(Abilities):
         said = [sense.value for sense in token.all("scene")]
         if self.phases and any(part in ("light", "place") for part, _, _ in said):
             return False  # "then it rains"
+        if self._leaves_place(token):
+            self.mark(token, "lost")
+            return True
         for part, name, value in said:
+            if name == "name" and value in ("sky", "indoor") and self.parts[part].get(name):
+                continue  # "in a kitchen, indoors"
             if value != "day" or name not in self.parts[part]:  # "overcast daylight"
                 self.parts[part][name] = value
         is_said = token.has("shot", "scene")
         self.show(*([token] if is_said else []))
         return is_said
+
+    def _leaves_place(self, token: Token) -> bool:
+        """Whether a phrase names another place than the one that is said: "dives under water"."""
+        said = [sense.value[2] for sense in token.all("scene") if sense.value[1] == "name"]
+        name = self.parts["place"].get("name", "")
+        if not (said and name) or name in said or token.text == "underwater":
+            return False
+        return said != ["sky"] and not (is_room(said[0]) and is_room(name))
 
     def _pace_before(self, token: Token) -> dict[str, Any]:
         """The pace that the word before says, if of nothing else: "fast yaw rotation"."""

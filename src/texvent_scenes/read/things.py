@@ -104,7 +104,9 @@ class ThingReader:
             found = self._name(whole, relation, owners)
             return found if relation else []  # what a part does, the whole does not
         elif head is not None and head.has("noun", "pose"):
-            found = self._pose_again(head) or self._name_thing(group, head)
+            found = self._pose_again(group, head)
+            if not (found or head.at in self._draft.fates):
+                found = self._name_thing(group, head)
         else:
             self._name_others(group, relation, owners)
         phrase = group.of or Phrase(head or NO_TOKEN, ())
@@ -218,16 +220,24 @@ class ThingReader:
         self._nearest = [index]
         return [index]
 
-    def _pose_again(self, head: Token) -> list[int]:
-        """Let who is there do what follows: "thumbs up, then thumbs down"."""
-        if not self._is_then or head.has("noun"):
+    def _pose_again(self, group: Group, head: Token) -> list[int]:
+        """Let who is there do what is named: "during a slow pirouette"."""
+        if head.has("noun"):
             return []
         who, activity = head.all("pose")[0].value
-        same = [n for n, one in enumerate(self._draft.things) if one["noun"] == who][-1:]
+        able = PERSON_NOUNS if who == "person" else {who}
+        same = [n for n, one in enumerate(self._draft.things) if one["noun"] in able
+                and (self._is_then or who == "person" or not one["motions"])][-1:]  # fmt: skip
+        if who in HAND_NOUNS and {one["noun"] for one in self._draft.things} & PERSON_NOUNS:
+            self._draft.mark(head, "shown" if same else "lost")  # "holds it with two fingers"
+            return same
         for index in same:
             self._draft.show(head)
-            add_motion(self._draft.things[index], VerbSense(who, activity))
-        return same
+            if activity not in [one["kind"] for one in self._draft.things[index]["motions"]]:
+                add_motion(self._draft.things[index], VerbSense(who, activity))
+            self._draft.claim(head, "activity", activity, [index])
+            self._say_modifiers(group, index)
+        return same if self._is_then else []
 
     def _name_members(
         self, group: Group, head: Token, members: Sequence[tuple[str, int]]

@@ -2,12 +2,14 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
 from texvent_scenes.models.materials import MATERIALS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.staged_prompt import stage
@@ -64,6 +66,8 @@ def test_a_look_is_shown_of_what_has_it(text, word, is_so):
         ("a dark tunnel", {"tunnel"}, {"dark"}),
         ("a square red box", {"red", "box"}, {"square"}),
         ("a cloudy sky over a city", {"city"}, {"cloudy"}),
+        ("a fox walks in fog, mountains behind it", {"fox"}, {"mountains"}),
+        ("a foggy desert with mountains in the distance", set(), {"mountains in the distance"}),
         ("a drone with blue propeller guards hovers", {"drone", "hovers"}, {"blue", "propeller"}),
         ("a horse with a white blaze trots", {"horse", "trots"}, {"white", "blaze"}),
         ("a toddler in striped pajamas sits", {"striped", "pajamas", "sits"}, set()),
@@ -115,6 +119,19 @@ def test_clothes_show_on_who_wears_them_in_their_colour(name):
 def test_what_is_part_of_another_body_looks_as_is_said(text, words, is_so):
     said = report(text)
     assert words <= {*(said.shown if is_so else (*said.not_shown, *said.not_understood))}
+
+
+@pytest.mark.parametrize("act", ["chop", "slice", "knead", "wipe table"])
+@pytest.mark.parametrize("size", [0.7, 1.0])
+def test_a_counter_is_closed_below_the_top_on_which_an_act_is_done(act, size):
+    prop = list_props(act, size)[0]
+    bench, counter = (prop.as_said(1, None, noun).draw(0.0) for noun in ("", "kitchen counter"))
+    (low, high), (first, last) = map(bounds, (bench, counter))
+    assert np.allclose([low, high], [first, last], atol=0.05)
+    below = [0.64 * size, 0.2 * size, 0.4 * size]
+    held = [[(bounds([one])[0] < below).all() and (bounds([one])[1] > below).all()
+             for one in parts] for parts in (bench, counter)]  # fmt: skip
+    assert [any(each) for each in held] == [False, True]
 
 
 @pytest.mark.parametrize("count", [1, 3, 8])

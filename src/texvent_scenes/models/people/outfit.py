@@ -169,9 +169,13 @@ class Prop:
     """Whether it is drawn in place of a named one, not left out for it."""
     count: int = 1
     """Number of its nouns' things."""
+    under: tuple[tuple[str, Draw], ...] = ()
+    """Nouns, and its shapes where one is said: a bench with cupboards is a counter."""
 
-    def as_said(self, count: int, colour: Colour | None) -> Prop:
-        """The prop in a colour, None for its own, and in a number if it has several."""
+    def as_said(self, count: int, colour: Colour | None, noun: str = "") -> Prop:
+        """The prop as a noun, in a colour, None for its own, and in a number if it has several."""
+        if noun in (drawn := dict(self.under)):
+            return replace(self, draw=drawn[noun], under=()).as_said(count, colour)
         many = count if self.count > 1 else 1
         draw = partial(self.draw, count=count) if many != self.count else self.draw
         if colour is None:
@@ -220,6 +224,11 @@ def _draw_moving(motion: PropMotion, shape: str, time_s: float) -> Sequence[Mode
     return motion.place(draw_shape(shape), time_s)
 
 
+def _draw_both(shape: str, other: str, time_s: float) -> Sequence[ModelPart]:
+    """Two shapes, which rest."""
+    return [*draw_shape(shape), *draw_shape(other)]
+
+
 def _read_prop(row: Mapping[str, Any]) -> Prop:
     draw, motion = _MOVING.get(row["shape"]), read_motion(row)
     if draw is None:
@@ -227,7 +236,11 @@ def _read_prop(row: Mapping[str, Any]) -> Prop:
         draw = partial(_draw_moving, motion, shape) if motion else lambda _: draw_shape(shape)
     nouns = tuple(row.get("nouns", ()))
     own, count = row.get("is_own", False), row.get("count", 1)
-    return Prop(row["at"], draw, nouns, row["shape"], own, count)
+    under = tuple(
+        (noun, partial(_draw_both, row["shape"], shape))
+        for noun, shape in row.get("under", {}).items()
+    )
+    return Prop(row["at"], draw, nouns, row["shape"], own, count, under)
 
 
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
@@ -262,7 +275,10 @@ def _scaled(prop: Prop, size: float) -> Prop:
     if size == 1.0 or prop.anchor not in ("ground", "torso"):
         return prop
 
-    def draw(time_s: float, **said: int) -> list[ModelPart]:
-        return [part.at(size * part.to_body) for part in prop.draw(time_s, **said)]
+    def scale(draw: Draw) -> Draw:
+        return lambda time_s, **said: [
+            part.at(size * part.to_body) for part in draw(time_s, **said)
+        ]
 
-    return replace(prop, draw=draw)
+    under = tuple((noun, scale(one)) for noun, one in prop.under)
+    return replace(prop, draw=scale(prop.draw), under=under)

@@ -342,7 +342,8 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     named = [(prop, next((shown[one] for one in prop.nouns if one in shown), None))
              for prop in kept]  # fmt: skip
     return tuple(
-        prop if one is None else prop.as_said(one.count, rgb_of(one.colour)) for prop, one in named
+        prop if one is None else prop.as_said(one.count, rgb_of(one.colour), one.noun)
+        for prop, one in named
     )
 
 
