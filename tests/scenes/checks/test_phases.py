@@ -119,7 +119,8 @@ def test_the_head_of_a_compound_is_not_its_first_noun():
 
 def test_a_cyclist_has_one_bicycle():
     assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
-    assert "bike" in report("a cyclist falls off his bike").shown
+    said = report("a cyclist falls off his bike")
+    assert "bike" in (*said.shown, *said.uncertain)
 
 
 def test_what_flashes_is_hidden_by_nothing():
