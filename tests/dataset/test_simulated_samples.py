@@ -1,5 +1,6 @@
 from itertools import pairwise
 
+import cv2
 import numpy as np
 import pytest
 from tests.dataset.conftest import CLIP
@@ -98,6 +99,13 @@ def test_a_folder_stands_for_the_videos_in_it(tmp_path):
     for number in range(2):
         wanted = given.make(number)["representation"]
         np.testing.assert_array_equal(samples.make(number)["representation"], wanted)
+
+
+def test_images_of_a_folder_are_frames_or_with_a_camera_samples(tmp_path):
+    for number in range(3):
+        cv2.imwrite(str(tmp_path / f"{number}.png"), np.full((24, 32), number, np.uint8))
+    for options, count in (({"fps": 50}, 1), ({"camera": "shake", "duration": 0.1}, 3)):
+        assert SimulatedSamples(videos=[tmp_path], simulation=options).count == count
 
 
 def test_a_clip_shorter_than_a_slice_and_a_negative_number_are_refused():

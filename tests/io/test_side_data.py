@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -132,6 +133,26 @@ def test_convert_says_which_data_beside_the_events_it_leaves_out(
     assert "holds" not in capfd.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("format", "held"), [(None, True), ("aedat2", True), ("cifar10-dvs", False)]
+)
+def test_data_beside_the_events_are_those_of_the_format_that_is_stated(
+    tmp_path: Path, format: str | None, held: bool, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "e.aedat"  # a signal of a DAVIS, or an event of a DVS128
+    path.write_bytes(b"#!AER-DAT2.0\r\n" + struct.pack(">II", 1 << 10, 6))
+    facts = [str(path), *(() if format == "cifar10-dvs" else ("--sensor", "346x260"))]
+    stated = (lambda option: [option, format]) if format else lambda _: []
+    assert main(["info", *facts, *stated("--format"), "--json"]) == 0
+    assert ("triggers" in json.loads(capfd.readouterr().out)) == held
+    words = ["convert", *facts, "-o", str(tmp_path / "o.npz"), *stated("--from-format")]
+    assert main(words) == 0
+    assert ("holds triggers, which" in capfd.readouterr().err) == held
+    out = tmp_path / "t.csv"
+    assert main([*words, "--overwrite", "--triggers", str(out)]) == (0 if held else 2)
+    assert (out.exists() and out.read_text().split() == ["t_us", "6"]) == held
+
+
 def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
     dv = pytest.importorskip("dv_processing", reason="dv-processing is not installed")
     path = tmp_path / "e.aedat4"
@@ -165,14 +186,14 @@ def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None
     path.write_bytes(path.read_bytes() + b"cut")
     assert (main(["info", str(path)]), main(["info", str(path), "--repair"])) == (2, 0)
     header = b"#!AER-DAT3.1\r\n#Source 1: DAVIS346\r\n#!END-HEADER\r\n"
-    special = struct.pack("<2h6i", 0, 1, 8, 4, 1, 2, 2, 2)
-    special += struct.pack("<4I", 2 << 1 | 1, 9, 1 << 1 | 1, 10)
+    special = struct.pack("<2h6i", 0, 1, 8, 4, 1, 128, 128, 128)  # one of every type
+    special += b"".join(struct.pack("<2I", kind << 1 | 1, 9) for kind in range(128))
     imu = struct.pack("<2h6i", 3, 1, 36, 4, 0, 1, 1, 1)
     imu += struct.pack("<2I7f", 1, 11, 0.5, 0, -1, 0, 2.5, 0, 30)
     path.write_bytes(header + special + imu)
     side = codec_that_reads(path).side_data(path)
     (signals,), (samples,) = side["triggers"](), side["imu"]()
-    assert (signals["t"].tolist(), signals["type"].tolist()) == ([2**31 + 9], [2])
+    assert (signals["t"].tolist(), signals["type"].tolist()) == ([2**31 + 9] * 3, [2, 3, 4])
     assert samples["t"].tolist() == [11]
     assert samples["acceleration_x_g"].tolist() == [0.5]
     assert samples["rotation_y_deg_s"].tolist() == [2.5]

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import pytest
 from tests.cli.running import run
 
 import texvent
+from texvent.cli.event_files.convert import ConvertOptions, edit
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.pipeline import text_to_events
 from texvent.run.regeneration import render_again
@@ -48,7 +51,6 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(
         {"settings": None},
         {"texvent_version": "0.0.0"},
         {"rig": {"camera": 1}},
-        {"edits": [{"crop": "0,0,8,8"}]},
         {"settings": {"run": {"seed": "x"}, "generate": {}}},
         {"settings": {"run": {}, "generate": {"no_such_option": 3}}},
         {"prompt": " "},
@@ -58,13 +60,27 @@ def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, 
     assert render_again({**simulation.provenance, **changed}) is None
 
 
-def test_a_part_in_time_fits_its_video_and_an_edited_one_does_not(simulation) -> None:
+EDITS: dict[str, Any] = {
+    "crop": "0,0,8,8",
+    "resize": "24x18",
+    "rotate": 180,
+    "flip": "x",
+    "from_zero": True,
+    "filter": ("refractory:period_us=9",),
+}
+
+
+@pytest.mark.parametrize("names", [{}, *({one} for one in EDITS), {*EDITS}], ids="+".join)
+def test_parts_in_time_fit_their_video_and_edited_ones_do_not(simulation, names: set[str]) -> None:
     events = EventStream.from_columns(
         [1], [1], [60_000], [1], size=(48, 36), metadata=simulation.provenance
     )
-    assert render_again(events.between(50_000, 150_000).metadata) is not None
-    turned = events.between(50_000, 150_000).rotate(180)
-    assert render_again(turned.metadata) is None
+    whole = EventPackets([events], events.size, events.metadata)
+    only = ConvertOptions(path=Path(), **{name: EDITS[name] for name in names})
+    with_time = edit(whole, replace(only, time="0,0.15"))  # one entry
+    first, last = edit(whole.between(0, 150_000), only), edit(whole, only).between(0, 150_000)
+    for edited in (with_time, first, last, edit(whole, only)):
+        assert (render_again(edited.metadata) is None) == bool(names)
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """Constants of a sensor before a flickering field are found again."""
 
 import dataclasses
+import itertools
 import math
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from tests.calibrate.known_scenes import simulate_flicker
 
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
-from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
+from texvent.calibrate.events_only.flicker_cycles import Cycles, find_bursts, find_cycles
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -129,3 +130,44 @@ def test_cycles_and_bursts_of_a_pixel_by_hand(stated):
     assert on.follows.tolist() == [False, True] * (len(on.pixel) // 2)
     assert np.diff(on.since_us)[::2] == pytest.approx(2000, abs=1)
     assert not off.follows.any()
+
+
+def test_bursts_are_those_of_their_definition():
+    """Events of a burst and of noise, several a pixel and a cycle, also before and after all."""
+    random = np.random.default_rng(2)
+    half, number, period = 50_000.0, 6, 100_000.0
+    late = np.concatenate([random.exponential(2_000, 900), random.uniform(0, 100_000, 300)])
+    pixel = random.integers(0, 400, 1200)
+    p = (pixel % 2 == 1) ^ (random.random(1200) < 0.1)  # most pixels have one polarity
+    t = random.integers(-1, number + 1, 1200) * period + late + np.where(p, 0, half)
+    order, t = np.argsort(t), np.floor(t).astype(np.int64) + 10**6
+    columns = (column[order] for column in (pixel % 20, pixel // 20, t, p))
+    events = EventStream.from_columns(*columns, size=(20, 20))
+    trains = PixelTrains.of(events)
+    for polarity in (0, 1):
+        starts = np.array([1e6 + half, 1e6])
+        found = find_bursts(trains, Cycles(10.0, starts, number), polarity)
+        columns = (trains.pixel.tolist(), trains.t.tolist(), trains.is_on.tolist())
+        rows = []  # place among all events, pixel, cycle, µs since the half began
+        for place, (where, t_us, is_on) in enumerate(zip(*columns, strict=True)):
+            cycle, since = divmod(t_us - starts[polarity], period)
+            if is_on == polarity and since < half and 0 <= cycle < number:
+                rows.append((place, where, int(cycle), since))
+        late_us = np.array([since for *_, since in rows])
+        noise = 4 * np.sum(late_us >= half / 2) / (half / 2)
+        ends = [half / 1000 * 1000 ** (one / 99) for one in range(100)]
+        busy = [
+            stop
+            for start, stop in itertools.pairwise(ends)
+            if np.sum((late_us >= start) & (late_us < stop)) > noise * (stop - start)
+        ]
+        rows = [row for row in rows if row[-1] < busy[-1]]
+        before = {(one, *group): one for one, *group, _ in rows}
+        follows = [(one - 1, *group) in before for one, *group, _ in rows]
+        assert 0.02 < np.mean(follows) < 0.9
+        assert (found.pixel.tolist(), found.cycle.tolist()) == (
+            [row[1] for row in rows],
+            [row[2] for row in rows],
+        )
+        assert found.since_us == pytest.approx(np.array([row[3] for row in rows]), abs=1e-3)
+        assert found.follows.tolist() == follows

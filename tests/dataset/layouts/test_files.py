@@ -14,7 +14,7 @@ from tests.dataset.layouts.crossing import INSTANTS, SIZE, crossing, crossing_bo
 from tests.dataset.layouts.readers import READERS
 
 from texvent.dataset.export import LAYOUTS
-from texvent.dataset.layouts.rvt import REPRESENTATION, write_rvt
+from texvent.dataset.layouts.rvt import REPRESENTATION
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.view.drawing.event_image import frame_image
@@ -91,12 +91,31 @@ def test_rvt_holds_what_its_loader_asserts(tmp_path: Path) -> None:
 def test_rvt_leaves_out_what_has_no_box_and_leaves_nothing_half_written(tmp_path: Path) -> None:
     nothing = crossing_boxes()[:0]
     assert not LAYOUTS["rvt"].write(crossing(boxes=nothing), tmp_path / "a")
-    times = {"start_us": 0, "stop_us": 49_999}
-    with pytest.raises(InputError, match="49999 µs of events are shorter than a window of 50000"):
-        write_rvt(tmp_path / "a", crossing_events(), nothing, **times)
     with pytest.raises(OutputError, match="does not exist; create it"):
         LAYOUTS["rvt"].write(crossing(), tmp_path / "no" / "such")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("start_us", [0, 30_000])
+@pytest.mark.parametrize("length_us", [49_999, 50_000, 99_999, 100_000, 100_001])
+@pytest.mark.parametrize("name", ["rvt", "coco"])
+def test_windows_are_all_that_fit(tmp_path: Path, name: str, length_us: int, start_us: int) -> None:
+    boxes = crossing_boxes()[:3]
+    boxes["t"] = instants = start_us + np.array([0, 49_999, length_us])
+    times = {"start_us": start_us, "stop_us": start_us + length_us, "instants_us": instants}
+    sample, place = crossing(boxes=boxes, **times), tmp_path / "train/abc"
+    place.parent.mkdir()
+    count = length_us // 50_000
+    if name == "rvt" and not count:
+        with pytest.raises(InputError, match="49999 µs of events are shorter than a window of 500"):
+            LAYOUTS[name].write(sample, place)
+        return
+    LAYOUTS[name].write(sample, place)
+    LAYOUTS[name].finish(tmp_path, [sample], ("car", "man"))
+    pictures = [one for _, read in READERS[name](tmp_path) for one in read.pictures]
+    ends = [start_us + 50_000 * number for number in range(1, count + 1)]
+    expected = ends if name == "rvt" else [start_us + length_us - 1] * bool(count)
+    assert [last for _, last, _ in pictures] == expected
 
 
 def test_dsec_det_begins_its_index_at_the_first_image_before_any_event(tmp_path: Path) -> None:

@@ -1,0 +1,91 @@
+"""Options that say how an event file is to be read, in every command that shows or writes one."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from itertools import product
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from tests.cli.running import run
+
+from texvent.cli.event_files.event_file_options import FileFactOptions
+from texvent.events import EventStream
+
+COMMANDS = {
+    "info": "info {} --json",
+    "validate": "validate {} --json",
+    "convert": "convert {} o.csv",
+    "render": "render {} -o o.png",
+    "view": "view {} -o o.html",
+}
+OTHERWISE = {"convert --format": "--from-format"}
+"""Where another option has the usual name."""
+
+
+def write_files(folder: Path, events: EventStream) -> None:
+    columns = np.stack([events.t, events.x, events.y, events.p], axis=1)
+    rows = ["t,x,y,p", *(",".join(map(str, row)) for row in columns.tolist())]
+    (folder / "plain.csv").write_text("\n".join(rows))
+    (folder / "plain.dat").write_text("\n".join(rows))
+    (folder / "repair.csv").write_text("\n".join([*rows, "9999999,x"]))
+    (folder / "unit.csv").write_text("\n".join(rows).replace("000,", ","))
+    odd = [",".join(map(str, row)) for row in columns[:, [2, 1, 0, 3]].tolist()]
+    (folder / "order.csv").write_text("\n".join(odd))
+    with h5py.File(folder / "several.h5", "w") as file:
+        for group, shift in (("left", 0), ("right", 1)):
+            for name, column in zip("txyp", columns.T, strict=True):
+                file[f"{group}/{name}"] = np.roll(column, shift if name == "p" else 0)
+
+
+STATED = {
+    "sensor": ("plain.csv", ""),
+    "time_unit": ("unit.csv", "--time-unit ms"),
+    "columns": ("order.csv", "--columns y,x,t,p"),
+    "stream": ("several.h5", "--stream left"),
+    "repair": ("repair.csv", "--repair"),
+    "format": ("plain.dat", "--format csv"),
+}
+"""Option → a file that cannot be read rightly without it, and its words."""
+
+
+def test_every_option_of_every_command_is_tried() -> None:
+    assert {one.name for one in dataclasses.fields(FileFactOptions)} <= STATED.keys()
+
+
+@pytest.mark.parametrize(
+    ("command", "option"),
+    # A page tells of repairs.
+    sorted({*product(COMMANDS, STATED)} - {("view", "repair")}),
+)
+def test_a_file_read_as_is_stated_is_the_usual_one(
+    command: str, option: str, tmp_path: Path, monkeypatch, capsys
+) -> None:
+    random = np.random.default_rng(1)
+    count = np.arange(60)
+    t, p = np.sort(random.integers(1, 900, 60)) * 1000, random.integers(0, 2, 60)
+    events = EventStream.from_columns(count % 16, count % 11, t, p, size=(16, 12))
+
+    def outcome(file: str, words: str) -> tuple[object, ...]:
+        folder = tmp_path / f"{len([*tmp_path.iterdir()])}"
+        folder.mkdir()
+        monkeypatch.chdir(folder)
+        write_files(folder, events)
+        Path(file).rename(name := Path("e").with_suffix(Path(file).suffix))
+        code = run(*COMMANDS[command].format(name).split(), *words.split())
+        said = capsys.readouterr().out.replace(str(name), "e.csv")
+        files = [one.read_text("latin-1") for one in folder.glob("o.*") if one.suffix != ".json"]
+        facts = json.loads(said) if said.startswith("{") else {"said": said}
+        facts = {key: one for key, one in facts.items() if key not in ("repair", "checksums")}
+        return code, facts, [one.replace(str(name), "e.csv") for one in files]
+
+    file, words = STATED[option]
+    words = words.replace("--format", OTHERWISE.get(f"{command} --format", "--format"))
+    usual, stated = outcome("plain.csv", "--sensor 16x12"), outcome(file, f"{words} --sensor 16x12")
+    assert usual[0] == 0
+    assert stated == usual
+    if (command, option) != ("validate", "time_unit"):  # which judges no times
+        assert outcome(file, "" if option == "sensor" else "--sensor 16x12") != stated
