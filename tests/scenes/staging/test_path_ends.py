@@ -106,6 +106,8 @@ def test_a_climber_goes_up_or_down_at_the_speed_of_climbing(kind, who, what):
     assert np.ptp(places[:, 2]) >= 0.29
     assert rates.min() >= -1e-9
     assert rates.max() <= 0.41
+    covered = [one.track.at(t).distance_m for t in TIMES]  # its limbs move by it
+    assert np.diff(covered) == pytest.approx(np.linalg.norm(np.diff(places, axis=0), axis=1))
     assert one.corners(DURATION_S)[:, 2].max() < other.model.height + 1.0
     assert holds(kind, one, other, "climb")
 
