@@ -539,6 +539,13 @@ def test_laundry_is_on_its_line_and_flaps(text):
         ("a car drives left while wugs sing", {"car", "drives", "left"}, set()),
         ("a black wug and a bird fly past a tree", {"bird"}, {"fly", "past"}),
         ("a man walks under a bridge", {"man", "walks"}, set()),
+        (
+            "a dog creeps along a wugged wall, stops, then jumps",
+            {"dog"},
+            {"creeps", "stops", "jumps", "wall"},
+        ),
+        ("a cat sits on a wugly blue box", {"cat"}, {"sits", "on", "blue", "box"}),
+        ("a bird flies during the wug morning", {"bird"}, {"morning"}),
     ],
 )
 def test_of_a_clause_without_some_words_the_rest_is_uncertain(text, firm, uncertain):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_values
 from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
 from texvent_scenes.read.lexicon import deeds, word_set
-from texvent_scenes.read.tokens import NO_TOKEN
+from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
@@ -91,23 +91,40 @@ _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
 def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
     """Clauses with what depends on how the rest of them is read.
 
-    These are words that say how things go together, and things of which what leads to them, such
-    as "steep" or "beneath", is not understood.
+    These are words that say how things go together; and things, lights and places, with their
+    colours and numbers, of which what leads to them, such as "steep" or "beneath", is not
+    understood.
     """
     words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
-    for is_end, group in itertools.groupby(
-        words, lambda one: one[1].is_sign or (one[1].has("conjunctions") and one[0] not in lost)
-    ):
-        if is_end:
-            continue
-        clause, before = [*group], ""
+    for clause in _split_clauses(words, lost):
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
         ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
         yield Clause(frozenset(text for text, one in clause if not one.has("field")), tuple(ties))
+        before, fields = "", list[str]()
         for text, one in clause:
-            if one.has("noun", "place"):
-                yield Clause(frozenset((before,)), (text,))
-            before = before if one.has("articles", "field") and text not in lost else text
+            if one.has("noun", "place", "scene"):
+                yield Clause(frozenset((before,)), (*fields, text))
+            is_of_next = one.has("articles", "field") and text not in lost
+            before = before if is_of_next else text
+            fields = [*fields, text] if is_of_next else []
+
+
+def _split_clauses(
+    words: Sequence[tuple[str, Token]], lost: Collection[str]
+) -> Iterator[list[tuple[str, Token]]]:
+    """Clauses between signs and conjunctions; one that begins with a verb goes on with the last."""
+    clause: list[tuple[str, Token]] = []
+    for is_end, found in itertools.groupby(
+        words, lambda one: one[1].is_sign or (one[1].has("conjunctions") and one[0] not in lost)
+    ):
+        group = [*found]
+        goes_on = is_end or group[0][1].has("verb", "pose")
+        if clause and (not goes_on or group[-1][0] in (".", "!", "?", ";")):
+            yield clause
+            clause = []
+        clause += [] if is_end else group
+    if clause:
+        yield clause
 
 
 _SEEN_SIZE = 3.0
