@@ -81,15 +81,6 @@ def test_brightness_that_jumps_up_and_down_is_flicker(clip, gain):
 GAINS = np.random.default_rng(1).normal(size=24)
 
 
-@pytest.mark.parametrize(("up", "down"), [(10, 2), (2, 10), (6, 6), (0, 0)])
-def test_flicker_is_the_smaller_of_two_steps_so_a_ramp_has_none(up, down):
-    levels = 60 + np.cumsum(np.resize([up, -down], 12))
-    images = [np.full((8, 8), level, np.float32) for level in levels]
-    assert check_video(frames(images)).measurements["flicker"] == min(up, down)
-    ramp = [np.full((8, 8), 60 + up * number, np.float32) for number in range(12)]
-    assert check_video(frames(ramp)).measurements["flicker"] == 0
-
-
 def test_one_white_frame_is_a_flash(clip):
     flashed = clip.copy()
     flashed[12] = 255
@@ -126,19 +117,6 @@ def test_linear_light_measures_as_its_gamma_coded_image(clip):
     assert of_code.keys() - of_light.keys() == {"dark_end"}  # nothing clips light
     of_code = {name: of_code[name] for name in of_light}
     assert of_light == pytest.approx(of_code, rel=1e-3, abs=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("times_us", "fps"),
-    [
-        ([40_000 * i for i in range(20) if i not in (5, 6, 11)], 25),  # dropped frames
-        ([1000 * round(i * 1001 / 30) for i in range(20)], 29.97),  # whole milliseconds
-    ],
-)
-def test_the_rate_is_that_of_the_usual_interval(times_us, fps):
-    images = [np.full((8, 8), 90, np.float32)] * len(times_us)
-    video = [Frame(image, t_us) for image, t_us in zip(images, times_us, strict=True)]
-    assert check_video(video).measurements["fps"] == pytest.approx(fps, rel=2e-3)
 
 
 def test_cuts_have_times(clip):
