@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
 from texvent.dataset.layouts.boxes import LABEL_RECORD, ClassList, boxes_at, records_of
@@ -28,30 +26,53 @@ def test_boxes_move_along_their_tracks_and_those_that_come_are_at_the_nearest_pl
     assert places(boxes_at(boxes, INSTANTS, 150_000)) == [(12, 10, 20, 15), (40, 20, 8, 20)]
 
 
-@given(
-    st.lists(st.lists(st.integers(0, 90), min_size=8, max_size=8), min_size=1, max_size=4),
-    st.integers(0, 40_000),
-)
-def test_all_sides_of_boxes_go_in_straight_lines(ways, t_us) -> None:
-    rows = [(first, *way[4 * n :][:4], CAR, track, 1)
-            for n, first in enumerate((0, 40_000)) for track, way in enumerate(ways)]  # fmt: skip
-    found = boxes_at(np.array(rows, BOX_RECORD), np.array([0, 40_000]), t_us)
-    for track, way in enumerate(ways):
-        own = found[found["track_id"] == track][0]
-        for n, side in enumerate(("x", "y", "w", "h")):
-            at = np.interp(t_us, (0, 40_000), (way[n], way[4 + n]))
-            assert own[side] == pytest.approx(at, abs=1e-3)
+def known_at(boxes: np.ndarray, instants: list[int], t_us: int) -> list[tuple[float, ...]] | None:
+    """Track and place of the boxes at an instant; None where they are not known."""
+    before = max((one for one in instants if one < t_us), default=None)
+    after = min((one for one in instants if one >= t_us), default=None)
+    ends = sorted((one for one in (before, after) if one is not None), key=lambda o: abs(o - t_us))
+    if not ends:
+        return None
+    near, far = ({b["track_id"]: b for b in boxes if b["t"] == end} for end in (ends[0], ends[-1]))
+    moves = len(ends) == 2 and abs(ends[1] - ends[0]) <= 100_000
+    if not moves and abs(ends[0] - t_us) > 25_000:
+        return None
+    share = (t_us - ends[0]) / (ends[1] - ends[0]) if moves else 0.0
+    return sorted(
+        (int(track), *(box[n] + share * (far.get(track, box)[n] - box[n]) for n in "xywh"))
+        for track, box in near.items()
+    )
 
 
-def test_boxes_are_not_known_far_from_labelled_instants() -> None:
-    boxes = crossing_boxes()
-    rare = np.array([0, 240_000])
-    assert boxes_at(boxes, rare, 120_000) is None
-    assert places(boxes_at(boxes, rare, 220_000)) == [(20, 10, 20, 15), (40, 20, 8, 20)]
-    assert boxes_at(boxes, INSTANTS, 265_001) is None
-    assert boxes_at(boxes, INSTANTS[:0], 0) is None
-    # An instant at which nothing is in view is not one that is unknown.
-    assert len(boxes_at(boxes[boxes["t"] > 0], INSTANTS, 0)) == 0
+@pytest.mark.parametrize("tracks", [2, 3])
+def test_boxes_are_known_near_labelled_instants_and_between_close_ones(tracks: int) -> None:
+    random = np.random.default_rng(tracks)
+    unknown = 0
+    for _ in range(150):
+        count = random.integers(0, 5)
+        gaps = random.choice([25_000, 60_000, 99_999, 100_000, 100_001, 200_000], count)
+        instants = (1000 + np.cumsum(gaps)).tolist()
+        rows = [
+            (t_us, *random.uniform(1, 30, 4), CAR, track, 1)
+            for t_us in instants
+            for track in range(tracks)
+            if random.random() < 0.8  # an instant may show nothing
+        ]
+        boxes = np.array(rows, BOX_RECORD)
+        places = instants or [0]
+        t_us = int(random.choice(places) + random.choice([-25_001, -25_000, 0, 7, 25_000, 25_001]))
+        found, expected = (
+            boxes_at(boxes, np.array(instants, np.int64), t_us),
+            known_at(boxes, instants, t_us),
+        )
+        if expected is None or found is None:
+            assert expected is found
+            unknown += 1
+            continue
+        assert found["t"].tolist() == [t_us] * len(expected)
+        rows = sorted((int(one["track_id"]), *(float(one[n]) for n in "xywh")) for one in found)
+        np.testing.assert_allclose(rows, expected, rtol=1e-5)
+    assert 30 < unknown < 120
 
 
 def test_classes_gather_and_the_others_go() -> None:

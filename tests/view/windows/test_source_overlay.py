@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+from collections.abc import Iterator
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
-from texvent.frames import Video
+from texvent.frames import Frame, Video, frame_time_us
 from texvent.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.view.drawing.panels import (
@@ -93,3 +96,34 @@ def test_a_page_holds_the_frames_that_are_on_during_its_events(extent, times) ->
     pixels = np.zeros((3, *SIZE.shape, 3), dtype=np.uint8)
     beside = SourceOverlay(Video(pixels, [0, 100_000, 200_000]), "none", size=SIZE)
     assert [frame.t_us for frame in beside.frames_during(extent)] == times
+
+
+class DrawnVideo(KnownVideo):
+    """The same frames, each drawn by itself."""
+
+    def at(self, t_us: int) -> Frame:
+        return min(self, key=lambda frame: abs(frame.t_us - t_us))
+
+    def from_frame(self, first: int) -> Iterator[Frame]:
+        yield from list(self)[first:]
+
+
+@pytest.mark.parametrize("fps", [Fraction(24), Fraction(30_000, 1001), Fraction(1000)])
+def test_drawn_frames_are_shown_as_stored_ones_with_what_was_asked_for(fps: Fraction) -> None:
+    times = [frame_time_us(number, fps) for number in range(9)]
+    pixels = np.stack([np.full(SIZE.shape, 20 * i, dtype=np.uint8) for i in range(9)])
+    counts = np.zeros((2, *SIZE.shape), dtype=np.int32)
+    instants = sorted(t_us + step for t_us in times for step in (-2, -1, 0, 1))
+    shown, during = [], []
+    for kind in (KnownVideo, DrawnVideo):
+        beside = SourceOverlay(kind(pixels, times, fps), "boxes", size=SIZE)
+        windows = beside.add_frames(EventWindow(t, t + 1, counts) for t in instants)
+        shown.append([int(one.image.mean()) for one in windows])
+        extents = [None, *((t, end) for t in instants for end in times if end > t >= 0)]
+        during.append([[one.t_us for one in beside.frames_during(each)] for each in extents])
+    assert shown[0] == shown[1]
+    assert during[0] == during[1]
+    window = EventWindow(0, 1, counts)
+    for overlay, boxes in (("none", 0), ("boxes", 1), ("flow", 0)):
+        seen = SourceOverlay(video(), overlay, size=SIZE).add_annotations(window).annotations
+        assert len(seen.boxes if seen else ()) == boxes
