@@ -216,7 +216,7 @@ PLACED = {
     "behind a body": (at(-4.4), at(-4.6), at(4.4)), "front of a body": (at(4.4), at(4.6), at(-4.4)),
     "front in a lane": (*IN_LANE, at(-4.0)), "behind in a lane": (at(-4.0, 2.9), *IN_LANE),
     "front of what drives": (*IN_LANE, at(-4.0)),
-    "in": (at(1.1), at(1.15)),
+    "in": (at(1.1), at(1.15), at(0.0, 0.0, 2.2)),
     "above": (at(1.6, 0.0, 2.35), at(1.6, 0.0, 2.25), at(1.65, 0.0, 5.0)),
     "on": ON, "on a slope": ON,
     "on a seat": (at(1.1, 0.0, 1.4), at(1.1, 0.0, 1.6), at(1.2, 0.0, 1.4)),
@@ -253,16 +253,6 @@ LED = {"going beside": way(0.0, 4.0), "follow": way(0.0, 2.0)}
 """Where that one moves."""
 
 
-@pytest.mark.parametrize("kind", RULES)
-def test_a_rule_holds_up_to_its_bound_and_not_beyond_it(kind):
-    so, *others = PLACED[kind]
-    for places, is_so in ((so, True), *((one, False) for one in others)):
-        if places is not None:
-            large = block(2.0, *LED.get(kind, at(0.0)[:1] * len(places)))
-            held = RULES[kind](block(1.0, *places), large)
-            assert (held.any() if "through" in kind else held[-1]) == is_so, places
-
-
 def drawn_body(rng):
     """A body anywhere within 4 m at three instants, two boxes around its shapes."""
     middle, size = rng.uniform(-2.0, 2.0, (3, 3)), np.tile(rng.uniform(0.2, 2.0, 3), (3, 1))
@@ -287,6 +277,22 @@ def mirrored_body(body):
     return body._replace(middle=body.middle * flip, seen=body.seen * flip,
                          parts=np.sort(body.parts * flip, axis=1),
                          ahead=body.ahead * flip[:2])  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", RULES)
+def test_a_rule_holds_up_to_its_bound_and_not_beyond_it(kind):
+    """Also in a world that is turned a quarter and moved, and at more instants."""
+    so, *others = PLACED[kind]
+    for places, is_so in ((so, True), *((one, False) for one in others)):
+        if places is None:
+            continue
+        ends = np.array([places, LED.get(kind, at(0.0)[:1] * len(places))])
+        middle = 0.5 * (ends[:, 1:] + ends[:, :-1])
+        finer = np.insert(ends, np.arange(1, len(places)), middle, axis=1)
+        pair = block(1.0, *finer[0]), block(2.0, *finer[1])
+        for one, other in (pair, map(turned_body, pair)):
+            held = RULES[kind](one, other)
+            assert (held.any() if "through" in kind else held[-1]) == is_so, places
 
 
 @given(st.integers(0, 2**32 - 1))

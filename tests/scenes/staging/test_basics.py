@@ -104,6 +104,27 @@ def test_several_things_fit_on_what_they_are_put_on(noun, count, support):
     assert any(f"the {noun} is drawn at" in note for note in scene.notes)
 
 
+@pytest.mark.parametrize(
+    ("noun", "support"),
+    [("cup", "table"), ("book", "chair"), ("cat", "box"), ("ball", "bench"), ("bird", "fence")],
+)
+@pytest.mark.parametrize(("count", "several"), [(2, 2), (4, 2), (5, 2), (3, 3), (7, 3)])
+def test_several_things_bear_as_many_each(noun, support, count, several):
+    put, on = thing(noun, count=count), thing(support, count=several)
+    scene = stage(put, on, relations=(("on", 0, 1),))
+    own, others = scene.actors[:count], scene.actors[count : count + several]
+    middles = [other.corners(0.0)[:, :2].mean(axis=0) for other in others]
+    nearest = [
+        int(np.argmin([np.linalg.norm(one.middle(0.0)[:2] - each) for each in middles]))
+        for one in own
+    ]
+    borne = np.bincount(nearest, minlength=several)
+    assert np.ptp(borne) <= 1
+    assert all(one.lowest_m(0.0) > 0.1 for one in own)
+    places = np.array([one.middle(0.0) for one in own])
+    assert len(np.unique(places.round(3), axis=0)) == count
+
+
 @pytest.mark.parametrize(("noun", "motion"), [("ball", "roll"), ("car", "drive"), ("box", "slide")])
 def test_what_goes_down_a_ramp_gains_the_speed_of_its_height(noun, motion):
     one, _ = stage(thing(noun, (motion,)), thing("ramp"), relations=(("on", 0, 1),)).actors

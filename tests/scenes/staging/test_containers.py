@@ -1,18 +1,22 @@
 """What is in something fits, lies between its sides and below its rim, or is not shown."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent_scenes.checks.body_boxes import body_of
 from texvent_scenes.checks.in_view import find_unseen
 from texvent_scenes.checks.relations import find_violations
+from texvent_scenes.models.anchors import find_rim, has_rim
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.scene_input import understand
 from texvent_scenes.staging.compose import compose_scene
+from texvent_scenes.staging.placement.rims import fits
 
 TIMES_S = np.linspace(0.0, DURATION_S, 7)
 
@@ -82,3 +86,23 @@ def test_containers_are_nouns_and_what_is_lidded_or_clear_is_one():
     assert known <= NOUNS.keys()
     assert nouns_with("lidded") | nouns_with("see-through") <= known
     assert set(trait_values("drawn open").values()) <= NOUNS.keys()
+
+
+@for_every(
+    [*itertools.product(sorted(filter(has_rim, NOUNS)), (("coin", "fall"), ("ball", "sink")))]
+)
+def test_what_comes_down_through_a_rim_stays_in_it_and_in_sight(row):
+    """Most of what lies in a container is over its rim; else it goes on down below it."""
+    into, (noun, kind) = row
+    scene = stage(thing(noun, (kind,)), thing(into, ("stand",)), relations=(("into", 0, 1),))
+    body, other = scene.actors[:2]
+    rim = find_rim(into, other.model)
+    if not fits(body.model, rim):
+        return
+    middle = other.track.at(0.0).to_world() @ [rim.x, 0.0, rim.height, 1.0]
+    places = np.array([body.middle(time_s) for time_s in np.linspace(0.0, 2.0, 41)]) - middle
+    assert np.hypot(*places[:, :2].T).max() < 1e-6 + rim.radius
+    assert places[0, 2] > 0.5 * body.model.height + 0.19
+    tall = (places[-1, 2] + 0.5 * body.model.height) / body.model.height
+    is_container = trait_value("container", into) is not None
+    assert tall == pytest.approx(0.6, abs=0.01) if is_container else tall <= 0.0

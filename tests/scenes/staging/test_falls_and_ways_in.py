@@ -71,7 +71,6 @@ def test_what_has_no_pieces_does_not_break(text):
 @pytest.mark.parametrize(
     ("text", "noun", "target"),
     [("a basketball flies through the hoop", "basketball", "basketball hoop"),
-     ("a tennis ball drops into a bucket", "tennis ball", "bucket"),
      ("a golf ball rolls into the hole", "golf ball", "golf hole"),
      ("a woman throws a ball into a bin", "ball", "dustbin"),
      ("a boy throws a basketball into the hoop", "basketball", "basketball hoop")],

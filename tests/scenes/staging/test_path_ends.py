@@ -1,15 +1,17 @@
 """Ways to, into, out of, off, up and down things, as the geometry of staged scenes has them."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, stage, thing
 
 from texvent_scenes.checks.body_boxes import body_of
 from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.description import IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.postures import find_track
@@ -160,6 +162,16 @@ def test_what_is_sent_to_somebody_ends_there(kind, level, who):
         assert ends[1][2] == pytest.approx(level * goal.model.height / 1.82, abs=0.15)
     elif kind != "throw":
         assert ball.lowest_m(DURATION_S) == pytest.approx(0.0, abs=0.03)
+
+
+@for_every([*zip(sorted(PERSON_NOUNS & set(NOUNS)), itertools.cycle(("ball", "apple")))])
+def test_what_is_thrown_to_anybody_ends_between_the_hands(row):
+    who, what = row
+    relations = (("throw", 0, 1), ("towards", 0, 2))
+    _, thrown, goal = stage(thing("man"), thing(what), thing(who), relations=relations).actors
+    hands = [goal.anchor(f"{side} hand", DURATION_S)[:, 3] for side in ("left", "right")]
+    gaps = [np.linalg.norm(one - thrown.middle(DURATION_S)) for one in hands]
+    assert gaps == pytest.approx([0.5 * thrown.model.width] * 2, abs=0.02)
 
 
 @pytest.mark.parametrize("what", ["ball", "box", "cup", "suitcase"])

@@ -45,6 +45,19 @@ def boxes(actor: Actor) -> np.ndarray:
     return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
 
 
+@pytest.mark.parametrize("noun", ["car", "bus", "truck", "cyclist"])
+@pytest.mark.parametrize("ways", [("left",), ("right",), (None, "left"), (None, "right")])
+def test_who_turns_comes_from_one_road_and_goes_on_along_another(noun, ways):
+    said = (("turn", way) if way else ("drive",) for way in ways)
+    scene = stage(thing(noun, *said), place="road", duration_s=4.0)
+    body, seen = scene.actors[0], scene.environment(0.0)
+    line = RoadLine(seen.road_angle, tuple(seen.road_offset), tuple(seen.road_crossings.tolist()))
+    ends = [body.middle(time_s)[:2] for time_s in (0.0, 4.0)]
+    turned = math.remainder(body.track.at(4.0).yaw - body.track.at(0.0).yaw, 2.0 * math.pi)
+    assert turned * (1.0 if ways[-1] == "left" else -1.0) > 0.5
+    assert line.distance(np.array(ends)).max() <= seen.road_half_width
+
+
 @pytest.mark.parametrize("place", ["city", "road"])
 @pytest.mark.parametrize("name", STREETS)
 def test_who_drives_has_a_lane_and_others_the_pavement_unless_they_cross(name, place):
