@@ -53,6 +53,7 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
+from texvent_scenes.checks.shots import is_macro
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
@@ -78,7 +79,7 @@ _DONE = (
     "turn",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle", "camera")
+_OF_CAMERA = (SEEN, "circle", "camera", "macro")
 """Claims that may be made of the camera."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
@@ -265,6 +266,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
     "turn": turns, "pace": changes_pace,
-    "sit at": _sits_at,
+    "sit at": _sits_at, "macro": is_macro,
 }  # fmt: skip
 """Kind of claim → its check."""

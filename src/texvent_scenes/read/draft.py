@@ -239,6 +239,8 @@ class SceneDraft(Abilities):
                 continue  # "in a kitchen, indoors"
             if value != "day" or name not in self.parts[part]:  # "overcast daylight"
                 self.parts[part][name] = value
+        is_near = token.text.split()[0] in word_set("things", "nearest")
+        self.claim(token, "macro", "", [None] if is_near else [])
         is_said = token.has("shot", "scene")
         self.show(*([token] if is_said else []))
         return is_said

@@ -145,6 +145,9 @@ def go_to_place(
         is_flyer = draft.nouns[thing["noun"]].habitat == "air" and not names & _WATERS
         thing["motions"] = thing["motions"] or [{"kind": "stand"}] * is_flyer  # "on a runway"
     on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
+    is_flat = token.text in ("up", "down") and {one.text for one in heads} & word_set(
+        "things", "steep"
+    )
     is_in = on_foot and token.text in ("through", "in", "into")
     rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
@@ -154,7 +157,7 @@ def go_to_place(
     if is_entered or is_home or lands or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
-    elif is_in or not _shows_way(draft, token, place, subjects):
+    elif is_in or is_flat or not _shows_way(draft, token, place, subjects):
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
@@ -124,7 +125,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     singular = token.text if senses and not senses[0].is_plural else ""
     rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
     others = {one.value.noun for each in tokens for one in each.all("noun")}
-    others |= {one.text for one in tokens}
+    others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
     row = next((one for one in rows if others & {*one["nouns"]}), None)

@@ -305,6 +305,7 @@ class ThingReader:
                 draft.say_field(token, said, index)
             is_aside = token.text in word_set("things", "aside")
             draft.claim(token, "aside", "", subjects if is_aside else [])
+            draft.claim(token, "reverse", "", subjects if value == "backward" else [])
             is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
             draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
         else:

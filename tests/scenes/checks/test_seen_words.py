@@ -70,6 +70,8 @@ def test_who_follows_heads_for_something_that_moves(text, word, is_so):
         ("a truck reverses", "reverses", True),
         ("a car backs up", "backs up", True),
         ("a bus reverses, then drives forward", "reverses", True),
+        ("a man walks backward", "backward", True),
+        ("a fan spins backward", "backward", False),
         ("a truck drives", "reverses", False),
         ("a car turns", "reverses", False),
         ("a parked bus", "reverses", False),

@@ -46,6 +46,16 @@ def test_a_view_of_a_side_holds_whichever_way_the_subject_heads(view, heading_de
     assert wrong == {"side", "front", "back"} - {view}
 
 
+@pytest.mark.parametrize("word", ["macro view of", "extreme close up of"])
+@pytest.mark.parametrize(
+    ("subject", "is_so"),
+    [("a coin spinning", True), ("a snail on a leaf", True), ("a hummingbird hovering", True),
+     ("a woman reading", False), ("a car", False), ("a barista pouring milk", False)],
+)  # fmt: skip
+def test_a_macro_view_is_of_what_is_small(word, subject, is_so):
+    assert (word in report(f"{word} {subject}").shown) is is_so
+
+
 @pytest.mark.parametrize("kind", ["follow", "orbit", "pan", "dolly"])
 def test_a_move_holds_if_the_camera_moves(kind):
     said = Camera(moves=(CameraMove(kind),))
