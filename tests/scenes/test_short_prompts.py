@@ -544,6 +544,12 @@ def test_laundry_is_on_its_line_and_flaps(text):
             {"dog"},
             {"creeps", "stops", "jumps", "wall"},
         ),
+        ("a cat sits on one red wugly box", {"cat"}, {"sits", "on", "one", "red", "box"}),
+        (
+            "a fox trots along the edge of a wugly pond",
+            {"fox"},
+            {"trots", "along", "edge of", "pond"},
+        ),
         ("a cat sits on a wugly blue box", {"cat"}, {"sits", "on", "blue", "box"}),
         ("a bird flies during the wug morning", {"bird"}, {"morning"}),
     ],

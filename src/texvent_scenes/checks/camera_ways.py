@@ -10,6 +10,7 @@ import numpy as np
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.camera.subject import choose_main, near_part
 
 _Rule = Callable[[Float64Array, Float64Array, Float64Array], bool]
 """Whether a camera is so, by its places from a body, [t, 3] m, its directions of sight, [t, 3], and
@@ -17,6 +18,8 @@ the extents of that body, [3] m."""
 _NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.25
 """Least share by which a camera nears something; cosine up to which something is in sight; least
 turn of the sight, and way by the distance, along something; least arc around it, rad."""
+_MACRO_M = 0.9
+"""Most width across the image at the subject of a macro or an extreme close-up, m."""
 _LEAST_WAY, _OVER = 0.5, 0.7
 """Way of a camera that goes, and most distance aside of what it goes over, in sizes of that."""
 
@@ -31,6 +34,20 @@ def is_camera_so(staged: StagedClip, claim: Claim) -> bool:
         for target in claim.targets
         for body in staged.boxes[target]
     )
+
+
+def is_macro(staged: StagedClip, claim: Claim) -> bool:
+    """Whether so little is across the image at the subject that small things are large in it."""
+    if not staged.scene.actors:
+        return False
+    main, widths_m = choose_main(staged.description, staged.scene.actors), list[float]()
+    for time_s, held in zip(
+        staged.times, near_part(main, "close", np.array(staged.times)), strict=True
+    ):
+        camera = staged.scene.camera(time_s)
+        depth_m = float((held.mean(axis=0) - camera.position) @ camera.rotation[2])
+        widths_m.append(depth_m / camera.focal)
+    return bool(np.mean(np.array(widths_m) <= _MACRO_M) >= 0.5)
 
 
 def _never(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:

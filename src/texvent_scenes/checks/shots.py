@@ -10,8 +10,7 @@ import numpy as np
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.relations import Violation
-from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.description import Claim, SceneDescription
+from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -24,8 +23,6 @@ instants at which a shot is as it is said."""
 _DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
 """Height of the direction of sight, a unit vector, of a view from the air, and from the top; most
 of one downwards from a low angle."""
-_MACRO_M = 0.9
-"""Most width across the image at the subject of a macro or an extreme close-up, m."""
 _STEPS, _CORE = 49, 0.4
 """Instants at which it is looked for what the camera goes through; half of the share of a part's
 box, along each axis, that is surely inside that part."""
@@ -76,20 +73,6 @@ def find_misframed(
             yield Violation("move", kind, f"{kind} of the camera: it goes through the {met}")
         elif all(_is_still(cameras[0], one) for one in cameras):
             yield Violation("move", kind, f"{kind} of the camera: it stays where it is")
-
-
-def is_macro(staged: StagedClip, claim: Claim) -> bool:
-    """Whether so little is across the image at the subject that small things are large in it."""
-    if not staged.scene.actors:
-        return False
-    main, widths_m = choose_main(staged.description, staged.scene.actors), list[float]()
-    for time_s, held in zip(
-        staged.times, near_part(main, "close", np.array(staged.times)), strict=True
-    ):
-        camera = staged.scene.camera(time_s)
-        depth_m = float((held.mean(axis=0) - camera.position) @ camera.rotation[2])
-        widths_m.append(depth_m / camera.focal)
-    return bool(np.mean(np.array(widths_m) <= _MACRO_M) >= _HALF)
 
 
 def _find_met(scene: ComposedScene, times: Sequence[float]) -> str:

@@ -42,7 +42,7 @@ from texvent_scenes.checks.acts import (
     tips,
     turns,
 )
-from texvent_scenes.checks.camera_ways import is_camera_so
+from texvent_scenes.checks.camera_ways import is_camera_so, is_macro
 from texvent_scenes.checks.grips import handles_by_hand
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
@@ -53,7 +53,6 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
-from texvent_scenes.checks.shots import is_macro
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription

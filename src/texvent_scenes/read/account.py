@@ -104,8 +104,9 @@ def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
         for text, one in clause:
             if one.has("noun", "place", "scene"):
                 yield Clause(frozenset((before,)), (*fields, text))
-            is_of_next = one.has("articles", "field") and text not in lost
-            before = before if is_of_next else text
+            is_lost = text in lost
+            is_of_next = one.has("articles", "field", "partitive") or (is_lost and one.is_unknown)
+            before = text if is_lost or not is_of_next else before
             fields = [*fields, text] if is_of_next else []
 
 
