@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.dataset.specification.clips import Clips, ClipSettings
+from texvent.dataset.specification.clips import Clips, ClipSettings, video_seed
 from texvent.dataset.specification.items import read_items
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import draw_options, extreme_options
@@ -55,6 +55,14 @@ def test_splits_have_their_share_of_every_class_and_every_clip_is_there_once(
     assert all(of_item[clip.item.key] == clip.split for clip in all_clips)
     for unique in (len({clip.key for clip in all_clips}), len({clip.seed for clip in all_clips})):
         assert unique == sum(sizes) * repeats == len(all_clips)
+
+
+@given(root=st.integers(0, 9), own=st.none() | st.integers(0, 9))
+def test_repeats_differ_and_the_first_has_the_seed_of_its_list(root: int, own: int | None) -> None:
+    seeds = [video_seed(root, "a", own, repeat) for repeat in range(4)]
+    assert len({*seeds}) == 4
+    assert own in (None, seeds[0])
+    assert seeds[1:] == [video_seed(root, "a", None, repeat) for repeat in (1, 2, 3)]
 
 
 def test_a_prompt_that_is_added_changes_no_clip_of_the_others() -> None:

@@ -2,11 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from tests.scenes.checks.test_placement import SIZE, staged
 from tests.scenes.checks.test_words import check, report, told
+from tests.scenes.staged import stage
 
 from texvent_scenes.checks.limbs import find_tiny
+from texvent_scenes.checks.phases import find_unhurried
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.spec.scene import Motion, SceneObject
 
 
 @pytest.mark.parametrize(
@@ -209,3 +214,13 @@ def test_an_act_whose_limbs_hardly_move_in_the_image_is_said(share, lost):
     cameras = [replace(each, focal=share * each.focal) for each in map(scene.camera, times)]
     found = find_tiny(said, scene.actors, cameras, times, SIZE)
     assert [one.value for one in found] == lost
+
+
+@pytest.mark.parametrize(("noun", "kind"), [("car", "drive"), ("dog", "run"), ("bird", "fly")])
+@pytest.mark.parametrize("pace", [1.0, 1.7, 3.0])
+def test_haste_is_shown_of_who_has_it(noun, kind, pace):
+    actors = stage(SceneObject(noun, motions=(Motion(kind, pace=pace),)), place="plain").actors
+    for said in (1.7, 3.0, 9.0):
+        words = SceneDescription(objects=(SceneObject(noun, motions=(Motion(kind, pace=said),)),))
+        is_slower = bool([*find_unhurried(words, actors, np.linspace(0.0, 2.0, 9))])
+        assert is_slower == (pace < 0.75 * said)
