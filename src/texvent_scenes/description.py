@@ -58,7 +58,7 @@ class Claim:
 class Clause:
     """Words between two signs of a prompt."""
 
-    words: frozenset[str]
+    words: tuple[str, ...]
     """All but those of colour, size and the like, whose loss changes nothing else."""
     ties: tuple[str, ...]
     """Those that say what its things do, how they are placed and seen, and not what they are."""

@@ -71,7 +71,7 @@ def generate(page, prompt, **options):
 def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
     state, text = generate(page, "a wug and a red ball bounce", palette="paper-dark")
     options = {"duration": 0.1, "sensor": "48x36", "seed": 3, "simulator": "esim"}
-    with pytest.warns(texvent.TexventWarning, match="wug"):
+    with pytest.warns(texvent.TexventWarning, match="wug|uncertain beside them: bounce"):
         whole = texvent.generate("a wug and a red ball bounce", **options)
     assert state == "done"
     assert f"\nevents   {len(whole):,} in " in text

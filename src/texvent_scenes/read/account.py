@@ -99,11 +99,11 @@ def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
     for clause in _split_clauses(words, lost):
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
         ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
-        yield Clause(frozenset(text for text, one in clause if not one.has("field")), tuple(ties))
+        yield Clause(tuple(text for text, one in clause if not one.has("field")), tuple(ties))
         before, fields = "", list[str]()
         for text, one in clause:
             if one.has("noun", "place", "scene"):
-                yield Clause(frozenset((before,)), (*fields, text))
+                yield Clause((before,), (*fields, text))
             is_lost = text in lost
             is_of_next = one.has("articles", "field", "partitive") or (is_lost and one.is_unknown)
             before = text if is_lost or not is_of_next else before
