@@ -72,7 +72,7 @@ class PromptReport:
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     uncertain: tuple[str, ...] = ()
-    """Verbs, ways, relations and views that are drawn, but of clauses of which words are lost."""
+    """Words that are drawn, but perhaps not as meant: words beside them are not understood."""
     out_of_view: tuple[str, ...] = ()
     """Objects that the camera never shows, such as "tree" or "dog (2 of 3)"."""
     too_small: tuple[str, ...] = ()

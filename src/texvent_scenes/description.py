@@ -55,13 +55,13 @@ class Claim:
 
 
 @dataclass(frozen=True)
-class Clause:
-    """Words between two signs of a prompt."""
+class Dependence:
+    """Words of a prompt whose meaning is known only if all of some others are understood."""
 
     words: tuple[str, ...]
-    """All but those of colour, size and the like, whose loss changes nothing else."""
-    ties: tuple[str, ...]
-    """Those that say what its things do, how they are placed and seen, and not what they are."""
+    """The words that depend, such as "runs" and "past" of a clause."""
+    on: tuple[str, ...]
+    """The others: their clause, or what leads to a thing, such as "steep"."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +73,8 @@ class SceneDescription(Scene):
     """Report of the words of a prompt that was read."""
     claims: tuple[Claim, ...] = ()
     """Words that the report of the staged scene takes in."""
-    clauses: tuple[Clause, ...] = ()
-    """Clauses of the prompt."""
+    dependences: tuple[Dependence, ...] = ()
+    """Words that are uncertain where others are not understood."""
     notes: tuple[str, ...] = ()
     """Decisions where the scene leaves a choice open, as sentences."""
 

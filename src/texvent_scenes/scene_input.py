@@ -251,7 +251,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         meant=tuple(_meant(unread, nouns)),
         not_shown=tuple(f"{word} ({why})" for word, why in lost.items() if word not in open_words),
     )
-    return replace(description, words=words, claims=reading.claims, clauses=reading.clauses)
+    return replace(description, words=words, claims=reading.claims, dependences=reading.dependences)
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:

@@ -64,8 +64,8 @@ def stage(
     claimed = (one for one in sorted(failed) if one not in said.shown)
     lost = (one for one in (*said.shown, *claimed) if one not in shown
             and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
-    uncertain = {word for one in description.clauses for word in one.ties
-                 if not {*said.not_understood}.isdisjoint(one.words)}  # fmt: skip
+    uncertain = {word for one in description.dependences for word in one.words
+                 if not {*said.not_understood}.isdisjoint(one.on)}  # fmt: skip
     report = replace(
         said,
         shown=tuple(one for one in shown if one not in uncertain),

@@ -18,8 +18,9 @@ the extents of that body, [3] m."""
 _NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.25
 """Least share by which a camera nears something; cosine up to which something is in sight; least
 turn of the sight, and way by the distance, along something; least arc around it, rad."""
-_MACRO_M = 0.9
-"""Most width across the image at the subject of a macro or an extreme close-up, m."""
+_MACRO_M, _HALF = 0.9, 0.5
+"""Most width across the image at the subject of a macro or an extreme close-up, m; share of the
+instants at which it is so."""
 _LEAST_WAY, _OVER = 0.5, 0.7
 """Way of a camera that goes, and most distance aside of what it goes over, in sizes of that."""
 
@@ -47,7 +48,7 @@ def is_macro(staged: StagedClip, claim: Claim) -> bool:
         camera = staged.scene.camera(time_s)
         depth_m = float((held.mean(axis=0) - camera.position) @ camera.rotation[2])
         widths_m.append(depth_m / camera.focal)
-    return bool(np.mean(np.array(widths_m) <= _MACRO_M) >= 0.5)
+    return bool(np.mean(np.array(widths_m) <= _MACRO_M) >= _HALF)
 
 
 def _never(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:

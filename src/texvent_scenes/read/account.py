@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent.prompt_report import Substitution
-from texvent_scenes.description import Claim, Clause
+from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_values
@@ -32,8 +32,8 @@ class Reading:
     """Words without effect on the scene."""
     claims: tuple[Claim, ...] = ()
     """Words, of both lists, of which only the staged scene tells whether it shows them."""
-    clauses: tuple[Clause, ...] = ()
-    """Clauses of the sentence; of one without some of its words the rest is uncertain."""
+    dependences: tuple[Dependence, ...] = ()
+    """Words that are uncertain where others are not understood."""
 
 
 def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
@@ -80,7 +80,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         substituted=tuple(Substitution(*one) for one in others),
         not_understood=lost,
         claims=tuple(_list_claims(draft)),
-        clauses=tuple(_list_clauses(draft, lost)),
+        dependences=tuple(_list_dependences(draft, lost)),
     )
 
 
@@ -88,22 +88,22 @@ _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
 """Kinds of words that say how things go together."""
 
 
-def _list_clauses(draft: SceneDraft, lost: Collection[str]) -> Iterator[Clause]:
-    """Clauses with what depends on how the rest of them is read.
+def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Dependence]:
+    """Words that depend on how others are read.
 
-    These are words that say how things go together; and things, lights and places, with their
-    colours and numbers, of which what leads to them, such as "steep" or "beneath", is not
-    understood.
+    In a clause these are words that say how things go together, such as verbs. Things, lights and
+    places, with their colours and numbers, depend on what leads to them: "beneath", "steep".
     """
     words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
     for clause in _split_clauses(words, lost):
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
         ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
-        yield Clause(tuple(text for text, one in clause if not one.has("field")), tuple(ties))
+        whole = tuple(text for text, one in clause if not one.has("field"))
+        yield Dependence(tuple(ties), whole)  # a colour that is lost changes nothing else
         before, fields = "", list[str]()
         for text, one in clause:
             if one.has("noun", "place", "scene"):
-                yield Clause((before,), (*fields, text))
+                yield Dependence((*fields, text), (before,))
             is_lost = text in lost
             is_of_next = one.has("articles", "field", "partitive") or (is_lost and one.is_unknown)
             before = text if is_lost or not is_of_next else before

@@ -191,6 +191,22 @@ def at(x, y=0.0, z=1.0):
     return ((x, y, z),) * 2
 
 
+@pytest.mark.parametrize(
+    ("kind", "x", "held"),
+    [
+        ("towards", (9.0, 8.5), (True, False)), ("away from", (9.0, 9.5), (True, False)),
+        ("in", (1.0, 2.0), (True, False)), ("on", (1.0, 1.0), (True, False)),
+        ("with", (9.0, 9.0), (True, True)), ("at", (9.0, 9.0), (False, False)),
+    ],
+)  # fmt: skip
+def test_room_and_way_are_counted_in_sizes_of_who_is_said_to_be_so(kind, x, held):
+    """A small block and a large one, and the large one and the small one."""
+    small = block(0.5, *((one, 0.0, 0.25) for one in x))
+    large = block(8.0, *at(0.0, z=4.0))
+    pairs = (small, large), (large, small)
+    assert tuple(RULES[kind](*pair).any() for pair in pairs) == held
+
+
 def way(*places):
     """By places on the line through the other's middle, or anywhere."""
     return tuple(one if isinstance(one, tuple) else (one, 0.0, 1.0) for one in places)

@@ -45,6 +45,17 @@ def test_the_number_of_threads_does_not_change_a_bit(size, monkeypatch):
         np.testing.assert_array_equal(render(showcase(), 0.3, size), one)
 
 
+@pytest.mark.parametrize("ground", list(Ground))
+def test_every_ground_gives_finite_light_in_range(ground):
+    image = render(showcase(ground), 0.2, SMALL)
+    assert image.dtype == np.float32
+    assert image.shape == (72, 96, 3)
+    assert np.isfinite(image).all()
+    assert image.min() >= 0.0
+    assert image.max() <= 255.0
+    assert np.unique(image).size > 256  # not rounded to whole levels
+
+
 @pytest.mark.parametrize("size", [(1, 1), (1, 40), (33, 1), (16, 16), (17, 31), (640, 360)])
 def test_any_size_can_be_drawn(size):
     image = render(showcase(), 0.0, SensorSize(*size))
