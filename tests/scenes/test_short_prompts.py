@@ -552,6 +552,8 @@ def test_laundry_is_on_its_line_and_flaps(text):
         ),
         ("a cat sits on a wugly blue box", {"cat"}, {"sits", "on", "blue", "box"}),
         ("a bird flies during the wug morning", {"bird"}, {"morning"}),
+        ("a dog wugs, a cow wugs, a horse runs left", {"dog", "cow"}, {"runs", "left"}),
+        ("a dog runs left, a cow wugs, a horse jumps", {"dog", "runs", "left", "jumps"}, set()),
     ],
 )
 def test_of_a_clause_without_some_words_the_rest_is_uncertain(text, firm, uncertain):

@@ -93,9 +93,12 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
 
     In a clause these are words that say how things go together, such as verbs. Things, lights and
     places, with their colours and numbers, depend on what leads to them: "beneath", "steep".
+    A prompt of which most clauses have a lost word is one clause.
     """
     words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
-    for clause in _split_clauses(words, lost):
+    clauses = [*_split_clauses(words, lost)]
+    broken = [clause for clause in clauses if any(text in lost for text, _ in clause)]
+    for clause in [words] if 2 * len(broken) > len(clauses) else clauses:
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
         ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
         whole = tuple(text for text, one in clause if not one.has("field"))
