@@ -552,8 +552,8 @@ def test_laundry_is_on_its_line_and_flaps(text):
         ),
         ("a cat sits on a wugly blue box", {"cat"}, {"sits", "on", "blue", "box"}),
         ("a bird flies during the wug morning", {"bird"}, {"morning"}),
-        ("a dog wugs, a cow wugs, a horse runs left", {"dog", "cow"}, {"runs", "left"}),
-        ("a dog runs left, a cow wugs, a horse jumps", {"dog", "runs", "left", "jumps"}, set()),
+        ("a dog wugs, a cow wugs, a horse jumps", {"dog", "cow", "horse"}, {"jumps"}),
+        ("a dog runs, a cow wugs, a horse jumps", {"dog", "runs", "jumps"}, set()),
     ],
 )
 def test_of_a_clause_without_some_words_the_rest_is_uncertain(text, firm, uncertain):
