@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent.prompt_report import Substitution
+from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
@@ -57,6 +58,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _find_opponents(draft)
     _hang_up(draft)
     _lead_round(draft)
+    _turn_marks(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
@@ -219,6 +221,29 @@ def _lead_round(draft: SceneDraft) -> None:
         told = {each["kind"] for each in one["relations"]} & (PLACING | {"around"})
         if kinds == ["orbit"] and not told:
             draft.relate(index, "around", rings[:1])
+
+
+_LIGHT = 0.3
+"""Greatest channel of a colour, linear, from which on a mark on it is black."""
+
+
+def _turn_marks(draft: SceneDraft) -> None:
+    """Have a disc turn with a mark on it: "a dot rotates on a disc"."""
+    discs = read_table("words", "read")["turned_with_marks"]
+    for mark in (one for one in draft.things if one["noun"] in discs):
+        on = [each["to"][0] for each in mark["relations"] if each["kind"] == "on"]
+        for index in (n for n in on if draft.things[n]["noun"] in discs):
+            disc = draft.things[index]
+            draft.parts["camera"].setdefault("target", index)
+            if "colour" not in mark:
+                light = rgb_of(disc.get("colour")) or (0.0,)
+                mark["colour"] = "black" if max(light) > _LIGHT else "white"
+            turns = [each for each in mark["motions"] if each["kind"] in ("spin", "orbit")]
+            is_turning = draft.nouns[disc["noun"]].is_working
+            disc["noun"] = discs[disc["noun"]]  # no spokes beside the mark
+            disc["motions"] = [{**each, "kind": "spin"} for each in turns or disc["motions"]]
+            disc["motions"] = disc["motions"] or [{"kind": "spin"}] * is_turning
+            mark["motions"] = [each for each in mark["motions"] if each not in turns]
 
 
 def _limit_counts(draft: SceneDraft) -> None:
