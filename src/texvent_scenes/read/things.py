@@ -158,11 +158,13 @@ class ThingReader:
     def _fill(self, vessels: Sequence[int], content: Group, token: Token) -> None:
         """Add a place, or what is in a vessel or place: "of apples"; else its part is not known."""
         head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
+        kinds = (("in", "vessels"), ("on", "laden"))
+        bearing = next((kind for kind, one in kinds if word_set("things", one) & {*nouns}), "")
         if head is not None and names_place(head, ""):
             self._name(content, "in")
-        elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
+        elif head and not head.is_liquid and bearing:
             for index in self._name(content):
-                self._draft.relate(index, "in", vessels)
+                self._draft.relate(index, bearing, vessels)
                 self._draft.show(token)
             self._nearest = list(vessels)
         elif token.has("containing") and not vessels:

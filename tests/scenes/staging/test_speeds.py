@@ -9,6 +9,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import trait_values
 from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
 from texvent_scenes.staging.camera.framing import image_of, measure_prominence
+from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, usual_speed
 
 GOING = [one for one in NOUNS.values() if one.motion in PATH_KINDS]
@@ -55,6 +56,17 @@ def test_a_body_goes_at_its_usual_speed_and_is_large_enough_where_it_is_seen(nou
     path = scene.camera_path
     assert np.all(in_view(scene, np.linspace(*path.framed_s, 5)))
     assert (path.passage_s is None and (path.tie is None)) != bool(path.notes)
+
+
+@pytest.mark.long
+@for_every([one for one in GOING if one.habitat == "ground" and zone_of(one) != "road"])
+def test_of_several_that_go_together_each_is_large_enough(noun):
+    scene = stage(SceneObject(noun.name, count=4, motions=(Motion(noun.motion, "right"),)))
+    shares = []
+    for time in np.linspace(*scene.camera_path.framed_s, 5):
+        boxes = np.array([one.corners(float(time)) for one in scene.actors])
+        shares.append(measure_prominence(scene.camera(float(time)), boxes, ASPECT))
+    assert max(shares) > 0.5
 
 
 @pytest.mark.parametrize("noun", RIGHT)

@@ -42,6 +42,8 @@ _STATIC, _ALONG, _LEAST_ALONG, _FOLLOWED, _LEAST_GAIN = 0.33, 0.65, 0.13, 0.25, 
 """Prominence of the subject from which on a camera that stays shows all its way; with which the
 camera goes along, that it would have at least if it went no faster than one can look, and that it
 has however fast it goes; and by how much a passage must raise it."""
+_STATIC_GROUP = 0.65
+"""Prominence of several that go together from which on a camera that stays shows all their way."""
 _WIDTHS_PER_S, _FILLED = 1.0, 0.75
 """Speed of a camera that goes along, in widths of the picture at the subject; the share of a width
 in which the subject moves."""
@@ -158,7 +160,9 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     gone_m = float(np.linalg.norm(places[-1] - places[0]))
     is_tied = path.tie is not None or shooting.description.camera.framing in ("close", "medium")
     is_across = gone_m > max(_STRAIGHT * way_m, size_m) and not goes_in_depth(main)
-    told = min(reached / _STATIC, _share_of_told(shooting, path, main))
+    is_group = len(copies) > 1 and zone_of(main.noun) != "road"  # traffic passes
+    least, goal = (_STATIC_GROUP, 1.0) if is_group else (_STATIC, _ALONG)
+    told = min(reached / least, _share_of_told(shooting, path, main))
     if told >= 1.0 or is_tied or not is_across:
         return path
     if (passage_s := _find_descent(shooting, main)) is not None:
@@ -166,7 +170,7 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
     # Of what the image holds, the extent in metres times the prominence hardly changes.
     held_m = (way_m + size_m) * reached
     slow_m = (way_m + size_m) / (1.0 + _WIDTHS_PER_S * path.duration_s / _FILLED)
-    extent_m = max(held_m / _ALONG, slow_m)
+    extent_m = max(held_m / goal, slow_m)
     if held_m >= _LEAST_ALONG * extent_m and _may_go_along(shooting, main):
         tie = Tie.of(time_moves([CameraMove("follow")], path.duration_s), main)
         extent_m = min(extent_m, max(held_m / _FOLLOWED, size_m))
@@ -177,7 +181,7 @@ def _give_way(shooting: _Shooting, main: Actor) -> CameraTrack:
             if _share_of_told(shooting, near, main) >= 1.0:
                 break
         return near
-    told = min(reached / _STATIC, _share_of_told(shooting, path, main, _PASSING))
+    told = min(reached / least, _share_of_told(shooting, path, main, _PASSING))
     if told >= 1.0:  # only what it holds or follows is small
         return path
     shares = [((way_m + size_m) * one - size_m) / way_m for one in (told, reached / _SEEN)]
