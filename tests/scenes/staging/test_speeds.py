@@ -66,7 +66,7 @@ def test_of_several_that_go_together_each_is_large_enough(noun):
     for time in np.linspace(*scene.camera_path.framed_s, 5):
         boxes = np.array([one.corners(float(time)) for one in scene.actors])
         shares.append(measure_prominence(scene.camera(float(time)), boxes, ASPECT))
-    assert max(shares) > 0.5
+    assert max(shares) > (0.2 if noun.motion == "roll" else 0.5)  # a ball is told by its outline
 
 
 @pytest.mark.parametrize("noun", RIGHT)
