@@ -203,7 +203,7 @@ def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
         return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
     if draft.can_go(targets[0]):
         return ""
-    is_put = bearer in word_set("things", "tables") and first not in nouns_with("seat")
+    is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
 
 

@@ -158,7 +158,7 @@ class ThingReader:
     def _fill(self, vessels: Sequence[int], content: Group, token: Token) -> None:
         """Add a place, or what is in a vessel or place: "of apples"; else its part is not known."""
         head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
-        kinds = (("in", "vessels"), ("on", "laden"))
+        kinds = (("in", "vessels"), ("on", "laden"), ("on", "loaded"))
         bearing = next((kind for kind, one in kinds if word_set("things", one) & {*nouns}), "")
         if head is not None and names_place(head, ""):
             self._name(content, "in")
