@@ -112,6 +112,7 @@ class Abilities:
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             is_moved &= verb.relation != "move over"
+            is_moved &= verb.relation != "beside" or not is_acting  # no hand only stands by
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         meets |= bool(verb.brings) and names <= PERSON_NOUNS

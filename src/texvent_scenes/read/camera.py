@@ -16,6 +16,10 @@ from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
+_STAYING = frozenset({"handheld", "roll", "truck"})
+"""Moves of a camera over what it looks at."""
+
+
 def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
@@ -131,6 +135,20 @@ def claim_way(
     is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
     for kind in sorted(kinds)[:1] if is_led and targets else ():
         draft.claim(preposition, "camera", kind, [None], targets)
+
+
+def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:
+    """Let a camera that stays about look down on things, or at the face of what is upright."""
+    kinds = {one.value for one in preposition.all("relation")}
+    moves = {one["kind"] for one in draft.moves}
+    if "above" not in kinds or not targets or not moves or moves - _STAYING:
+        return False
+    upright = nouns_with("upright") | nouns_with("flat pattern")
+    is_faced = {draft.things[one]["noun"] for one in targets} <= upright
+    if not is_faced:
+        draft.parts["camera"].setdefault("view", "top")
+    draft.claim(preposition, "camera", "before" if is_faced else "over", [None], targets)
+    return True
 
 
 def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:

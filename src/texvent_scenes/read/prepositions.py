@@ -297,6 +297,18 @@ def claim_relation(
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
 
 
+def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[int]) -> bool:
+    """Put what a word says without naming it behind things: "a hand, backlit", by a lit panel."""
+    known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
+    if not known:
+        draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+    targets = [known[0] if known else len(draft.things) - 1]
+    placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]
+    draft.mark(token, "shown" if all(placed) else "lost")
+    claim_relation(draft, token, "front", [one for one in subjects if one not in targets], targets)
+    return True
+
+
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
     token = draft.tokens[preposition.at - 1]

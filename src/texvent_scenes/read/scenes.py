@@ -21,6 +21,7 @@ from texvent_scenes.read.camera import (
     is_ego,
     is_shot,
     is_standpoint,
+    look_over,
     sit_in,
 )
 from texvent_scenes.read.clauses import Clause, read_clauses
@@ -499,11 +500,13 @@ class _SentenceReader(ThingReader):
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 if found and kind in ("through", "out of"):
                     is_side = move is None or not go_through(draft, move, one.preposition, found)
-                claim_way(draft, move, one.preposition, found)
+                is_over = look_over(draft, one.preposition, found)
+                claim_way(draft, move, one.preposition, [] if is_over else found)
                 heads = [group.head for group in one.groups if group.head is not None]
                 words = heads or [each for group in one.groups for each in group.unknown]
                 is_side |= bool(one.groups) and not any(map(draft.shows, words))
                 is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
+                is_side &= not is_over
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

@@ -34,7 +34,7 @@ from texvent_scenes.read.lexicon import (
     word_set,
 )
 from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
-from texvent_scenes.read.prepositions import relate_one, ridden_by
+from texvent_scenes.read.prepositions import relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -324,6 +324,8 @@ class ThingReader:
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
             return True
+        if field == "set" and subjects:
+            return set_before(draft, token, value, subjects)
         for one in subjects if field == "in_mouth" else ():
             draft.take_in_mouth(one)
         if field == "wind":
