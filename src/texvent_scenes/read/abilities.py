@@ -172,6 +172,12 @@ class Abilities:
                 return not has_object and all(walk if verb.who == "walker" else work)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
+            case "bearer" | "belt":
+                belts = names <= trait_values("belt speed").keys()
+                goes = names.isdisjoint(trait_values("gripper")) and all(
+                    self.nouns[one].motion in ("roll", "drive") for one in names
+                )
+                return has_object and bool(objects) and (belts if verb.who == "belt" else goes)
             case "source" | "lamp":
                 if verb.who == "lamp" and not self._can_shine(verb.kind, names):
                     return False

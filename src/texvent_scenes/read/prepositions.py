@@ -309,6 +309,16 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
     return True
 
 
+def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Put things on what carries them: "a robot carrying a box", "a belt carrying bolts"."""
+    for one in objects:
+        draft.things[one]["motions"] = []
+    placed = [relate_one(draft, "on", one, [index]) for one in objects]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
+    for one in objects:
+        draft.claim(verb, "relation", "on", [one], [index])
+
+
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
     token = draft.tokens[preposition.at - 1]

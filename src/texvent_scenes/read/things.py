@@ -34,7 +34,7 @@ from texvent_scenes.read.lexicon import (
     word_set,
 )
 from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
-from texvent_scenes.read.prepositions import relate_one, ridden_by, set_before
+from texvent_scenes.read.prepositions import bear_on, relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -409,6 +409,8 @@ class ThingReader:
     def _relate_act(self, kind: str, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Relate who acts to what the act is about, on a way that the staged scene holds."""
         draft, who = self._draft, ridden_by(self._draft, index, kind)
+        if kind == "bear":
+            return bear_on(draft, verb, index, objects)
         is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
         if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
             way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
