@@ -39,6 +39,20 @@ def is_camera_so(staged: StagedClip, claim: Claim) -> bool:
     )
 
 
+def is_overtaken(staged: StagedClip, claim: Claim) -> bool:
+    """Whether bodies come from beside the camera, which goes the same way, and get ahead of it."""
+    cameras = [staged.scene.camera(one) for one in staged.times]
+    places = np.array([one.position for one in cameras])
+    sight = np.array([one.rotation[2] for one in cameras])
+    way = places[-1] - places[0]
+    for body in staged.own_boxes(claim):
+        ahead = ((body.middle - places) * sight).sum(axis=1)
+        led = (body.middle[-1] - body.middle[0]) @ way > 0.0
+        if not (led and ahead[0] <= body.size[0].max() and ahead[-1] >= 1.5 * body.size[0].max()):
+            return False
+    return True
+
+
 def is_macro(staged: StagedClip, claim: Claim) -> bool:
     """Whether so little is across the image at the subject that small things are large in it."""
     if not staged.scene.actors:

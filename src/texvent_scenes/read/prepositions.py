@@ -90,6 +90,8 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
         ways = kinds & word_set("things", "ways")
         is_along = token.text in ("across", *_ALONG)
         is_so = (is_blown and is_along) or any(is_rained_on(draft, token, one) for one in kinds)
+        has_spout = bool(draft.effects) and draft.effects[-1]["source"] is not None
+        is_so |= kinds == {"through"} and has_spout and draft.shows(token)
         if (ways - {"from", "out of"} or is_along) and not is_so:
             draft.mark(token, "lost")
 

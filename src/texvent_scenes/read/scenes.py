@@ -10,7 +10,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.again import leave_places
@@ -217,6 +217,8 @@ class _SentenceReader(ThingReader):
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
+            if kind == "out of" and objects:  # "drops leave a nozzle"
+                self._draft.effects[-1]["source"] = objects[0]
             return [], []
         if found is not None:
             self._draft.claim(verb, SEEN, "", subjects, objects)
@@ -422,7 +424,12 @@ class _SentenceReader(ThingReader):
             elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
-        elif kind == "from" and not subjects and draft.effects and draft.may_come_from(token):
+        elif (
+            (kind == "from" or (kind in ("through", "out of") and self._is_spout(targets)))
+            and not subjects
+            and draft.effects
+            and draft.may_come_from(token)
+        ):
             is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
             draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)
@@ -432,6 +439,10 @@ class _SentenceReader(ThingReader):
         if is_lone and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
+
+    def _is_spout(self, targets: Sequence[int]) -> bool:
+        """Whether something comes out of a thing below: a nozzle, a funnel."""
+        return trait_value("spout", self._draft.things[targets[0]]["noun"]) is not None
 
     def _relate_all(
         self, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
@@ -507,6 +518,7 @@ class _SentenceReader(ThingReader):
                 is_side |= bool(one.groups) and not any(map(draft.shows, words))
                 is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
                 is_side &= not is_over
+                is_side |= not found and kind in ("out of", "into")  # it stays in a place
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

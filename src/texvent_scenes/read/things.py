@@ -33,7 +33,7 @@ from texvent_scenes.read.lexicon import (
     states,
     word_set,
 )
-from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
+from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet, overtake_ego
 from texvent_scenes.read.prepositions import bear_on, relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import WAYS
@@ -324,8 +324,11 @@ class ThingReader:
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
             return True
-        if field == "set" and subjects:
-            return set_before(draft, token, value, subjects)
+        if field == "set" and (subjects or self._nearest):
+            return set_before(draft, token, value, subjects or self._nearest)
+        if field == "in_turn" and not subjects and draft.effects:
+            draft.show(*([token] if draft.effects[-1]["kind"] == "drip" else []))
+            return True  # drops fall one by one
         for one in subjects if field == "in_mouth" else ():
             draft.take_in_mouth(one)
         if field == "wind":
@@ -385,7 +388,7 @@ class ThingReader:
         draft.show(verb)
         for index in objects if act.relation == "hit" else ():
             self._choose_ball(subjects, index)
-        if act.brings and not objects:
+        if act.brings not in ("", EGO) and not objects:
             draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
             objects = [len(draft.things) - 1]
         if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(self._draft, subjects):
@@ -400,6 +403,8 @@ class ThingReader:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             self._switch(act.object, index)
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
+        if act.brings == EGO:
+            overtake_ego(draft, verb, subjects)
         if not objects:
             meet(self._draft, act, verb, subjects)
         for index in subjects if act.relation is not None else ():

@@ -23,6 +23,8 @@ _OUT_SHARE, _BEHIND_M = 0.45, 3.0
 it at first, m."""
 _OPEN, _BY_THE_WALL_M = 0.17, 1.3
 """Half of what is open of the width of a passage; least room between its wall and the camera, m."""
+_SIDES, _LANE_GAP_M = {"left": -1.0, "right": 1.0}, 1.7
+"""Sides on which others come past a camera, and how far from it they do, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -94,7 +96,13 @@ class RoutePlacer:
         elif is_oncoming:
             aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
         elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
-            speed = travel.speed_m_s * plan.motion.pace
+            speed, own = travel.speed_m_s * plan.motion.pace, plan.speed_m_s
+            side = _SIDES.get(group.scene_object.placement or "", 0.0)
+            if side and plan.motion.direction == "away" and max(speed, own) > travel.speed_m_s:
+                speed = max(speed, own)
+                # It comes from beside the camera, on its other lane or off the road.
+                aside = side * (0.5 * width + _LANE_GAP_M)
+                ahead = 0.5 * ((speed - travel.speed_m_s) * self._duration_s - length)
         if is_centred(group.noun):
             aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
             height = travel.journey.height_m - travel.journey.pitch_rad * ahead
