@@ -47,6 +47,8 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
+_SMALL_SET = 0.45
+"""Size of what stands behind things that are small enough to be thrown."""
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -304,6 +306,8 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
     known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
     if not known:
         draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+        if all(map(draft.is_light, subjects)):
+            draft.things[-1]["size"] = _SMALL_SET
     targets = [known[0] if known else len(draft.things) - 1]
     placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]
     draft.mark(token, "shown" if all(placed) else "lost")
