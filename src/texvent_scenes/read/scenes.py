@@ -518,7 +518,8 @@ class _SentenceReader(ThingReader):
                 is_side |= bool(one.groups) and not any(map(draft.shows, words))
                 is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
                 is_side &= not is_over
-                is_side |= not found and kind in ("out of", "into")  # it stays in a place
+                is_place = any(each.has("place") for each in heads)
+                is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)
