@@ -20,7 +20,7 @@ _LEAST_DISPLACEMENT, _DIRECT, _AT_START = 0.1, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; least share of the way by which what goes
 "towards" something comes nearer; gap in sizes at which what goes "from" something begins."""
 _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
-_HIDDEN, _CLEAR = 0.85, 1.0
+_HIDDEN, _CLEAR = 0.95, 1.0
 """Most half widths of both by which what comes from behind something is aside of it at first, and
 least ones at the end."""
 _ROUNDING = 1e-6

@@ -16,6 +16,7 @@ from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
+_FIRST_PERSON = ("camera", "view", "first person")
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
 
@@ -55,6 +56,34 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
     verb = replace(clause.verb, senses=drive)
     return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
+    """The clause of a first-person view of who goes somewhere, said of the camera itself.
+
+    "First-person view of a drone flying through a forest"; None: it is another view or an act.
+    """
+    said = {sense.value for token in draft.tokens for sense in token.all("scene")}
+    (first, *others) = clause.subjects or (None,)
+    verb = clause.verb
+    if _FIRST_PERSON not in said or first is None or others or verb is None:
+        return None
+    known = [one["noun"] for one in draft.things]
+    if known and not (clause.about == "company" and first.noun and known == [first.noun.noun]):
+        return None
+    goes = [one for one in verb.all("verb") if one.value.who == "camera"]
+    is_going = any(one.value.kind.startswith("travel") for one in goes) and not clause.objects
+    if first.noun is None or first.is_plural or first.head is None or not is_going:
+        return None
+    if not draft.nouns[first.noun.noun].speed_m_s:
+        return None
+    draft.mark(first.head, "camera")
+    draft.things.clear()
+    draft.claims.clear()
+    means = {"fly": "flying", "drive": "driving"}.get(draft.nouns[first.noun.noun].motion)
+    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "races"
+        verb = replace(verb, senses=lexicon_of(draft.nouns)[(means,)])
+    return replace(clause, subjects=(), about="", verb=verb)
 
 
 def _names_passage(groups: Sequence[Group]) -> bool:

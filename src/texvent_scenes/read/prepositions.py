@@ -325,6 +325,15 @@ def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) 
         draft.claim(verb, "relation", "on", [one], [index])
 
 
+def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Have those who are led come after: "a dog leads a man"."""
+    going = [one for one in objects if draft.can_go(one)]
+    for one in going:
+        draft.things[one]["motions"] = draft.things[one]["motions"] or [{"kind": "move"}]
+    placed = [draft.relate(one, "follow", [index]) for one in going]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
+
+
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
     token = draft.tokens[preposition.at - 1]

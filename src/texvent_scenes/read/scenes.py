@@ -21,6 +21,7 @@ from texvent_scenes.read.camera import (
     is_ego,
     is_shot,
     is_standpoint,
+    look_out,
     look_over,
     sit_in,
 )
@@ -101,8 +102,12 @@ class _SentenceReader(ThingReader):
         heads = [one.head for one in clause.subjects if one.head is not None]
         is_aboard = any(self._draft.fates.get(one.at) == "camera" for one in heads)
         is_named = goes_on or is_aboard or clause.about == "camera"
-        seated = None if is_named else sit_in(self._draft, clause)
+        seated = None if is_named else (
+            sit_in(self._draft, clause) or look_out(self._draft, clause)
+        )
         clause = seated or clause
+        if seated is not None and not self._draft.things:
+            self._nearest, self._subjects, self._before = [], [], []
         is_own = seated is not None or (not is_named and is_ego(self._draft, clause))
         is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera

@@ -20,7 +20,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.again import find_whole_of, is_again, list_kinds
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory, ordinals
@@ -34,14 +34,16 @@ from texvent_scenes.read.lexicon import (
     word_set,
 )
 from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet, overtake_ego
-from texvent_scenes.read.prepositions import bear_on, relate_one, ridden_by, set_before
+from texvent_scenes.read.prepositions import bear_on, lead_on, relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
-from texvent_scenes.spec.data import WAYS
+from texvent_scenes.spec.data import SENT, WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
+_BALLS = frozenset({"ball", "football", "basketball", "rubber ball", "bowling ball", "puck", "frisbee"})
+"""Nouns of what is kicked or struck with nothing in hand."""
 _SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
@@ -414,6 +416,10 @@ class ThingReader:
     def _relate_act(self, kind: str, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Relate who acts to what the act is about, on a way that the staged scene holds."""
         draft, who = self._draft, ridden_by(self._draft, index, kind)
+        if kind == "follow" and objects and not any(map(draft.can_go, objects)):
+            kind = "past"  # "follows a pipe"
+        if kind == "lead":
+            return lead_on(draft, verb, index, objects)
         if kind == "bear":
             return bear_on(draft, verb, index, objects)
         is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
@@ -439,7 +445,15 @@ class ThingReader:
         if act := self._act_as_person(tools, subjects, objects, has_object=has_object):
             return act
         act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
-        return act or self._act_as_person(acts, subjects, objects, has_object=has_object)
+        act = act or self._act_as_person(acts, subjects, objects, has_object=has_object)
+        is_sent = act is None and not has_object and self._are_sent(verb, subjects)
+        return VerbSense(kind="throw") if is_sent else act
+
+    def _are_sent(self, verb: Token, subjects: Sequence[int]) -> bool:
+        """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
+        is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
+        nouns = {self._draft.things[one]["noun"] for one in subjects}
+        return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _BALLS
 
     def _choose_ball(self, subjects: Sequence[int], index: int) -> None:
         """Take the ball of who is named by a sport: "a golfer hits a ball"."""
