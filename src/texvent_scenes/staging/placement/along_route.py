@@ -14,6 +14,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred
 from texvent_scenes.staging.camera.journey import NORTH, TravelPlan
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
+from texvent_scenes.staging.tracks.track import centred
 
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
@@ -25,6 +26,8 @@ _OPEN, _BY_THE_WALL_M = 0.17, 1.3
 """Half of what is open of the width of a passage; least room between its wall and the camera, m."""
 _SIDES, _LANE_GAP_M = {"left": -1.0, "right": 1.0}, 1.7
 """Sides on which others come past a camera, and how far from it they do, m."""
+_BRAKING_M = 4.0
+"""Further ahead of what changes its speed, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -59,7 +62,8 @@ class RoutePlacer:
         """[3] middle of a group, m, whose copies are placed and turned along the route."""
         plan, travel = group.plan, self._travel
         crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
-        if plan.is_path and not crosses and group.noun.habitat != "fixed":
+        is_led = plan.path is not None and group.noun.motion == "drive"  # it brakes
+        if (plan.is_path or is_led) and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
         is_passage = group.noun.name in nouns_with("passage")
         if not (is_goal or crosses or is_passage or group.scene_object.placement == "lane"):
@@ -109,7 +113,11 @@ class RoutePlacer:
         if is_oncoming:
             ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
         yaw = -NORTH if is_oncoming else NORTH
-        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
+        path = plan.path
+        if path is not None:
+            path = centred(replace(path, start=(0.0, 0.0, 0.0), yaw=yaw), self._duration_s)
+        ahead += 0.0 if path is None else _BRAKING_M
+        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None, path=path)
         spacing = 1.6 * length + 2.0
         group.offsets = [(0.0, number * spacing, 0.0) for number in range(len(group.models))]
         group.fit()
