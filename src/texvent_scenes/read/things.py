@@ -42,8 +42,7 @@ from texvent_scenes.words import list_verb_forms
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
-_BALLS = frozenset({"ball", "football", "basketball", "rubber ball", "bowling ball", "puck", "frisbee"})
-"""Nouns of what is kicked or struck with nothing in hand."""
+_KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
@@ -420,7 +419,7 @@ class ThingReader:
             kind = "past"  # "follows a pipe"
         if kind == "lead":
             return lead_on(draft, verb, index, objects)
-        if kind == "bear":
+        if kind == "load":
             return bear_on(draft, verb, index, objects)
         is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
         if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
@@ -453,7 +452,7 @@ class ThingReader:
         """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
         is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
         nouns = {self._draft.things[one]["noun"] for one in subjects}
-        return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _BALLS
+        return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _KICKED
 
     def _choose_ball(self, subjects: Sequence[int], index: int) -> None:
         """Take the ball of who is named by a sport: "a golfer hits a ball"."""
