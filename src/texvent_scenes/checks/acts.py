@@ -10,6 +10,7 @@ import numpy as np
 from texvent_scenes.checks.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED, TRAVELLING
+from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.environment import is_afloat
@@ -193,14 +194,21 @@ def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
     Of what goes up something, that relation tells.
     """
     own, others = staged.own(claim), [one for one in staged.scene.actors]
-    climbs = any(one.kind in ("up", "down") and one.subject == claim.subject
-                 for one in staged.description.relations)  # fmt: skip
+    objects = staged.description.objects
+    climbs = any(one.subject == claim.subject and (one.kind in ("up", "down") or (
+        one.kind == "on" and trait_value("slope", objects[one.targets[0]].noun) is not None))
+        for one in staged.description.relations)  # fmt: skip
     for one in () if climbs else own:
         if not claim.value and is_afloat(one):
             continue
         low = np.array([one.lowest_m(time_s) for time_s in staged.times])
-        tops = [float(each.corners(0.0)[:, 2].max()) for each in others if each not in own]
-        gaps = np.min([np.abs(low - height) for height in (0.0, *tops)], axis=0)
+        gaps = np.abs(low)
+        places = np.array([one.middle(time_s)[:2] for time_s in staged.times])
+        for box in (each.corners(0.0) for each in others if each not in own):
+            room = 0.5 * one.size_m
+            is_by = ((places > box.min(axis=0)[:2] - room) & (places < box.max(axis=0)[:2] + room))
+            over = np.where(is_by.all(axis=1), np.abs(low - float(box[:, 2].max())), np.inf)
+            gaps = np.minimum(gaps, over)
         is_near = gaps <= _GROUNDED * one.size_m
         if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
             return False

@@ -18,6 +18,8 @@ the extents of that body, [3] m."""
 _NEARED, _AHEAD, _SWEPT, _ARC = 0.1, 0.8, 0.15, 0.25
 """Least share by which a camera nears something; cosine up to which something is in sight; least
 turn of the sight, and way by the distance, along something; least arc around it, rad."""
+_DOWN = -0.7
+"""Most upward part of the sight of a camera that looks down."""
 _MACRO_M, _HALF = 0.9, 0.5
 """Most width across the image at the subject of a macro or an extreme close-up, m; share of the
 instants at which it is so."""
@@ -35,6 +37,20 @@ def is_camera_so(staged: StagedClip, claim: Claim) -> bool:
         for target in claim.targets
         for body in staged.boxes[target]
     )
+
+
+def is_overtaken(staged: StagedClip, claim: Claim) -> bool:
+    """Whether bodies come from beside the camera, which goes the same way, and get ahead of it."""
+    cameras = [staged.scene.camera(one) for one in staged.times]
+    places = np.array([one.position for one in cameras])
+    sight = np.array([one.rotation[2] for one in cameras])
+    way = places[-1] - places[0]
+    for body in staged.own_boxes(claim):
+        ahead = ((body.middle - places) * sight).sum(axis=1)
+        led = (body.middle[-1] - body.middle[0]) @ way > 0.0
+        if not (led and ahead[0] <= body.size[0].max() and ahead[-1] >= 1.5 * body.size[0].max()):
+            return False
+    return True
 
 
 def is_macro(staged: StagedClip, claim: Claim) -> bool:
@@ -79,6 +95,18 @@ def _flies_over(off: Float64Array, sight: Float64Array, size_m: Float64Array) ->
     return bool(aside <= _OVER * size_m.max() and off[:, 2].min() >= 0.5 * size_m[2])
 
 
+def _faces(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether it has a body in sight all the time."""
+    to_body = -off / np.linalg.norm(off, axis=1, keepdims=True)
+    return bool((to_body * sight).sum(axis=1).min() >= _AHEAD)
+
+
+def _looks_down(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
+    """Whether it is above a body, and looks down on it all the time."""
+    is_down = sight[:, 2].max() <= _DOWN and off[:, 2].min() >= 0.5 * size_m[2]
+    return _faces(off, sight, size_m) and bool(is_down)
+
+
 def _rounds(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:
     """Whether it goes around a body by a part of a circle."""
     return float(np.ptp(np.unwrap(np.arctan2(off[:, 1], off[:, 0])))) >= _ARC
@@ -91,5 +119,7 @@ _CAMERA_WAYS: Mapping[str, _Rule] = {
     "past": _sweeps,
     "above": _flies_over,
     "around": _rounds,
+    "before": _faces,
+    "over": _looks_down,
 }
 """Kind of relation → its rule."""

@@ -20,6 +20,9 @@ _LEAST_DISPLACEMENT, _DIRECT, _AT_START = 0.1, 0.5, 0.15
 """Displacement, in sizes of a body, that is motion; least share of the way by which what goes
 "towards" something comes nearer; gap in sizes at which what goes "from" something begins."""
 _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+_HIDDEN, _CLEAR = 0.95, 1.0
+"""Most half widths of both by which what comes from behind something is aside of it at first, and
+least ones at the end."""
 _ROUNDING = 1e-6
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
@@ -306,6 +309,19 @@ def _overtakes(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     return np.array([along[0] < 0.0 < along[-1] and (are_still(other) or bool(led @ way > 0.0))])
 
 
+def _emerges(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is behind the other in the image at first, and no longer at the end."""
+    top_m = one.middle[0, 2] + 0.5 * one.size[0, 2]
+    low = other.parts[other.parts[:, 0, 2] < top_m]
+    wide = [np.ptp(low.reshape(-1, 3)[:, :2], axis=0).max(), one.size[0, :2].max()]
+    half = sum(0.5 * width / np.maximum(body.seen[:, 2], 1e-3)
+               for width, body in zip(wide, (other, one), strict=True))  # fmt: skip
+    off = one.seen - other.seen
+    aside = np.abs(off[:, 0]) / half
+    is_behind = (off[:, 2] > 0.0) & (aside <= _HIDDEN)
+    return np.asarray(is_behind[:1] & (aside >= _CLEAR)[-1:])
+
+
 def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it is beside another one that goes the same way."""
     way, led = ((body.middle[-1] - body.middle[0])[:2] for body in (one, other))
@@ -349,6 +365,7 @@ RULES: Mapping[str, _Rule] = {
     "into": lambda one, other: _changes_sides(one, other, -1),
     "down into": _comes_down_into,
     "out of": lambda one, other: _changes_sides(one, other, 1),
+    "from behind": lambda one, other: _emerges(one, other),
     "off": lambda one, other: _is_on(one, other)[:1] & ~_touches_top(one, other)[-1:],
     "up": lambda one, other: _climbs(one, other, 1),
     "down": lambda one, other: _climbs(one, other, -1),

@@ -42,7 +42,7 @@ from texvent_scenes.checks.acts import (
     tips,
     turns,
 )
-from texvent_scenes.checks.camera_ways import is_camera_so, is_macro
+from texvent_scenes.checks.camera_ways import is_camera_so, is_macro, is_overtaken
 from texvent_scenes.checks.grips import handles_by_hand
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
@@ -265,6 +265,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
     "turn": turns, "pace": changes_pace,
-    "sit at": _sits_at, "macro": is_macro,
+    "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -112,6 +112,7 @@ class Abilities:
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             is_moved &= verb.relation != "move over"
+            is_moved &= verb.relation != "beside" or not is_acting  # no hand only stands by
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         meets |= bool(verb.brings) and names <= PERSON_NOUNS
@@ -171,6 +172,12 @@ class Abilities:
                 return not has_object and all(walk if verb.who == "walker" else work)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
+            case "bearer" | "belt":
+                belts = names <= trait_values("belt speed").keys()
+                goes = names.isdisjoint(trait_values("gripper")) and all(
+                    self.nouns[one].motion in ("roll", "drive") for one in names
+                )
+                return has_object and bool(objects) and (belts if verb.who == "belt" else goes)
             case "source" | "lamp":
                 if verb.who == "lamp" and not self._can_shine(verb.kind, names):
                     return False

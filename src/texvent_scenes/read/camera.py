@@ -16,6 +16,11 @@ from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
 
+_FIRST_PERSON = ("camera", "view", "first person")
+_STAYING = frozenset({"handheld", "roll", "truck"})
+"""Moves of a camera over what it looks at."""
+
+
 def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
@@ -51,6 +56,34 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
     verb = replace(clause.verb, senses=drive)
     return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
+    """The clause of a first-person view of who goes somewhere, said of the camera itself.
+
+    "First-person view of a drone flying through a forest"; None: it is another view or an act.
+    """
+    said = {sense.value for token in draft.tokens for sense in token.all("scene")}
+    (first, *others) = clause.subjects or (None,)
+    verb = clause.verb
+    if _FIRST_PERSON not in said or first is None or others or verb is None:
+        return None
+    known = [one["noun"] for one in draft.things]
+    if known and not (clause.about == "company" and first.noun and known == [first.noun.noun]):
+        return None
+    goes = [one for one in verb.all("verb") if one.value.who == "camera"]
+    is_going = any(one.value.kind.startswith("travel") for one in goes) and not clause.objects
+    if first.noun is None or first.is_plural or first.head is None or not is_going:
+        return None
+    if not draft.nouns[first.noun.noun].speed_m_s:
+        return None
+    draft.mark(first.head, "camera")
+    draft.things.clear()
+    draft.claims.clear()
+    means = {"fly": "flying", "drive": "driving"}.get(draft.nouns[first.noun.noun].motion)
+    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "races"
+        verb = replace(verb, senses=lexicon_of(draft.nouns)[(means,)])
+    return replace(clause, subjects=(), about="", verb=verb)
 
 
 def _names_passage(groups: Sequence[Group]) -> bool:
@@ -131,6 +164,20 @@ def claim_way(
     is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
     for kind in sorted(kinds)[:1] if is_led and targets else ():
         draft.claim(preposition, "camera", kind, [None], targets)
+
+
+def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:
+    """Let a camera that stays about look down on things, or at the face of what is upright."""
+    kinds = {one.value for one in preposition.all("relation")}
+    moves = {one["kind"] for one in draft.moves}
+    if "above" not in kinds or not targets or not moves or moves - _STAYING:
+        return False
+    upright = nouns_with("upright") | nouns_with("flat pattern")
+    is_faced = {draft.things[one]["noun"] for one in targets} <= upright
+    if not is_faced:
+        draft.parts["camera"].setdefault("view", "top")
+    draft.claim(preposition, "camera", "before" if is_faced else "over", [None], targets)
+    return True
 
 
 def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:

@@ -10,6 +10,27 @@ from texvent_scenes.read.draft import SceneDraft
 from texvent_scenes.read.lexicon import VerbSense, word_set
 from texvent_scenes.read.tokens import Token
 
+EGO = "ego"
+"""What an act needs that is done to the vehicle of the camera."""
+_SLOWER = 0.45
+"""Speed of a camera that is overtaken, as a share of what overtakes it."""
+_ROAD_M_S = 9.0
+"""Speed from which on what overtakes a camera needs none that is slower than usual, m/s."""
+
+
+def overtake_ego(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> None:
+    """Let a camera go along, so much slower than those who come past it: "a truck overtakes us"."""
+    own = min(draft.nouns[draft.things[one]["noun"]].speed_m_s or _ROAD_M_S for one in subjects)
+    if not any(one["kind"] == "travel" for one in draft.moves):
+        draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
+    for move in draft.moves if own < _ROAD_M_S else ():
+        move.setdefault("speed_m_s", round(_SLOWER * own, 2))
+    for index in subjects:
+        if own < _ROAD_M_S:
+            draft.things[index]["motions"][-1].pop("pace", None)
+        draft.things[index].setdefault("placement", "left")
+        draft.claim(verb, "overtaken", "", [index])
+
 
 def meet(draft: SceneDraft, act: VerbSense, verb: Token, subjects: Sequence[int]) -> None:
     """Let several do it to each other: "collide", "shake hands"."""

@@ -47,6 +47,8 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
+_SMALL_SET = 0.45
+"""Size of what stands behind things that are small enough to be thrown."""
 _SMALL = nouns_with("in hand or on something")
 
 
@@ -90,6 +92,8 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
         ways = kinds & word_set("things", "ways")
         is_along = token.text in ("across", *_ALONG)
         is_so = (is_blown and is_along) or any(is_rained_on(draft, token, one) for one in kinds)
+        has_spout = bool(draft.effects) and draft.effects[-1]["source"] is not None
+        is_so |= kinds == {"through"} and has_spout and draft.shows(token)
         if (ways - {"from", "out of"} or is_along) and not is_so:
             draft.mark(token, "lost")
 
@@ -295,6 +299,39 @@ def claim_relation(
         draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
     elif not is_shown and kind in _CLAIMED:
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
+
+
+def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[int]) -> bool:
+    """Put what a word says without naming it behind things: "a hand, backlit", by a lit panel."""
+    known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
+    if not known:
+        draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+        if all(map(draft.is_light, subjects)):
+            draft.things[-1]["size"] = _SMALL_SET
+    targets = [known[0] if known else len(draft.things) - 1]
+    placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]
+    draft.mark(token, "shown" if all(placed) else "lost")
+    claim_relation(draft, token, "front", [one for one in subjects if one not in targets], targets)
+    return True
+
+
+def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Put things on what carries them: "a robot carrying a box", "a belt carrying bolts"."""
+    for one in objects:
+        draft.things[one]["motions"] = []
+    placed = [relate_one(draft, "on", one, [index]) for one in objects]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
+    for one in objects:
+        draft.claim(verb, "relation", "on", [one], [index])
+
+
+def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Have those who are led come after: "a dog leads a man"."""
+    going = [one for one in objects if draft.can_go(one)]
+    for one in going:
+        draft.things[one]["motions"] = draft.things[one]["motions"] or [{"kind": "move"}]
+    placed = [draft.relate(one, "follow", [index]) for one in going]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
 
 
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:

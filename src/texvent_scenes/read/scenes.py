@@ -10,7 +10,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.read.abilities import is_of_people
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.again import leave_places
@@ -21,6 +21,8 @@ from texvent_scenes.read.camera import (
     is_ego,
     is_shot,
     is_standpoint,
+    look_out,
+    look_over,
     sit_in,
 )
 from texvent_scenes.read.clauses import Clause, read_clauses
@@ -100,8 +102,12 @@ class _SentenceReader(ThingReader):
         heads = [one.head for one in clause.subjects if one.head is not None]
         is_aboard = any(self._draft.fates.get(one.at) == "camera" for one in heads)
         is_named = goes_on or is_aboard or clause.about == "camera"
-        seated = None if is_named else sit_in(self._draft, clause)
+        seated = None if is_named else (
+            sit_in(self._draft, clause) or look_out(self._draft, clause)
+        )
         clause = seated or clause
+        if seated is not None and not self._draft.things:
+            self._nearest, self._subjects, self._before = [], [], []
         is_own = seated is not None or (not is_named and is_ego(self._draft, clause))
         is_camera = is_named or (is_shot(clause) and not is_own)
         self._was_camera = is_camera
@@ -216,6 +222,8 @@ class _SentenceReader(ThingReader):
         kinds = {one.value.kind for one in verb.all("verb")}
         if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
+            if kind == "out of" and objects:  # "drops leave a nozzle"
+                self._draft.effects[-1]["source"] = objects[0]
             return [], []
         if found is not None:
             self._draft.claim(verb, SEEN, "", subjects, objects)
@@ -421,7 +429,12 @@ class _SentenceReader(ThingReader):
             elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
                                                       for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
-        elif kind == "from" and not subjects and draft.effects and draft.may_come_from(token):
+        elif (
+            (kind == "from" or (kind in ("through", "out of") and self._is_spout(targets)))
+            and not subjects
+            and draft.effects
+            and draft.may_come_from(token)
+        ):
             is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
             draft.effects[-1]["source"] = None if is_all_over else targets[0]
             draft.show(token)
@@ -431,6 +444,10 @@ class _SentenceReader(ThingReader):
         if is_lone and any(map(draft.shows, (*heads, *words))):
             draft.show(token)
         return targets
+
+    def _is_spout(self, targets: Sequence[int]) -> bool:
+        """Whether something comes out of a thing below: a nozzle, a funnel."""
+        return trait_value("spout", self._draft.things[targets[0]]["noun"]) is not None
 
     def _relate_all(
         self, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
@@ -499,11 +516,15 @@ class _SentenceReader(ThingReader):
                 is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
                 if found and kind in ("through", "out of"):
                     is_side = move is None or not go_through(draft, move, one.preposition, found)
-                claim_way(draft, move, one.preposition, found)
+                is_over = look_over(draft, one.preposition, found)
+                claim_way(draft, move, one.preposition, [] if is_over else found)
                 heads = [group.head for group in one.groups if group.head is not None]
                 words = heads or [each for group in one.groups for each in group.unknown]
                 is_side |= bool(one.groups) and not any(map(draft.shows, words))
                 is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
+                is_side &= not is_over
+                is_place = any(each.has("place") for each in heads)
+                is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

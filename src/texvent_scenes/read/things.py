@@ -20,7 +20,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, read_table, trait_value, trait_values
 from texvent_scenes.read.again import find_whole_of, is_again, list_kinds
 from texvent_scenes.read.draft import BLINK_HZ, PLURAL_COUNT, SceneDraft, add_motion, names_place
 from texvent_scenes.read.groups import Group, Phrase, is_trajectory, ordinals
@@ -33,15 +33,16 @@ from texvent_scenes.read.lexicon import (
     states,
     word_set,
 )
-from texvent_scenes.read.outcomes import can_arrive, claim_act, meet
-from texvent_scenes.read.prepositions import relate_one, ridden_by
+from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet, overtake_ego
+from texvent_scenes.read.prepositions import bear_on, lead_on, relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
-from texvent_scenes.spec.data import WAYS
+from texvent_scenes.spec.data import SENT, WAYS
 from texvent_scenes.spec.scene import MAX_BODIES
 from texvent_scenes.words import list_verb_forms
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
+_KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
@@ -326,6 +327,11 @@ class ThingReader:
         if acts and state and (not field or all(state in one for one in acts)):
             self._set_state(token, subjects)
             return True
+        if field == "set" and (subjects or self._nearest):
+            return set_before(draft, token, value, subjects or self._nearest)
+        if field == "in_turn" and not subjects and draft.effects:
+            draft.show(*([token] if draft.effects[-1]["kind"] == "drip" else []))
+            return True  # drops fall one by one
         for one in subjects if field == "in_mouth" else ():
             draft.take_in_mouth(one)
         if field == "wind":
@@ -385,7 +391,7 @@ class ThingReader:
         draft.show(verb)
         for index in objects if act.relation == "hit" else ():
             self._choose_ball(subjects, index)
-        if act.brings and not objects:
+        if act.brings not in ("", EGO) and not objects:
             draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
             objects = [len(draft.things) - 1]
         if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(self._draft, subjects):
@@ -400,6 +406,8 @@ class ThingReader:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             self._switch(act.object, index)
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
+        if act.brings == EGO:
+            overtake_ego(draft, verb, subjects)
         if not objects:
             meet(self._draft, act, verb, subjects)
         for index in subjects if act.relation is not None else ():
@@ -409,6 +417,12 @@ class ThingReader:
     def _relate_act(self, kind: str, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Relate who acts to what the act is about, on a way that the staged scene holds."""
         draft, who = self._draft, ridden_by(self._draft, index, kind)
+        if kind == "follow" and objects and not any(map(draft.can_go, objects)):
+            kind = "past"  # "follows a pipe"
+        if kind == "lead":
+            return lead_on(draft, verb, index, objects)
+        if kind == "load":
+            return bear_on(draft, verb, index, objects)
         is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
         if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
             way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
@@ -432,7 +446,15 @@ class ThingReader:
         if act := self._act_as_person(tools, subjects, objects, has_object=has_object):
             return act
         act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
-        return act or self._act_as_person(acts, subjects, objects, has_object=has_object)
+        act = act or self._act_as_person(acts, subjects, objects, has_object=has_object)
+        is_sent = act is None and not has_object and self._are_sent(verb, subjects)
+        return VerbSense(kind="throw") if is_sent else act
+
+    def _are_sent(self, verb: Token, subjects: Sequence[int]) -> bool:
+        """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
+        is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
+        nouns = {self._draft.things[one]["noun"] for one in subjects}
+        return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _KICKED
 
     def _choose_ball(self, subjects: Sequence[int], index: int) -> None:
         """Take the ball of who is named by a sport: "a golfer hits a ball"."""

@@ -41,8 +41,8 @@ Direction: TypeAlias = Literal[
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around",
-    "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
-    "to", "into", "out of", "off", "up", "down",
+    "past", "overtake", "through", "towards", "away from", "from", "from behind", "follow",
+    "with", "to", "into", "out of", "off", "up", "down",
     "hold", "wear", "ride", "push", "kick", "throw", "roll", "lift", "set down", "drop",
     "collide", "knock over", "catch", "hit", "pull", "act on", "move over", "rally",
 ]  # fmt: skip

@@ -30,7 +30,7 @@ POSES = [
 
 MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"ceiling fan", "wall shelf"}
+HUNG = {"ceiling fan", "ceiling lamp", "fluorescent tube", "wall shelf"}
 """What hangs from above or on a wall."""
 LINES = {
     *("runway markings", "basketball court lines", "pitch lines"),

@@ -38,9 +38,11 @@ _LARGE_IN_WIDE, _SMALL_TARGET = 0.75, 0.4
 who act are more than twice as large, relative to its usual one."""
 _KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
-     "left of", "right of"}
+     "left of", "right of", "from behind"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
+_SIDED = ("between", "from behind")
+"""Relations to things that must be in it from side to side."""
 _SENT = {"kick": 3.2, "throw": 3.2, "roll": 3.2, "hit": 1.7}
 """Acts after which a thing flies off → how far it must be seen, in sizes of the subject."""
 _UPPER = {"close": 0.62, "medium": 0.42}
@@ -113,7 +115,7 @@ def list_framing_choices(
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
     whole = {n for r in relations for n in r.targets if _tells_as_a_whole(r.kind, description, n)}
-    sided = {n for r in relations if r.kind == "between" for n in r.targets}
+    sided = {n for r in relations if r.kind in _SIDED for n in r.targets}
     sent = {n: _SENT[r.kind] for r in relations if r.kind in _SENT for n in r.targets}
     scope = _Scope(main, times, tie, passed, cut, whole, sent, sided=sided)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]

@@ -14,6 +14,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import is_centred
 from texvent_scenes.staging.camera.journey import NORTH, TravelPlan
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
+from texvent_scenes.staging.tracks.track import centred
 
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
@@ -23,6 +24,10 @@ _OUT_SHARE, _BEHIND_M = 0.45, 3.0
 it at first, m."""
 _OPEN, _BY_THE_WALL_M = 0.17, 1.3
 """Half of what is open of the width of a passage; least room between its wall and the camera, m."""
+_SIDES, _LANE_GAP_M = {"left": -1.0, "right": 1.0}, 1.7
+"""Sides on which others come past a camera, and how far from it they do, m."""
+_BRAKING_M = 4.0
+"""Further ahead of what changes its speed, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -57,7 +62,8 @@ class RoutePlacer:
         """[3] middle of a group, m, whose copies are placed and turned along the route."""
         plan, travel = group.plan, self._travel
         crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
-        if plan.is_path and not crosses and group.noun.habitat != "fixed":
+        is_led = plan.path is not None and group.noun.motion == "drive"  # it brakes
+        if (plan.is_path or is_led) and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
         is_passage = group.noun.name in nouns_with("passage")
         if not (is_goal or crosses or is_passage or group.scene_object.placement == "lane"):
@@ -94,14 +100,24 @@ class RoutePlacer:
         elif is_oncoming:
             aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
         elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
-            speed = travel.speed_m_s * plan.motion.pace
+            speed, own = travel.speed_m_s * plan.motion.pace, plan.speed_m_s
+            side = _SIDES.get(group.scene_object.placement or "", 0.0)
+            if side and plan.motion.direction == "away" and max(speed, own) > travel.speed_m_s:
+                speed = max(speed, own)
+                # It comes from beside the camera, on its other lane or off the road.
+                aside = side * (0.5 * width + _LANE_GAP_M)
+                ahead = 0.5 * ((speed - travel.speed_m_s) * self._duration_s - length)
         if is_centred(group.noun):
             aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
             height = travel.journey.height_m - travel.journey.pitch_rad * ahead
         if is_oncoming:
             ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
         yaw = -NORTH if is_oncoming else NORTH
-        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
+        path = plan.path
+        if path is not None:
+            path = centred(replace(path, start=(0.0, 0.0, 0.0), yaw=yaw), self._duration_s)
+        ahead += 0.0 if path is None else _BRAKING_M
+        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None, path=path)
         spacing = 1.6 * length + 2.0
         group.offsets = [(0.0, number * spacing, 0.0) for number in range(len(group.models))]
         group.fit()

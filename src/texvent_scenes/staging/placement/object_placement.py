@@ -38,6 +38,7 @@ from texvent_scenes.staging.placement.object_groups import (
 from texvent_scenes.staging.placement.relations import (
     INVERSE,
     ON_TARGET,
+    leads_between,
     place_at_distance,
     place_by_subject,
     place_on_targets,
@@ -282,7 +283,9 @@ class ObjectPlacer:
         for relation in self._description.relations:
             if relation.kind != "between" or group.index not in relation.targets:
                 continue
-            room = float(self.build_group(relation.subject).half[0]) + 0.4
+            subject = self.build_group(relation.subject)
+            reach = subject.size_m if leads_between(subject) else float(subject.half[0])
+            room = reach + 0.4
             if len(relation.targets) > 1:
                 side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
                 return side * (float(group.half[0]) + room)

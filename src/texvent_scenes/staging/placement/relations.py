@@ -58,6 +58,8 @@ _FIXED, _AWAY, _ALONG_X = np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([1.0,
 _SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
           "front": (0.0, -1.0), "beside": (1.0, 0.0)}  # fmt: skip
 """Relation with a distance → where its subject is, seen from the target, on the ground."""
+_INTO_PICTURE = 0.6
+"""Angle to the picture of the way between two things, rad."""
 _COVERED = 0.55
 """Share of what stands behind that may be hidden where it stands right behind."""
 _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
@@ -95,6 +97,9 @@ def place_on_targets(
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
     if kind == "between":  # where `object_placement` has left room
+        if leads_between(group):
+            group.plan = replace(group.plan, yaw=_INTO_PICTURE)
+            group.fit()
         x, y, _ = np.mean([target.centre for target in targets], axis=0)
         return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
@@ -103,6 +108,13 @@ def place_on_targets(
     if kind == "around":
         return _place_around(group, targets, height, neighbours)
     return _PLACE_BY_KIND[kind](group, targets, height)
+
+
+def leads_between(group: ObjectGroup) -> bool:
+    """Whether a group goes a straight way between things, as no vehicle on a road does."""
+    plan = group.plan
+    is_free = plan.motion.direction is None and group.scene_object.heading_deg is None
+    return plan.is_path and plan.path is None and is_free and zone_of(group.noun) != "road"
 
 
 def _place_around(
@@ -163,6 +175,8 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     goal = place_on_way(group, kind, subject, height)
     if goal is not None:
         return goal
+    if kind == "from behind" and subject.plan.is_path:
+        return _hide_start(group, subject, height)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     x, y, _ = subject.half + group.half + gap
@@ -195,6 +209,20 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         goals["towards"] = (aside_m, y * along[1], -_AWAY)
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
+
+
+def _hide_start(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
+    """Between the camera and where a subject begins, so that it comes out at an edge at once."""
+    yaw = 0.0 if math.cos(subject.plan.yaw) > 0.0 else math.pi
+    subject.plan = replace(subject.plan, yaw=yaw)
+    subject.fit()
+    sign, own = math.cos(yaw), subject.half_at_rest()
+    x, y, _ = group.half_at_rest()
+    if group.noun.habitat == "fixed":  # behind the trunk of a tree
+        x = y = group.reach_below(subject.top_m)
+    start = -sign * (float(subject.half[0]) - own[0])
+    aside = start - sign * max(float(x - own[0]), 0.0)
+    return Goal(_shift(_on_ground(subject, height), aside, -float(y + own[1]) - _CLEAR_M), _FIXED)
 
 
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
