@@ -83,6 +83,11 @@ class Abilities:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
 
+    def rises(self, index: int) -> bool:
+        """Whether an object that is let go rises, as a balloon does, or flies away."""
+        noun = self.nouns[self.things[index]["noun"]]
+        return noun.habitat == "air" or noun.motion in ("float", "rise")
+
     def is_light(self, index: int) -> bool:
         """Whether an object is small enough to be thrown, as no wall is."""
         model = self.nouns[self.things[index]["noun"]].build(colour=None, scale=1.0, seed=0)
@@ -121,6 +126,7 @@ class Abilities:
             is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
             is_moved &= verb.relation not in ("catch", *SENT) or all(map(self.is_light, objects))
+            is_moved &= verb.relation != "drop" or not any(map(self.rises, objects))
             is_moved &= verb.relation != "wear" or all(
                 can_be_worn(self.things[n]["noun"]) for n in objects
             )

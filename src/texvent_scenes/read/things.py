@@ -388,7 +388,7 @@ class ThingReader:
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
         is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
         if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
-            draft.mark(verb, act.kind)
+            draft.mark(verb, act.kind or act.relation or "")
         for index in subjects:
             self._do(act, verb, index)
             claim_act(self._draft, act, verb, index, objects)
