@@ -86,7 +86,7 @@ class Abilities:
     def rises(self, index: int) -> bool:
         """Whether an object that is let go rises, as a balloon does, or flies away."""
         noun = self.nouns[self.things[index]["noun"]]
-        return noun.habitat == "air" or noun.motion in ("float", "rise")
+        return noun.habitat == "air" and noun.name not in nouns_with("sinks in air")
 
     def is_light(self, index: int) -> bool:
         """Whether an object is small enough to be thrown, as no wall is."""
