@@ -17,7 +17,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
-from texvent_scenes.spec.scene import CameraMove, Direction, Motion, SceneObject
+from texvent_scenes.spec.scene import CameraMove, Direction, Motion, Place, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
@@ -456,6 +456,8 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
         return "snow"
+    if said.name is None and said.wave_height > Place.wave_height:
+        return "sea"
     return said.name or (of_travel[0] if of_travel else usual)
 
 

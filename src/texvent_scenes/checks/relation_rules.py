@@ -43,9 +43,9 @@ _SENT = 0.5
 """Share of the way that what is sent to something has left at most."""
 _BETWEEN = 24
 """Instants from one to the next at which a body is compared with what it goes through."""
-_PROTRUDING, _SUNKEN = 0.12, 0.2
+_PROTRUDING, _SUNKEN, _OVERHANG = 0.12, 0.2, 2.5
 """Share of the size of what is in a container that may be beyond its sides, and least share of its
-height below the rim."""
+height below the rim; most extent of it, in those of the container, that does not hide it."""
 
 
 def are_still(*bodies: BodyBoxes) -> bool:
@@ -110,7 +110,8 @@ def _is_contained(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     is_amid = (np.abs(one.middle - other.middle) <= room)[:, :2].all(axis=1)
     is_below = _clears(one, other, 0.5) <= -_SUNKEN * np.minimum(one.size, other.size)[:, 2]
     is_above_floor = _clears(one, other, -0.5) >= -_PROTRUDING * one.size[:, 2] - 0.01
-    return np.asarray(is_amid & is_below & is_above_floor)
+    is_held = one.size[:, :2].max(axis=1) <= _OVERHANG * other.size[:, :2].max(axis=1)
+    return np.asarray(is_amid & is_below & is_above_floor & is_held)
 
 
 def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:

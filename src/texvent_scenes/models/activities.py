@@ -134,12 +134,12 @@ TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_time
 
 
 def limbs_of(activity: str) -> frozenset[str]:
-    """Channels of an act of animals without which it is not seen: paws, and the trunk's roll."""
-    channels = motion_of("animal_activities", activity)
-    return frozenset(one for one in channels if one.startswith(_LIMBS))
+    """Channels of an act of animals without which it is not seen: paws, head, the trunk's roll."""
+    row = motion_of("animal_activities", activity)
+    return frozenset(one for one in {*row, *row.get("keys", ())} if one.startswith(_LIMBS))
 
 
-_LIMBS = ("left_", "right_", "roll")
+_LIMBS = ("left_", "right_", "roll", "look", "doze", "clapping")
 MOUTH_ACTIVITIES = frozenset(
     name for name in ANIMAL_ACTIVITIES
     if "down" in motion_of("animal_activities", name) and not limbs_of(name)
@@ -158,7 +158,7 @@ ON_GROUND: Mapping[str, str] = MappingProxyType(
     {"sit": "sit on ground", "sit down": "sit down on ground", "stand up": "stand up from ground"}
 )
 """Names of these activities, and of sitting, where there is no seat."""
-AIMED = frozenset({"point", "wave", "look", "feed"})
+AIMED = frozenset({"point", "wave", "look", "feed", "talk", "shout"})
 """Activities that are turned to who or what they are for."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""

@@ -25,6 +25,8 @@ from texvent_scenes.spec.data import ACTED, SENT
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _THROWN_M = 2.0
 """Greatest extent of what is thrown, caught or kicked, m."""
+_SWITCHED_S = 1.0
+"""Time at which a lamp is switched of which no time is said."""
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
 
@@ -61,6 +63,18 @@ class Abilities:
         seats = [self.things[n]["noun"] for one in relations for n in one["to"]]
         return bool({*seats} & nouns_with("swings"))
 
+    def list_lit(self, index: int) -> list[int]:
+        """An object and those with lamps on or below it: candles of a cake go out with its own."""
+        near = {n for number, one in enumerate(self.things) for row in one["relations"]
+                for n in (number, *row["to"])
+                if row["kind"] == "on" and index in (number, *row["to"])}  # fmt: skip
+        return [index, *sorted(n for n in near - {index} if self.things[n]["noun"] in LAMPS)]
+
+    def switch(self, state: str, index: int) -> None:
+        """Switch lamps on or off."""
+        for number in self.list_lit(index):
+            self.things[number] |= {"is_lit": state == "on", "switch_s": _SWITCHED_S}
+
     def spins(self, index: int) -> bool:
         """Whether an object turns in its place."""
         return [one["kind"] for one in self.things[index]["motions"]] == ["spin"]
@@ -68,6 +82,11 @@ class Abilities:
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
         return self.nouns[self.things[index]["noun"]].motion == "walk"
+
+    def rises(self, index: int) -> bool:
+        """Whether an object that is let go rises, as a balloon does, or flies away."""
+        noun = self.nouns[self.things[index]["noun"]]
+        return noun.habitat == "air" and noun.name not in nouns_with("sinks in air")
 
     def is_light(self, index: int) -> bool:
         """Whether an object is small enough to be thrown, as no wall is."""
@@ -107,6 +126,7 @@ class Abilities:
             is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
             is_moved &= verb.relation != "catch" or all(map(self.walks, subjects))
             is_moved &= verb.relation not in ("catch", *SENT) or all(map(self.is_light, objects))
+            is_moved &= verb.relation != "drop" or not any(map(self.rises, objects))
             is_moved &= verb.relation != "wear" or all(
                 can_be_worn(self.things[n]["noun"]) for n in objects
             )

@@ -289,6 +289,8 @@ class _SentenceReader(ThingReader):
                 return self._nearest  # "passes a man with a suitcase", "carries a tray with cups"
         if before == "with" and told and kind in PLACING and draft.tokens[last.at - 1].has("place"):
             return told  # "in a room with candles on the table"
+        if kind == "on" and {draft.things[n]["noun"] for n in told} <= word_set("things", "flames"):
+            return told or subjects  # "blows out the candles on a cake"
         kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if kind in (kinds if subjects else PLACING):
             return told

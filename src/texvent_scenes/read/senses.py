@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from texvent_scenes.models.activities import TIMED
+from texvent_scenes.models.activities import PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
@@ -17,6 +17,13 @@ from texvent_scenes.read.lexicon import NounSense, Sense, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
 
+_YOUNG = ("baby", "newborn", "infant")
+_LIVING = frozenset(
+    name
+    for table in ("bodies/birds", "bodies/quadrupeds", "bodies/sea_life", "bodies/small_animals")
+    for name in read_table(table)
+)
+"""Nouns of animals."""
 _NEAR = 3
 """Words after a noun among which its verb is."""
 _COMMON = frozenset({"", "indoor", "grass", "plain"})
@@ -29,7 +36,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     For an animal speaks what it does, for a tool or a machine where it is and what stands by it: a
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
-    tokens = [_see_as_move(one, tokens) for one in _drop_similes(tokens)]
+    tokens = [_see_as_young(_see_as_move(one, tokens), tokens) for one in _drop_similes(tokens)]
     tokens = [replace(one, senses=()) if _is_of_light(one, tokens) else one for one in tokens]
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
@@ -53,6 +60,15 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
     is_open = any(token.text in (one, *list_plurals(one)) for one in word_set("ambiguous", "words"))
     is_said = any(one.has("camera") for one in tokens[max(token.at - _NEAR, 0) : token.at])
     return replace(token, senses=()) if is_open and not is_said else token
+
+
+def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as a size, where a young animal is meant: "a baby elephant"."""
+    after = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
+    animals = {one.value.noun for one in after.all("noun")} - PERSON_NOUNS
+    is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
+    is_young = token.text in _YOUNG and is_animal
+    return replace(token, senses=(Sense("field", ("size", 0.5)),)) if is_young else token
 
 
 def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:

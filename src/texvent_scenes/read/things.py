@@ -44,8 +44,6 @@ _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
-_SWITCHED_S = 1.0
-"""Time at which a lamp is switched of which no time is said."""
 
 
 class ThingReader:
@@ -398,7 +396,7 @@ class ThingReader:
             act = replace(act, kind="move", is_near=False)  # it goes until it stops
         is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
         if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
-            draft.mark(verb, act.kind)
+            draft.mark(verb, act.kind or act.relation or "")
         for index in subjects:
             self._do(act, verb, index)
             claim_act(self._draft, act, verb, index, objects)
@@ -432,7 +430,7 @@ class ThingReader:
         """Switch the lamp of what an act lights or puts out."""
         if state in _SWITCHED:
             self._draft.things[index]["motions"].pop()
-            self._draft.things[index] |= {"is_lit": state == "on", "switch_s": _SWITCHED_S}
+            self._draft.switch(state, index)
 
     def _choose_act(
         self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
@@ -503,7 +501,7 @@ class ThingReader:
             if is_later and before and not (is_seated or is_end):
                 self._draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
         elif act.who == "lamp" and act.kind in _SWITCHED:
-            thing |= {"is_lit": act.kind == "on", "switch_s": _SWITCHED_S}
+            self._draft.switch(act.kind, index)
         elif thing["noun"] not in word_set("things", "flames"):
             if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ

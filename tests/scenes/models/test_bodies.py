@@ -80,7 +80,8 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
     acts = NOUNS[noun].acts
     of_things = {one for one in ANIMAL_ACTIVITIES if {*one.split()} & {*OF_THINGS}}
-    assert acts in (frozenset(ANIMAL_ACTIVITIES) - of_things, MOUTH_ACTIVITIES)
+    on_legs = frozenset(ANIMAL_ACTIVITIES) - of_things - {"clap"}  # which only flippers do
+    assert acts in (on_legs, MOUTH_ACTIVITIES, MOUTH_ACTIVITIES | {"dance in place", "shake off"})
     for act in acts:
         start, moved = parts_at(noun, act, 0.0), 0.0
         for time_s in np.arange(0.0, 2.0, 0.21):

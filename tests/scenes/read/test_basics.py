@@ -289,7 +289,7 @@ def test_who_is_in_a_colour_wears_it(text, colours):
     [
         ("a dog jumps onto a sofa and lies down", "lies down", True),
         ("a bus drives and stops", "stops", True),
-        ("a cat sleeps", "sleeps", False),
+        ("a fish sleeps", "sleeps", False),
     ],
 )
 def test_a_change_is_shown_where_something_is_before_it(text, word, is_so):

@@ -17,9 +17,9 @@ _ROOM, _LEAST_INSIDE = 1.1, 0.25
 """Room over the size of what is in a container; least scale of a thing in it."""
 _OPENING, _UPRIGHT, _LEAST_TUNNEL = 0.4, 0.65, 0.4
 """Scale of a tunnel per metre of who goes through it, of whom the height counts less; the least."""
-_ROOMY, _LEAST_SHARE = 0.85, 0.3
-"""Share of a top that is taken by what is on it; least share of its size at which a thing is drawn.
-"""
+_ROOMY, _LEAST_SHARE, _LEAST_HELD = 0.85, 0.3, 0.1
+"""Share of a top that is taken by what is on it; least share of its size at which a thing is drawn,
+and of what is in a container: a whale in a teacup."""
 _RUN = 45.0
 """Length of a slope, in sizes of what rolls down on it, at most its usual one."""
 _MARK = 0.2
@@ -138,7 +138,7 @@ def fit_in(
     row_m = sum(reach_of(one, count) * number for one, number in inside)
     share = _ROOM * max(row_m / along_m, longest / across_m)
     scale = min(max(share, hollow[3]), hollow[4])
-    return scale, max(min(scale / share, 1.0), _LEAST_SHARE)
+    return scale, max(min(scale / share, 1.0), _LEAST_HELD)
 
 
 def fit_passage(goers: Sequence[Model]) -> float:
