@@ -1,7 +1,5 @@
 """A browser, a moving texture; Triton's interpreter where there is no GPU; untimed properties."""
 
-from __future__ import annotations
-
 import contextlib
 import gc
 import json

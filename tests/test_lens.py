@@ -1,7 +1,5 @@
 """Lenses beside OpenCV's models, and those that no image can have."""
 
-from __future__ import annotations
-
 import cv2
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Images of ROS bags: every encoding, both ROS, raw and compressed, one topic of several."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`texvent doctor`: a sound installation row by row, and what each fault changes in it."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """No text of a data set that somebody sent becomes a path outside the folder that was named."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import json

@@ -1,7 +1,5 @@
 """Every layout is read back, by its own readers where there are any, with the same events."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

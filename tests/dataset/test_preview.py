@@ -1,7 +1,5 @@
 """Pages and sheets show what is in the set, whatever stands in its captions."""
 
-from __future__ import annotations
-
 import html
 import inspect
 import re

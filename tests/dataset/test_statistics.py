@@ -1,7 +1,5 @@
 """Counts equal those of the samples themselves."""
 
-from __future__ import annotations
-
 import shutil
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Ground truth in data sets: stored as the scene or the labels know it, read, counted, drawn."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`verify` finds each kind of damage, and nothing in a sound set or a published copy of one."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from dataclasses import replace

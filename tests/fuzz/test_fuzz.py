@@ -1,7 +1,5 @@
 """Damaged inputs for every reader: those of `outcomes.txt`, or as many as $FUZZ_INPUTS says."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Clocks of limited width go on where they turn, in every format that has one."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Compressed files are read or named; pipes, locks and other forms are refused in one line."""
 
-from __future__ import annotations
-
 import bz2
 import gzip
 import lzma

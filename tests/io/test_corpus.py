@@ -4,8 +4,6 @@ They are also the seeds of `tests/fuzz`. A new format's file is made by
 `python -m tests.io.test_corpus` in the repository's root, which never touches existing ones.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

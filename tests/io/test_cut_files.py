@@ -1,7 +1,5 @@
 """A cut file of every format is refused, or gives its beginning. Other damage: `tests/fuzz`."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 

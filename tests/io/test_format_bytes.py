@@ -1,7 +1,5 @@
 """Bytes worked out by hand from each format's description, and the traps of reading."""
 
-from __future__ import annotations
-
 import struct
 import zipfile
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every format carries every stream it can hold unchanged, and refuses the others by name."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Iterator

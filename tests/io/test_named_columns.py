@@ -1,7 +1,5 @@
 """Units of time, polarity and labels of named columns are judged alike in every format of them."""
 
-from __future__ import annotations
-
 import itertools
 import warnings
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """Arrays of other programs and data sets, found by their names: HDF5, npz, npy."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 from pathlib import Path
 from typing import Any

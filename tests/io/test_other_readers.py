@@ -4,8 +4,6 @@
 installed the test is reported as skipped; CI installs them.
 """
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

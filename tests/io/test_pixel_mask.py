@@ -1,7 +1,5 @@
 """Masks of pixels: read, and refused where they are something else."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import cv2

@@ -3,8 +3,6 @@
 Run with `pytest -m network`; the archives are fetched into the data folder, once.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

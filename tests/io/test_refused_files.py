@@ -1,7 +1,5 @@
 """Files just outside of a format are refused by name and number, those just inside are read."""
 
-from __future__ import annotations
-
 import functools
 import struct
 import zipfile

@@ -1,7 +1,5 @@
 """Damage of every kind is refused, used up to it, or repaired and counted."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

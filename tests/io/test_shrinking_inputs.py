@@ -1,7 +1,5 @@
 """A file that becomes shorter while it is read is refused: no bus error, no shorter recording."""
 
-from __future__ import annotations
-
 import os
 import struct
 from fractions import Fraction

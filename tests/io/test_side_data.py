@@ -1,7 +1,5 @@
 """Triggers and IMU samples beside events: by hand, by a slow decoder, from other programs."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Recordings cut into files by frame times and by tables of labels."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 

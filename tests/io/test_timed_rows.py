@@ -1,7 +1,5 @@
 """Formats that find a time: any part is that of the whole, and what lies outside is not read."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Iterator

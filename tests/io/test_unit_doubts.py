@@ -1,7 +1,5 @@
 """Units of times and rows of arrays that are doubted, and those that are not."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path

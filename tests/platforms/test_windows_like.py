@@ -1,7 +1,5 @@
 """Without what Windows lacks texvent works, or refuses in one clear line. Not run on Windows."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys

@@ -1,7 +1,5 @@
 """Whatever happens between two runs, the second ends as an undisturbed one, or says why not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Filters against their rules, and hot pixels at edges and on lines."""
 
-from __future__ import annotations
-
 from itertools import compress
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Regions, times, sizes, lenses and merging: by hand on few events, and by property on many."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Labels of three formats read alike, are refused in one line, and placed as computed by hand."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Alignment by a tiny random CLIP of the real format, of our events and of recorded streams."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

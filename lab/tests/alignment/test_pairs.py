@@ -1,7 +1,5 @@
 """Simulated events beside recorded ones: which are compared, and what is said and kept."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

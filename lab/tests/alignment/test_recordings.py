@@ -1,7 +1,5 @@
 """What is scored: samples of a data set, recorded streams, and the images made of them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

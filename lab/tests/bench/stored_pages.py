@@ -3,8 +3,6 @@
 python -m lab.tests.bench.stored_pages    # writes them anew, after a result or a page changed
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Benchmarks that keep their steps, disturbed between two runs, end as undisturbed ones."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """`texvent nt-imagenet` with captions made elsewhere: to events of our own, and back."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

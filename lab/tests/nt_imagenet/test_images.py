@@ -1,7 +1,5 @@
 """Captions by a tiny random LLaVA of the real format."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Classes and streams chosen by the paper's rules, from files as N-ImageNet has them."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

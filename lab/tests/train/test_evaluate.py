@@ -1,7 +1,5 @@
 """Scores of trained weights: equal to those of training, and refused where they do not fit."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

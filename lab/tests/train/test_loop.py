@@ -1,7 +1,5 @@
 """The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

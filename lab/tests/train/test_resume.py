@@ -1,7 +1,5 @@
 """Trainings, disturbed between two runs, end as undisturbed ones, or say why not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`texvent convert`, `texvent validate` and `texvent info` as a user meets them."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Options that say how an event file is to be read, in every command that shows or writes one."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 from itertools import product

@@ -1,7 +1,5 @@
 """Clips of a shard as one batch of a device: the samples that each gives alone on the CPU."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

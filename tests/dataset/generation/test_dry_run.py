@@ -1,7 +1,5 @@
 """Estimates of a trial against the data set that is made."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

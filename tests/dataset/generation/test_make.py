@@ -1,7 +1,5 @@
 """Shards: the same bytes whoever makes them, resumed after anything, one bad sample harms none."""
 
-from __future__ import annotations
-
 import io
 import json
 import shutil

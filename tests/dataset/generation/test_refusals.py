@@ -3,8 +3,6 @@
 What was made before stays, and the same command goes on when the cause is gone.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

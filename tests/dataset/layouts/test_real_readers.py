@@ -3,8 +3,6 @@
 tonic is under the GPL: `make test-gpl` alone installs it.
 """
 
-from __future__ import annotations
-
 import importlib
 from pathlib import Path
 

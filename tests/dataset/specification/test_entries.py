@@ -1,7 +1,5 @@
 """Samples keep their names and seeds, whatever stands beside them in the list."""
 
-from __future__ import annotations
-
 import json
 import re
 from contextlib import nullcontext

@@ -1,7 +1,5 @@
 """A specification is read as it was meant, or refused in one line that names the place."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """AEDAT2 of jAER and v2e: layouts that explain every address, noise labels, IMU samples."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Packets of AEDAT3.1 and AEDAT4 that are not as they seem."""
 
-from __future__ import annotations
-
 import bz2
 import struct
 import tracemalloc

@@ -1,7 +1,5 @@
 """HDF5 files that claim more than they hold, which would hang a reader or fill its memory."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """RAW files: the header tells the formats apart."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tracemalloc

@@ -1,7 +1,5 @@
 """Compressed bags of others are read; those made to fill memory or disk are not."""
 
-from __future__ import annotations
-
 import sqlite3
 from contextlib import closing
 from pathlib import Path

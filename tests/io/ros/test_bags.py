@@ -1,7 +1,5 @@
 """Bags of other programs: both ROS, all messages and encodings, several cameras, folders."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 from typing import Any

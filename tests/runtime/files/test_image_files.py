@@ -1,7 +1,5 @@
 """Image files are judged by their heads before they are decoded, at every door."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The IMU: integrated, it returns the pose; its noise has the densities stated."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

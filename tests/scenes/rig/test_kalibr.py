@@ -1,7 +1,5 @@
 """Rig files: as Kalibr writes them, and by hand; what is wrong in them is named."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory

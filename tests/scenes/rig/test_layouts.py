@@ -1,7 +1,5 @@
 """Recordings in every layout, read back by what people load them with."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

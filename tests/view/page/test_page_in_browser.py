@@ -1,7 +1,5 @@
 """The page opened in a real browser: it draws, it obeys, and it asks nothing of the network."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tables 3 and 6: networks trained with a share of simulated clips and streams."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

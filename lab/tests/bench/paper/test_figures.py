@@ -1,7 +1,5 @@
 """The paper's figures: a column per simulator, a row per kind of picture."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Networks: against torch's own layers, in training and after it; initial weights; read back."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

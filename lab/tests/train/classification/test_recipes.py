@@ -1,7 +1,5 @@
 """The training files of the repository: read as they are, and run on tiny data."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

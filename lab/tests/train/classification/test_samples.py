@@ -1,7 +1,5 @@
 """Samples of every kind, put together, and refused before any work where they do not fit."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

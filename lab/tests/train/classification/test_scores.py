@@ -1,7 +1,5 @@
 """Scores of validation, against their definitions."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

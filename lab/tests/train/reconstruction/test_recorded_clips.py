@@ -1,7 +1,5 @@
 """Recordings as clips: windows from frame to frame, alone or beside simulated ones."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Training of reconstruction networks: examples, learning, published files."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
