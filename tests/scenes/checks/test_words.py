@@ -32,6 +32,7 @@ def test_each_word_is_in_the_list_that_the_picture_makes_right(text, said):
         kind, _, word = one.partition(" ")
         holds = {
             "all": is_right(text),
+            "drawn": not found.not_shown,
             "lost": word not in found.shown and word in told,
             "unread": word in found.not_understood,
             "uncertain": word in found.uncertain,
