@@ -3,7 +3,6 @@
 import html
 import inspect
 import re
-from pathlib import Path
 
 import cv2
 import numpy as np
@@ -18,9 +17,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError
 
 
-def test_the_page_shows_every_sample_with_its_caption(
-    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_page_shows_every_sample_with_its_caption(cars, tmp_path, capsys):
     out = tmp_path / "look.html"
     assert main(["dataset", "sample", str(cars), "-o", str(out), "-n", "100"]) == 0
     assert "9 samples of cars" in capsys.readouterr().out
@@ -34,7 +31,7 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert [path.name for path in tmp_path.iterdir()] == ["look.html"]
 
 
-def test_videos_without_a_caption_have_their_names(tmp_path: Path) -> None:
+def test_videos_without_a_caption_have_their_names(tmp_path):
     (tmp_path / "left" / "a<b>").mkdir(parents=True)
     for number, image in enumerate(np.random.default_rng(0).integers(0, 255, (4, 12, 16))):
         cv2.imwrite(str(tmp_path / "left" / "a<b>" / f"{number}.png"), image)
@@ -47,7 +44,7 @@ def test_videos_without_a_caption_have_their_names(tmp_path: Path) -> None:
     assert "<strong>left/a&lt;b&gt;</strong>" in page
 
 
-def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
+def test_samples_are_chosen_by_chance_and_the_same_every_time(cars):
     made = StoredDataset.open(cars)
 
     def keys(**choice: object) -> list[str]:
@@ -66,7 +63,7 @@ def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> Non
         keys(split="val")
 
 
-def test_samples_are_chosen_by_the_commands_defaults() -> None:
+def test_samples_are_chosen_by_the_commands_defaults():
     choice = inspect.signature(choose_samples).parameters.values()
     defaults = {one.name: one.default for one in choice if one.default is not one.empty}
     assert defaults == {name: getattr(SampleOptions, name) for name in defaults}

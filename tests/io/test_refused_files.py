@@ -162,9 +162,7 @@ ROWS: dict[str, tuple[Callable[..., Options | None], Options, Options, str]] = {
 
 @pytest.mark.filterwarnings("ignore:.*(have no unit|has no size)")
 @pytest.mark.parametrize("name", ROWS)
-def test_a_file_just_outside_is_refused_and_one_just_inside_read(
-    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_just_outside_is_refused_and_one_just_inside_read(tmp_path, name, monkeypatch):
     monkeypatch.setattr(bag_bounds, "MAX_HEADER_BYTES", MOST_FACTS)
     write, wrong, right, told = ROWS[name]
     given = write(tmp_path / name, **wrong) or {}

@@ -1,6 +1,6 @@
 """Trainings, disturbed between two runs, end as undisturbed ones, or say why not."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -62,9 +62,5 @@ def runs(
 
 
 @pytest.mark.parametrize("disturb", DISTURBANCES)
-def test_a_training_ends_as_an_undisturbed_one_or_says_why_not(
-    runs: Runs,
-    disturb: Callable[[Runs, pytest.CaptureFixture[str]], None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_training_ends_as_an_undisturbed_one_or_says_why_not(runs, disturb, capsys):
     disturb(runs, capsys)

@@ -87,9 +87,7 @@ def samples_of(path: Path) -> list[Any]:
     return found
 
 
-def test_a_batch_gives_the_samples_that_clips_give_alone(
-    tmp_path: Path, batches: list[int]
-) -> None:
+def test_a_batch_gives_the_samples_that_clips_give_alone(tmp_path, batches):
     recipe = recipe_of(tmp_path)
     make(recipe, tmp_path / "alone", device="cpu")
     assert batches == []
